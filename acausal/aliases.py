@@ -1,0 +1,374 @@
+"""Alias elimination: variables that are equal up to sign become one, and equations shrink accordingly.
+
+``x = y``, ``x = -y`` and ``x = 0`` need no solver. A union-find with signs merges such variables; where
+``x`` and ``y`` are merged so are their derivatives. Equations are then *specialised*: rewritten once per
+pattern of merged, negated and vanished slots, which may reveal further aliases.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import StructureError
+from acausal.flatten import FlatModel
+from acausal.template import EquationGroup, Integers, Template
+
+
+@dataclass(frozen=True)
+class AliasFree:
+    """A flat model after alias elimination.
+
+    Nodes are the flat variables, then `zero`, then derivatives that no variable stands for.
+
+    Attributes:
+        representative, sign: (n_nodes,) node ``i`` equals ``sign[i] * representative[i]``.
+        derivative, derivative_sign: (n_nodes,) of a representative: its derivative's node (-1: none) and sign.
+        base: (n_nodes,) of a derivative node: the node it differentiates (-1: a variable).
+        groups: the remaining equations over representatives.
+        redundant: what vanished: (origin, component) of equations that became ``0 = 0``.
+    """
+
+    zero: int
+    representative: Integers
+    sign: Integers
+    derivative: Integers
+    derivative_sign: Integers
+    base: Integers
+    groups: tuple[EquationGroup, ...]
+    redundant: tuple[tuple[str, int], ...]
+
+
+def eliminate_aliases(model: FlatModel) -> AliasFree:
+    """Merge aliased variables of a flat model and specialise its equations."""
+    classes = _Classes.of(model.n_variables)
+    pending = [classes.with_derivative_nodes(group) for group in model.groups]
+    parameters = parameter_aliases(model)
+    redundant: list[tuple[str, int]] = []
+    changed = True
+    while changed:
+        classes.settle()
+        pieces = [p for group in pending for p in specialise(group, classes, parameters, model.folded)]
+        pending, changed = [], False
+        for piece in pieces:
+            alias = _alias(piece.template)
+            if piece.template.residual == 0:
+                redundant += [(piece.template.origin, int(c)) for c in piece.components]
+            elif alias is None:
+                pending.append(piece)
+            else:
+                dropped = classes.merge(piece, alias)
+                redundant += [(piece.template.origin, int(piece.components[i])) for i in dropped]
+                changed = True
+    _check_inputs(model, classes)
+    return _result(model, classes, pending, tuple(redundant))
+
+
+def _check_inputs(model: FlatModel, classes: _Classes) -> None:
+    """Inputs are free: no equation may tie one to zero or to another input."""
+    seen = {classes.zero: "zero"}
+    for variable in model.inputs.tolist():
+        root, name = int(classes.root[variable]), model.layout.variable(variable)
+        if root in seen:
+            raise StructureError(
+                f"overdetermined: the equations tie the input '{name}' to {seen[root]}; "
+                "connect the input to a source, or remove what prescribes it"
+            )
+        seen[root] = f"the input '{name}'"
+
+
+def parameter_aliases(model: FlatModel) -> Integers:
+    """Parameters bound to nothing but another parameter are that parameter."""
+    target = np.arange(len(model.value))
+    for binding in model.bindings:
+        if binding.expression in binding.symbols:
+            target[binding.target] = binding.arguments[0]
+    for _ in range(len(model.bindings) + 1):
+        further = target[target]
+        if np.array_equal(further, target):
+            break
+        target = further
+    return target
+
+
+@dataclass
+class _Classes:
+    """The union-find: parents and signs of all nodes, and the derivative of every class."""
+
+    zero: int
+    parent: list[int]
+    sign: list[int]
+    derivative: dict[int, tuple[int, int]]
+    base: list[int]
+    root: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    root_sign: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+
+    @staticmethod
+    def of(n_variables: int) -> _Classes:
+        n = n_variables + 1
+        return _Classes(n_variables, list(range(n)), [1] * n, {}, [-1] * n)
+
+    def with_derivative_nodes(self, group: EquationGroup) -> EquationGroup:
+        """The group with nodes in the slots of derivatives."""
+        if not any(group.template.orders):
+            return group
+        variables = group.variables.copy()
+        for column, order in enumerate(group.template.orders):
+            for _ in range(order):
+                variables[:, column] = [self._node(int(v)) for v in variables[:, column]]
+        return EquationGroup(group.template, variables, group.parameters, group.modules, group.components)
+
+    def _node(self, variable: int) -> int:
+        if variable not in self.derivative:
+            node = len(self.parent)
+            self.parent.append(node)
+            self.sign.append(1)
+            self.base.append(variable)
+            self.derivative[variable] = node, 1
+        return self.derivative[variable][0]
+
+    def find(self, node: int) -> tuple[int, int]:
+        """Root of a node's class and the node's sign in it; paths are compressed."""
+        path: list[int] = []
+        while self.parent[node] != node:
+            path.append(node)
+            node = self.parent[node]
+        sign = 1
+        for step in reversed(path):
+            sign *= self.sign[step]
+            self.parent[step], self.sign[step] = node, sign
+        return node, sign
+
+    def merge(self, group: EquationGroup, relative: tuple[int, ...]) -> list[int]:
+        """Merge the two slots of every row (or one slot with zero); returns the rows that told nothing new."""
+        told: list[int] = []
+        pairs = group.variables.tolist()
+        for i, row in enumerate(pairs):
+            new = self._union(row[0], row[1], relative[0]) if len(row) == 2 else self._union(row[0], self.zero, 1)
+            if not new:
+                told.append(i)
+        return told
+
+    def _union(self, a: int, b: int, relative: int) -> bool:
+        """State ``a = relative * b``; False if it was known."""
+        queue = [(a, b, relative)]
+        new = False
+        while queue:
+            a, b, relative = queue.pop()
+            (ra, sa), (rb, sb) = self.find(a), self.find(b)
+            relative *= sa * sb  # ra = relative * rb
+            if ra == rb:
+                if relative == 1 or ra == self.zero:
+                    continue
+                rb, relative = self.zero, 1
+            if ra == self.zero or (rb != self.zero and rb > ra):
+                ra, rb = rb, ra
+            new = True
+            self.parent[ra], self.sign[ra] = rb, relative
+            queue += self._join_derivatives(ra, rb, relative)
+        return new
+
+    def _join_derivatives(self, child: int, root: int, relative: int) -> list[tuple[int, int, int]]:
+        """``child = relative * root``: what follows for their derivatives."""
+        of_child = self.derivative.pop(child, None)
+        if of_child is None:
+            return []
+        node, sign = of_child
+        if root == self.zero:
+            return [(node, self.zero, 1)]
+        if root in self.derivative:
+            other, other_sign = self.derivative[root]
+            return [(node, other, sign * relative * other_sign)]
+        self.derivative[root] = node, sign * relative
+        return []
+
+    def settle(self) -> None:
+        """Roots and signs of all nodes as arrays."""
+        found = [self.find(i) for i in range(len(self.parent))]
+        self.root = np.asarray([r for r, _ in found], dtype=np.int64)
+        self.root_sign = np.asarray([s for _, s in found], dtype=np.int64)
+
+
+# -- specialising -------------------------------------------------------------------------------------
+
+
+def specialise(
+    group: EquationGroup, classes: _Classes, parameters: Integers, folded: np.ndarray
+) -> list[EquationGroup]:
+    """Rewrite a group over representatives, one piece for every pattern of equal, negated and zero slots."""
+    roots = classes.root[group.variables]
+    arguments = parameters[group.parameters]
+    first = _first_equal(roots) + 1
+    pattern = np.where(roots == classes.zero, 0, first * classes.root_sign[group.variables])
+    pattern = np.concatenate([pattern, folded[arguments].astype(np.int64)], axis=1)
+    if len(group) == 1 or (pattern == pattern[0]).all():
+        kinds, which = pattern[:1], np.zeros(len(group), dtype=np.int64)
+    else:
+        kinds, index, which = np.unique(pattern, axis=0, return_index=True, return_inverse=True)
+        order = np.argsort(index)  # in order of appearance
+        kinds, which = kinds[order], np.argsort(order)[which.ravel()]
+    pieces: list[EquationGroup] = []
+    for number, kind in enumerate(kinds):
+        template, columns = specialised(group.template, tuple(int(k) for k in kind))
+        rows = np.flatnonzero(which == number)
+        pieces.append(
+            EquationGroup(
+                template,
+                roots[np.ix_(rows, columns[0])],
+                arguments[np.ix_(rows, columns[1])],
+                group.modules[np.ix_(rows, columns[2])],
+                group.components[rows],
+            )
+        )
+    return pieces
+
+
+def _first_equal(rows: Integers) -> Integers:
+    """For every entry, the first column of its row that holds the same value."""
+    n, k = rows.shape
+    if k <= 12:
+        first = np.tile(np.arange(k), (n, 1))
+        for j in range(k):
+            for i in range(j - 1, -1, -1):
+                first[:, j] = np.where(rows[:, i] == rows[:, j], i, first[:, j])
+        return first
+    order = np.argsort(rows, axis=1, kind="stable")
+    ordered = np.take_along_axis(rows, order, axis=1)
+    starts = np.ones_like(rows, dtype=bool)
+    starts[:, 1:] = ordered[:, 1:] != ordered[:, :-1]
+    position = np.maximum.accumulate(np.where(starts, np.arange(k), 0), axis=1)
+    first = np.empty_like(rows)
+    np.put_along_axis(first, order, np.take_along_axis(order, position, axis=1), axis=1)
+    return first
+
+
+@lru_cache(maxsize=None)
+def specialised(template: Template, pattern: tuple[int, ...]) -> tuple[Template, tuple[list[int], ...]]:
+    """The template with slots merged, negated or set to zero, and the columns of the slots that remain."""
+    n = len(template.variables)
+    replaced: dict[sp.Symbol, Any] = {}
+    for symbol, code in zip(template.variables, pattern[:n], strict=True):
+        replaced[symbol] = sp.S.Zero if code == 0 else sp.sign(code) * template.variables[abs(code) - 1]
+    for symbol, is_zero in zip(template.parameters, pattern[n:], strict=True):
+        if is_zero:
+            replaced[symbol] = sp.S.Zero
+    replaced = {s: r for s, r in replaced.items() if s != r}
+    residual = template.residual.xreplace(replaced) if replaced else template.residual
+    if residual.has(sp.zoo, sp.nan, sp.oo):
+        zeros = [s.name for s, r in replaced.items() if r == 0 and s in template.parameters]
+        raise StructureError(
+            f"{template.origin}: division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
+        )
+    present = residual.free_symbols
+    variables = [i for i, s in enumerate(template.variables) if s in present]
+    parameters = [i for i, s in enumerate(template.parameters) if s in present]
+    modules = [i for i, s in enumerate(template.modules) if s in present]
+    special = Template(
+        residual,
+        tuple(template.variables[i] for i in variables),
+        (0,) * len(variables),
+        tuple(template.parameters[i] for i in parameters),
+        tuple(template.modules[i] for i in modules),
+        template.origin,
+    )
+    return special, (variables, parameters, modules)
+
+
+@lru_cache(maxsize=None)
+def _alias(template: Template) -> tuple[int, ...] | None:
+    """``(s,)`` if the template states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
+    if template.parameters or template.modules or not 1 <= len(template.variables) <= 2:
+        return None
+    slopes = [template.residual.diff(s) for s in template.variables]
+    if not all(s.is_number and s != 0 for s in slopes):
+        return None
+    rest = template.residual - sp.Add(*(c * s for c, s in zip(slopes, template.variables, strict=True)))
+    if sp.expand(rest) != 0:
+        return None
+    if len(slopes) == 1:
+        return ()
+    ratio = -slopes[1] / slopes[0]
+    return (int(ratio),) if ratio in (1, -1) else None
+
+
+# -- result -------------------------------------------------------------------------------------------
+
+
+def _result(
+    model: FlatModel, classes: _Classes, groups: Sequence[EquationGroup], redundant: tuple[tuple[str, int], ...]
+) -> AliasFree:
+    """Name every class by its best member and express everything in these."""
+    root, root_sign, zero = classes.root, classes.root_sign, classes.zero
+    best = _best_members(model, classes)
+    representative = best[root]
+    sign = root_sign * root_sign[representative]
+    representative[root == zero] = zero
+    n = len(root)
+    derivative = np.full(n, -1, dtype=np.int64)
+    derivative_sign = np.ones(n, dtype=np.int64)
+    for r, (node, s) in classes.derivative.items():
+        owner = int(representative[r])
+        if r != zero:
+            derivative[owner] = representative[node]
+            derivative_sign[owner] = root_sign[owner] * s * sign[node]
+    renamed: list[EquationGroup] = []
+    for group in groups:
+        flips = root_sign[best[group.variables]]
+        for piece in _negated(group, flips):
+            renamed.append(
+                EquationGroup(piece.template, best[piece.variables], piece.parameters, piece.modules, piece.components)
+            )
+    return AliasFree(
+        zero, representative, sign, derivative, derivative_sign, np.asarray(classes.base), tuple(renamed), redundant
+    )
+
+
+def _best_members(model: FlatModel, classes: _Classes) -> Integers:
+    """For every root the member that gives the class its name: an input, else the most wanted state, else
+    the one nearest to the top of the hierarchy, else the first declared."""
+    n, total = model.n_variables, len(classes.root)
+    order = np.arange(total)
+    wanted = np.zeros(total)
+    wanted[:n] = model.state - 2.0
+    wanted[model.inputs] = 100.0
+    differentiated = np.zeros(total, dtype=bool)
+    differentiated[[b for b in classes.base if b >= 0]] = True
+    derived = np.asarray(classes.base) >= 0
+    depth = np.zeros(total, dtype=np.int64)
+    depth[:n] = _depths(model)
+    rank = np.lexsort((order, depth, ~differentiated, -wanted, derived, classes.root))
+    first = np.ones(total, dtype=bool)
+    ordered = classes.root[rank]
+    first[1:] = ordered[1:] != ordered[:-1]
+    best = np.arange(total)
+    best[ordered[first]] = rank[first]
+    best[classes.zero] = classes.zero
+    return best
+
+
+def _depths(model: FlatModel) -> Integers:
+    """How many dots each variable's name has."""
+    layout = model.layout
+    own = [np.asarray([path.count(".") for path, _ in form.variables], dtype=np.int64) for form in layout.forms]
+    above = [0 if not path else path.count(".") + 1 for path in layout.paths]
+    pieces = [own[f] + above[i] for i, f in enumerate(layout.form_of)]
+    return np.concatenate(pieces) if pieces else np.empty(0, dtype=np.int64)
+
+
+def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
+    """Split a group by which slots change sign, and change it."""
+    if (flips == 1).all():
+        return [group]
+    kinds, which = np.unique(flips, axis=0, return_inverse=True)
+    pieces: list[EquationGroup] = []
+    for number, kind in enumerate(kinds):
+        pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(group.template.parameters)
+        template, _ = specialised(group.template, pattern)
+        rows = group.rows(which.ravel() == number)
+        pieces.append(EquationGroup(template, rows.variables, rows.parameters, rows.modules, rows.components))
+    return pieces

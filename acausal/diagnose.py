@@ -1,0 +1,63 @@
+"""Diagnosis of singular models: which equations and unknowns do not fit, in the user's names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from acausal import graph
+from acausal.aliases import AliasFree
+from acausal.errors import listing
+from acausal.flatten import FlatModel
+
+
+def explain_singularity(
+    model: FlatModel,
+    aliases: AliasFree,
+    incidence: Sequence[Sequence[int]],
+    chains: dict[int, int],
+    origins: Sequence[tuple[str, int]],
+) -> str | None:
+    """A sentence about a structurally singular model, or None for a sound one.
+
+    A variable and its derivatives count as one unknown (``chains``), so that constraints between states,
+    which index reduction resolves, are not mistaken for singularities.
+    """
+    collapsed = [list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in incidence]
+    bottoms = list(dict.fromkeys(chains.values()))
+    number = {v: i for i, v in enumerate(bottoms)}
+    found = graph.singularity([[number[v] for v in row] for row in collapsed], len(bottoms), range(len(bottoms)))
+    if found is None and not aliases.redundant:
+        return None
+    unknowns = model.n_variables - len(model.inputs)
+    parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
+    missing = [_name(model, aliases, bottoms[i]) for i in (found.unmatched_variables if found else ())]
+    surplus = [origins[e] for e in (found.unmatched_equations if found else ())]
+    related = [origins[e] for e in (found.equations if found else ()) if origins[e] not in surplus]
+    if missing:
+        parts.append(f"undetermined: {listing(missing)}")
+    if surplus or aliases.redundant:
+        told = [_equation(model, origin) for origin in (*surplus, *aliases.redundant)]
+        parts.append(f"too much is said by: {listing(dict.fromkeys(told), 6)}")
+    if related:
+        parts.append(f"together with: {listing(dict.fromkeys(_equation(model, o) for o in related), 6)}")
+    return "; ".join(parts) + ". " + _mend(bool(missing), bool(surplus or aliases.redundant))
+
+
+def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
+    if node < model.n_variables:
+        return model.layout.variable(node)
+    return f"der({_name(model, aliases, int(aliases.base[node]))})"
+
+
+def _equation(model: FlatModel, origin: tuple[str, int]) -> str:
+    text, component = origin
+    path = model.layout.paths[component] if component >= 0 else ""
+    return f"{path} ({text})" if path else text
+
+
+def _mend(missing: bool, surplus: bool) -> str:
+    if missing and surplus:
+        return "Are two sources or fixed points joined rigidly, or is a Fixed (a ground, a reference) missing?"
+    if missing:
+        return "Is a connector left unconnected, a Fixed (a ground, a reference) missing, or an equation forgotten?"
+    return "Are two sources or fixed points joined rigidly, or is an equation stated twice?"

@@ -1,0 +1,61 @@
+"""Exceptions: one class per stage, so that a caller can tell a wrong model from wrong data.
+
+Every message says what is wrong, where (dotted names, at most a dozen) and the likely mend.
+"""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class AcausalError(Exception):
+    """Base of every error that acausal raises on purpose."""
+
+
+class ModelError(AcausalError):
+    """A model is wrong: its declaration, its connections or its equations."""
+
+
+class DeclarationError(ModelError):
+    """A component is declared or modified wrongly."""
+
+
+class ConnectionError(ModelError):  # noqa: A001 (the field's word; reached as ac.ConnectionError)
+    """Connectors are joined that cannot be joined."""
+
+
+class StructureError(ModelError):
+    """The equations do not determine the unknowns."""
+
+
+class InitializationError(ModelError):
+    """No consistent initial values were found."""
+
+
+class DataError(AcausalError):
+    """Measured data or inputs are incomplete, malformed or of another model."""
+
+
+class SimulationError(AcausalError):
+    """A simulation did not reach its end."""
+
+
+class TrainingError(AcausalError):
+    """A training could not start or could not go on."""
+
+
+def listing(names: Iterable[str], limit: int = 12) -> str:
+    """Join names for a message: quoted, at most `limit`, the rest counted."""
+    quoted = [f"'{name}'" for name in names]
+    shown = ", ".join(quoted[:limit])
+    return shown if len(quoted) <= limit else f"{shown} and {len(quoted) - limit} more"
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """A clause that names the nearest known name, or the known ones where none is near."""
+    candidates = list(known)
+    close = get_close_matches(name, candidates, n=1, cutoff=0.6)
+    if close:
+        return f"did you mean '{close[0]}'?"
+    if not candidates:
+        return "there is none to choose from."
+    return f"known are {listing(candidates)}."

@@ -1,0 +1,122 @@
+"""The explicit equations of a reduced model as sympy, for people to read.
+
+Every derivative of a state is written in states, inputs and parameters; what cannot be written so, the unknowns
+of nonlinear loops, keeps its name and its equations follow.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from acausal import derive
+from acausal.reduce import Assignment, Loop, ReducedModel
+from acausal.symbols import ModuleCall
+from acausal.symbols import time as internal_time
+
+MAX_LOOP = 6
+time = sp.Symbol("time")
+
+
+def explicit_equations(reduced: ReducedModel, aliases_of_parameters: Any) -> tuple[sp.Equality, ...]:
+    """``der(state) = ...`` for every state, in order, then the equations of loops left implicit."""
+    writer = _Writer(reduced, aliases_of_parameters)
+    rates = [
+        sp.Eq(sp.Derivative(writer.symbol(int(s)), time), sign * writer.value(int(r)), evaluate=False)
+        for s, r, sign in zip(reduced.states, reduced.rates, reduced.rate_signs, strict=True)
+    ]
+    return (*rates, *writer.implicit)
+
+
+class _Writer:
+    """Writes nodes as expressions, each once."""
+
+    def __init__(self, reduced: ReducedModel, parameter_target: Any) -> None:
+        self.reduced = reduced
+        self.parameter_target = parameter_target
+        self.implicit: list[sp.Equality] = []
+        self._values: dict[int, sp.Expr] = {reduced.aliases.zero: sp.S.Zero}
+        self._known = {*reduced.states.tolist(), *reduced.inputs.tolist()}
+        self._origin: dict[int, tuple[Any, int]] = {}
+        for step in reduced.steps:
+            rows = step.unknowns if isinstance(step, Loop) else step.unknowns[:, None]
+            for i, row in enumerate(rows.tolist()):
+                self._origin.update(dict.fromkeys(row, (step, i)))
+
+    def symbol(self, node: int) -> sp.Symbol:
+        return sp.Symbol(self.reduced.name(node))
+
+    def value(self, node: int) -> sp.Expr:
+        """The node in terms of states, inputs and parameters (without recursion: chains may be long)."""
+        stack = [node]
+        while stack:
+            current = stack[-1]
+            if current in self._values:
+                stack.pop()
+            elif current in self._known:
+                self._values[current] = self.symbol(current)
+            else:
+                step, row = self._origin[current]
+                missing = [v for v in self._needs(step, row) if v not in self._values]
+                if missing:
+                    stack += missing
+                elif isinstance(step, Assignment):
+                    expression = derive.solve(step.template, step.column)
+                    self._values[current] = sp.nsimplify(0) + self._fill(step, row, expression)
+                else:
+                    self._write_loop(step, row)
+        return self._values[node]
+
+    def _needs(self, step: Assignment | Loop, row: int) -> list[int]:
+        if isinstance(step, Loop):
+            return step.externals[row].tolist()
+        return [v for i, v in enumerate(step.variables[row].tolist()) if i != step.column]
+
+    def _fill(self, step: Assignment, row: int, expression: Any) -> sp.Expr:
+        names = self._parameters(step.template, step.parameters[row], step.modules[row])
+        for i, symbol in enumerate(step.template.variables):
+            if i != step.column:
+                names[symbol] = self._values[int(step.variables[row, i])]
+        return _readable(expression.xreplace(names))
+
+    def _parameters(self, template: Any, parameters: Any, modules: Any) -> dict[sp.Symbol, sp.Expr]:
+        layout = self.reduced.model.layout
+        names: dict[sp.Symbol, sp.Expr] = {internal_time: time}
+        for symbol, p in zip(template.parameters, parameters, strict=True):
+            names[symbol] = sp.Symbol(layout.parameter(int(self.parameter_target[p])))
+        for symbol, m in zip(template.modules, modules, strict=True):
+            names[symbol] = sp.Symbol(layout.module(int(m)))
+        return names
+
+    def _write_loop(self, loop: Loop, row: int) -> None:
+        unknowns = loop.unknowns[row].tolist()
+        own = [self.symbol(v) for v in unknowns]
+        residuals: list[sp.Expr] = []
+        for equation in loop.shape.equations:
+            names = self._parameters(
+                equation.template,
+                loop.parameters[row][list(equation.parameters)],
+                loop.modules[row][list(equation.modules)],
+            )
+            for symbol, code in zip(equation.template.variables, equation.variables, strict=True):
+                names[symbol] = own[code] if code >= 0 else self._values[int(loop.externals[row, -1 - code])]
+            residuals.append(_readable(equation.template.residual.xreplace(names)))
+        solved = sp.solve(residuals, own, dict=True) if loop.shape.is_linear and len(own) <= MAX_LOOP else []
+        if solved:
+            self._values.update({v: solved[0][s] for v, s in zip(unknowns, own, strict=True)})
+        else:
+            self._values.update(dict(zip(unknowns, own, strict=True)))
+            self.implicit += [sp.Eq(r, 0, evaluate=False) for r in residuals]
+
+
+def _readable(expression: sp.Expr) -> sp.Expr:
+    """Modules as ordinary functions named by their parameter."""
+    calls = {c: _function(c) for c in expression.atoms(ModuleCall)}
+    return expression.xreplace(calls) if calls else expression
+
+
+def _function(call: ModuleCall) -> sp.Expr:
+    module, orders, *args = call.args
+    plain = sp.Function(f"{module}{chr(39) * int(sum(orders))}")
+    return plain(*(_readable(a) for a in args))

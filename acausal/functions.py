@@ -1,0 +1,92 @@
+"""Functions for equations, under the names that a user of mathematics expects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+from sympy import (
+    Abs,
+    acos,
+    asin,
+    atan,
+    atan2,
+    cos,
+    cosh,
+    exp,
+    log,
+    pi,
+    sign,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+)
+from sympy import Max as maximum
+from sympy import Min as minimum
+
+from acausal.symbols import time
+
+__all__ = [
+    "Abs",
+    "acos",
+    "asin",
+    "atan",
+    "atan2",
+    "cos",
+    "cosh",
+    "exp",
+    "floor",
+    "log",
+    "maximum",
+    "minimum",
+    "pi",
+    "prescribed",
+    "sign",
+    "sin",
+    "sinh",
+    "sqrt",
+    "tan",
+    "tanh",
+    "where",
+]
+
+
+def where(condition: Any, value: Any, otherwise: Any) -> sp.Expr:
+    """``value`` where the condition holds, else ``otherwise``.
+
+    A piecewise expression; chain it for more than two branches. Derivatives are taken branch by branch.
+    """
+    return sp.Piecewise((value, condition), (otherwise, True))
+
+
+class floor(sp.floor):  # noqa: N801 (a mathematician's name)
+    """The greatest integer not above the argument; piecewise constant, so its derivative counts as zero."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Zero."""
+        return sp.S.Zero
+
+
+class Prescribed(sp.Function):
+    """``Prescribed(n, time, q, qd, ...)``: q's n-th derivative, which is the signal at that place."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """With respect to time the next signal, else zero."""
+        order, _, *signals = self.args
+        if argindex != 2:
+            return sp.S.Zero
+        last = order + 1 == len(signals) - 1
+        return signals[-1] if last else Prescribed(order + 1, time, *signals)
+
+    def _eval_is_real(self) -> bool:
+        return True
+
+    def _sympystr(self, printer: Any) -> str:
+        return printer._print(self.args[2 + int(self.args[0])])
+
+
+def prescribed(q: Any, *derivatives: Any) -> sp.Expr:
+    """The signal ``q``, whose derivatives in time are these signals, not computed but given."""
+    return Prescribed(0, time, q, *derivatives) if derivatives else q

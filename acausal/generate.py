@@ -1,0 +1,265 @@
+"""Generate: a reduced model becomes a program of array operations, a few per distinct formula.
+
+A `Program` runs while JAX traces; its size depends on the number of distinct formulas, not of components.
+Values live in a list of arrays: the state, the input, then one array per step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import sympy as sp
+
+from acausal import derive
+from acausal.gather import Gather, gather
+from acausal.lower import ModuleValue, evaluate
+from acausal.parameters import Packed, ParameterLayout
+from acausal.reduce import Assignment, BlockShape, Loop, ReducedModel
+from acausal.solve import solve_linear, solve_nonlinear
+from acausal.symbols import time
+from acausal.template import Integers
+
+STATE, INPUT, ZERO = 0, 1, 2
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """What fills the slots of a step's formula, by symbol."""
+
+    variables: tuple[tuple[sp.Symbol, Gather], ...]
+    parameters: tuple[tuple[sp.Symbol, Gather], ...]
+    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+
+    @property
+    def sources(self) -> set[int]:
+        return {s for _, g in self.variables for s in g.sources}
+
+    def read(self, t: Any, arrays: Sequence[Any], packed: Packed) -> dict[sp.Symbol, Any]:
+        values: dict[sp.Symbol, Any] = {time: t}
+        values |= {symbol: g.read(arrays) for symbol, g in self.variables}
+        values |= {symbol: g.read([packed.values]) for symbol, g in self.parameters}
+        values |= {symbol: _module(packed, chosen) for symbol, chosen in self.modules}
+        return values
+
+
+@dataclass(frozen=True)
+class Evaluate:
+    """Compute one expression for ``size`` instances."""
+
+    expression: sp.Expr
+    arguments: Arguments
+    size: int
+
+    outputs = 1
+
+    def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
+        value = jnp.asarray(evaluate(self.expression, self.arguments.read(t, arrays, packed)))
+        return [value if self.size == 1 else jnp.broadcast_to(value, (self.size,))]
+
+
+@dataclass(frozen=True)
+class SolveLoop:
+    """Solve ``size`` algebraic loops of one shape, linear or not."""
+
+    shape: BlockShape
+    arguments: Arguments
+    guess: np.ndarray
+    size: int
+
+    @property
+    def outputs(self) -> int:
+        return self.shape.n_unknowns
+
+    def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
+        values = self.arguments.read(t, arrays, packed)
+        values.pop(time)
+        solve = solve_linear if self.shape.is_linear else solve_nonlinear
+
+        def one(guess: Any, filled: dict[str, Any]) -> Any:
+            known = {sp.Symbol(name): value for name, value in filled.items()}
+            return solve(lambda tears: _torn(self.shape, tears, t, known), guess)
+
+        named = {s.name: v for s, v in values.items()}
+        if self.size == 1:
+            return list(one(jnp.asarray(self.guess[0]), named))
+        stacked = {k: v.module if isinstance(v, ModuleValue) and v.stacked else v for k, v in named.items()}
+        shared = {k: v for k, v in stacked.items() if isinstance(v, ModuleValue)}
+        batched = {
+            k: v if not eqx.is_array(v) else jnp.broadcast_to(v, (self.size, *jnp.shape(v)[1:]))
+            for k, v in stacked.items()
+            if k not in shared
+        }
+        result = jax.vmap(lambda g, f: one(g, {**shared, **f}))(jnp.asarray(self.guess), batched)
+        return list(result.T)
+
+
+def _torn(shape: BlockShape, tears: Any, t: Any, known: dict[sp.Symbol, Any]) -> tuple[Any, Any]:
+    """All unknowns of a torn block, and its residuals, for given tearing variables."""
+    unknowns: list[Any] = [None] * shape.n_unknowns
+    for i, variable in enumerate(shape.torn.tears):
+        unknowns[variable] = tears[i]
+
+    def fill(equation: int) -> dict[sp.Symbol, Any]:
+        stated = shape.equations[equation]
+        values: dict[sp.Symbol, Any] = {time: t}
+        for symbol, code in zip(stated.template.variables, stated.variables, strict=True):
+            values[symbol] = unknowns[code] if code >= 0 else known[_external(-1 - code)]
+        for symbol, i in zip(stated.template.parameters, stated.parameters, strict=True):
+            values[symbol] = known[_parameter(i)]
+        for symbol, i in zip(stated.template.modules, stated.modules, strict=True):
+            module = known[_callable(i)]
+            values[symbol] = module if isinstance(module, ModuleValue) else ModuleValue(module)
+        return values
+
+    for equation, variable in shape.torn.assigned:
+        stated = shape.equations[equation]
+        explicit = derive.solve(stated.template, stated.variables.index(variable))
+        unknowns[variable] = evaluate(explicit, fill(equation))
+    residuals = [evaluate(shape.equations[e].template.residual, fill(e)) for e in shape.torn.residuals]
+    return jnp.stack(unknowns), jnp.stack(residuals)
+
+
+def _external(i: int) -> sp.Symbol:
+    return sp.Symbol(f"e{i}")
+
+
+def _parameter(i: int) -> sp.Symbol:
+    return sp.Symbol(f"p{i}")
+
+
+def _callable(i: int) -> sp.Symbol:
+    return sp.Symbol(f"m{i}")
+
+
+def _module(packed: Packed, chosen: tuple[int, ...]) -> ModuleValue:
+    if len(set(chosen)) == 1:
+        return ModuleValue(packed.modules[chosen[0]])
+    stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *(packed.modules[i] for i in chosen))
+    return ModuleValue(stacked, stacked=True)
+
+
+Instruction = Evaluate | SolveLoop
+
+
+@dataclass(frozen=True)
+class Program:
+    """Array code of a model.
+
+    Attributes:
+        source, index: (n_nodes,) in which array, and where in it, a node's value lies (-1: nowhere).
+        instructions: in order; ``first[i]`` is the array that instruction i fills first.
+        sizes: lengths of all arrays.
+    """
+
+    source: Integers
+    index: Integers
+    instructions: tuple[Instruction, ...]
+    first: tuple[int, ...]
+    sizes: tuple[int, ...]
+    rates: Gather | None
+    rate_signs: np.ndarray
+
+    def vector_field(self, t: Any, x: Any, u: Any, packed: Packed) -> Any:
+        """Derivatives of the states, shape (n_states,)."""
+        if self.rates is None:
+            return jnp.zeros_like(x)
+        arrays = self._run(self.rates.sources, t, x, u, packed)
+        rates = jnp.broadcast_to(self.rates.read(arrays), x.shape)
+        return rates if (self.rate_signs == 1).all() else rates * self.rate_signs
+
+    def values(self, nodes: Sequence[int], t: Any, x: Any, u: Any, packed: Packed) -> Any:
+        """Values of some nodes, shape (len(nodes),)."""
+        chosen = np.asarray(nodes, dtype=np.int64)
+        wanted = gather(self.source[chosen], self.index[chosen], self.sizes)
+        arrays = self._run(wanted.sources, t, x, u, packed)
+        return jnp.broadcast_to(wanted.read(arrays), (len(nodes),))
+
+    def _run(self, wanted: Sequence[int], t: Any, x: Any, u: Any, packed: Packed) -> list[Any]:
+        """Run the instructions that the wanted arrays depend on."""
+        arrays: list[Any] = [x, u, jnp.zeros(()), *[None] * (len(self.sizes) - 3)]
+        needed = set(wanted)
+        active: list[int] = []
+        for i in range(len(self.instructions) - 1, -1, -1):
+            filled = range(self.first[i], self.first[i] + self.instructions[i].outputs)
+            if needed.intersection(filled):
+                active.append(i)
+                needed |= self.instructions[i].arguments.sources
+        for i in reversed(active):
+            results = self.instructions[i].run(t, arrays, packed)
+            arrays[self.first[i] : self.first[i] + len(results)] = results
+        return arrays
+
+
+def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
+    """Lay out values by step and turn every step into array operations."""
+    n_nodes = len(reduced.derivative)
+    source = np.full(n_nodes, -1, dtype=np.int64)
+    index = np.full(n_nodes, -1, dtype=np.int64)
+    sizes = [len(reduced.states), len(reduced.inputs), 1]
+
+    def place(nodes: Integers, array: int) -> None:
+        source[nodes] = array
+        index[nodes] = np.arange(len(nodes))
+
+    place(reduced.states, STATE)
+    place(reduced.inputs, INPUT)
+    place(np.asarray([reduced.aliases.zero]), ZERO)
+    instructions: list[Instruction] = []
+    first: list[int] = []
+    for step in reduced.steps:
+        first.append(len(sizes))
+        if isinstance(step, Assignment):
+            instructions.append(_evaluate(step, source, index, sizes, parameters))
+            place(step.unknowns, len(sizes))
+            sizes.append(len(step.unknowns))
+        else:
+            instructions.append(_solve_loop(reduced, step, source, index, sizes, parameters))
+            for column in step.unknowns.T:
+                place(column, len(sizes))
+                sizes.append(len(column))
+    rates = gather(source[reduced.rates], index[reduced.rates], sizes) if len(reduced.rates) else None
+    return Program(source, index, tuple(instructions), tuple(first), tuple(sizes), rates, reduced.rate_signs)
+
+
+def _evaluate(
+    step: Assignment, source: Integers, index: Integers, sizes: Sequence[int], layout: ParameterLayout
+) -> Evaluate:
+    expression = derive.solve(step.template, step.column)
+    assert expression is not None
+    present = expression.free_symbols
+    template = step.template
+
+    def columns(symbols: tuple[sp.Symbol, ...], table: Integers) -> list[tuple[sp.Symbol, Integers]]:
+        return [(s, table[:, i]) for i, s in enumerate(symbols) if s in present]
+
+    arguments = Arguments(
+        tuple((s, gather(source[v], index[v], sizes)) for s, v in columns(template.variables, step.variables)),
+        tuple((s, layout.gather(p)) for s, p in columns(template.parameters, step.parameters)),
+        tuple((s, layout.chosen(m)) for s, m in columns(template.modules, step.modules)),
+    )
+    return Evaluate(expression, arguments, len(step.variables))
+
+
+def _solve_loop(
+    reduced: ReducedModel,
+    loop: Loop,
+    source: Integers,
+    index: Integers,
+    sizes: Sequence[int],
+    layout: ParameterLayout,
+) -> SolveLoop:
+    arguments = Arguments(
+        tuple((_external(i), gather(source[v], index[v], sizes)) for i, v in enumerate(loop.externals.T)),
+        tuple((_parameter(i), layout.gather(p)) for i, p in enumerate(loop.parameters.T)),
+        tuple((_callable(i), layout.chosen(m)) for i, m in enumerate(loop.modules.T)),
+    )
+    tears = loop.unknowns[:, list(loop.shape.torn.tears)]
+    named = np.minimum(tears, reduced.model.n_variables - 1)
+    guess = np.where(tears < reduced.model.n_variables, reduced.model.start[named], 0.0)
+    return SolveLoop(loop.shape, arguments, guess, len(loop.unknowns))

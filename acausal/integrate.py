@@ -1,0 +1,166 @@
+"""Fixed steps: one `jax.lax.scan` over one step of a scheme.
+
+Explicit Runge–Kutta schemes are unrolled from the diffrax solver's own tableau, so that XLA sees plain
+arithmetic with constant coefficients; of any other solver the `step` method is called.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import diffrax as dfx
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+from acausal.inputs import Drive, Samples
+from acausal.solvers import Solver
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+Field = Callable[[ArrayLike, Array, Any], Array]
+"""The right-hand side within a step: (fraction of the step, state, arguments) -> derivative."""
+
+Stepper = Callable[[Field, Array, ArrayLike, Any], Array]
+"""One step of a scheme: (field, state, length of the step, arguments) -> state."""
+
+
+class Steps(eqx.Module):
+    """A row of n steps.
+
+    Attributes:
+        t: their starts, shape (n,), in seconds.
+        h: their lengths in seconds, shape (n,), or () where all are equal.
+        inputs: what drives the model over each.
+    """
+
+    t: Array
+    h: Array
+    inputs: Samples
+
+
+class Step(eqx.Module):
+    """One of `Steps`: its start and length, and the inputs at both ends."""
+
+    t: Array
+    h: Array
+    start: Array
+    end: Array
+
+    def time(self, fraction: ArrayLike) -> Array:
+        """The time at a fraction of the step."""
+        return self.t if _is_zero(fraction) else self.t + fraction * self.h
+
+    def inputs(self, fraction: ArrayLike, functions: tuple[Drive | None, ...]) -> Array:
+        """The inputs at a fraction of the step, shape (number of inputs,)."""
+        u = self.start if _is_zero(fraction) else self.start + fraction * (self.end - self.start)
+        for i, function in enumerate(functions):
+            if function is not None:
+                u = u.at[i].set(function(self.time(fraction)))
+        return u
+
+
+def _is_zero(fraction: ArrayLike) -> bool:
+    return isinstance(fraction, float) and fraction == 0.0
+
+
+def integrate(
+    system: System,
+    packed: Any,
+    x0: Array,
+    steps: Steps,
+    solver: Solver,
+    *,
+    outputs: Sequence[str] = (),
+    substeps: int = 1,
+) -> tuple[Array, Array, Array]:
+    """Integrate the model over a row of steps. Pure: trace, differentiate and map it.
+
+    Arguments:
+        system: the model.
+        packed: its parameters, `system.pack(params)`.
+        x0: initial state, shape (number of states,).
+        steps: the n steps and their inputs.
+        solver: a one-step diffrax solver, from `solvers.fixed`.
+        outputs: variables to observe at the start of every step, where their terms are shared with the
+            first stage of an explicit scheme.
+        substeps: equal parts that each step is divided into.
+
+    Returns:
+        The states at the steps' starts, shape (n, number of states); the outputs there, shape
+        (n, number of outputs); the state at the end. A step whose equations are not solved gives NaN.
+    """
+    outputs = tuple(outputs)
+    functions = steps.inputs.functions
+    advance = stepper(solver)
+
+    def field(fraction: ArrayLike, x: Array, args: tuple[Any, tuple[Drive | None, ...], Step]) -> Array:
+        packed, functions, step = args
+        return system.vector_field(step.time(fraction), x, step.inputs(fraction, functions), packed)
+
+    def whole(x: Array, step: Step) -> Array:
+        return advance(field, x, step.h, (packed, functions, step))
+
+    def divided(x: Array, step: Step) -> Array:
+        def part(x: Array, j: Array) -> tuple[Array, None]:
+            def within(fraction: ArrayLike, x: Array, args: Any) -> Array:
+                j, args = args
+                return field((j + fraction) / substeps, x, args)
+
+            return advance(within, x, step.h / substeps, (j, (packed, functions, step))), None
+
+        return jax.lax.scan(part, x, jnp.arange(substeps))[0]
+
+    def body(x: Array, row: tuple[Array, ...]) -> tuple[Array, tuple[Array, Array]]:
+        step = Step(row[0], row[3] if equal is None else equal, row[1], row[2])
+        u = step.inputs(0.0, functions)
+        y = system.observe(outputs, step.t, x, u, packed) if outputs else jnp.zeros(0)
+        return (whole if substeps == 1 else divided)(x, step), (x, y)
+
+    equal = steps.h if steps.h.ndim == 0 else None
+    rows = (steps.t, steps.inputs.start, steps.inputs.end, *(() if equal is not None else (steps.h,)))
+    end, (xs, ys) = jax.lax.scan(body, x0, rows)
+    return xs, ys, end
+
+
+def stepper(solver: Solver) -> Stepper:
+    """How a solver makes one step."""
+    return _explicit(solver) if isinstance(solver, dfx.AbstractERK) else _implicit(solver)
+
+
+def _explicit(solver: dfx.AbstractERK) -> Stepper:
+    tableau = solver.tableau
+    rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
+    fractions = [0.0, *(float(c) for c in tableau.c)]
+    weights = [float(b) for b in tableau.b_sol]
+    needed = max(i for i, b in enumerate(weights) if b) + 1
+
+    def step(field: Field, x: Array, h: ArrayLike, args: Any) -> Array:
+        slopes: list[Array] = []
+        for fraction, row in zip(fractions[:needed], rows, strict=False):
+            slopes.append(field(fraction, _sum(x, h, row, slopes), args))
+        return _sum(x, h, weights, slopes)
+
+    return step
+
+
+def _sum(x: Array, h: ArrayLike, weights: Sequence[float], slopes: Sequence[Array]) -> Array:
+    for weight, slope in zip(weights, slopes, strict=False):
+        x = x + (weight * h) * slope if weight else x
+    return x
+
+
+def _implicit(solver: Solver) -> Stepper:
+    """A solver's own `step`, in local time from 0 to h."""
+
+    def step(field: Field, x: Array, h: ArrayLike, args: Any) -> Array:
+        term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
+        memory = solver.init(term, 0.0, h, x, args)
+        x, _, _, _, result = solver.step(term, 0.0, h, x, args, memory, False)
+        return jnp.where(result == dfx.RESULTS.successful, x, jnp.nan)
+
+    return step

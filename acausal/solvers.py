@@ -1,0 +1,112 @@
+"""Solvers by name, and the choice between explicit and implicit ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import ClassVar
+
+import diffrax as dfx
+import equinox as eqx
+import numpy as np
+import optimistix as optx
+
+from acausal.errors import SimulationError, nearest
+
+Solver = dfx.AbstractSolver
+
+STIFF_STEPS = 5000
+"""Explicit steps that stability alone may cost before an implicit solver is chosen."""
+
+STABILITY = 3.3
+"""Reach of the stability region of Tsit5 along the negative real axis, in units of 1/step."""
+
+EIGENVALUES = 300
+"""Models with more states are not examined for stiffness: dense implicit steps would not pay."""
+
+IMPLICIT = 1e-9
+"""Tolerance of the nonlinear equations in implicit fixed steps, relative and absolute."""
+
+
+class RK4(dfx.AbstractERK):
+    """The classical Runge–Kutta method of order 4, for fixed steps (it has no error estimate)."""
+
+    tableau: ClassVar[dfx.ButcherTableau] = dfx.ButcherTableau(
+        a_lower=(np.array([0.5]), np.array([0.0, 0.5]), np.array([0.0, 0.0, 1.0])),
+        b_sol=np.array([1 / 6, 1 / 3, 1 / 3, 1 / 6]),
+        b_error=np.zeros(4),
+        c=np.array([0.5, 0.5, 1.0]),
+    )
+    interpolation_cls: ClassVar[Callable[..., dfx.AbstractLocalInterpolation]] = dfx.LocalLinearInterpolation
+
+    def order(self, terms: object) -> int:
+        """The order of convergence."""
+        return 4
+
+
+SOLVERS: dict[str, Callable[[], Solver]] = {
+    "euler": dfx.Euler,
+    "heun": dfx.Heun,
+    "midpoint": dfx.Midpoint,
+    "ralston": dfx.Ralston,
+    "bosh3": dfx.Bosh3,
+    "rk4": RK4,
+    "tsit5": dfx.Tsit5,
+    "dopri5": dfx.Dopri5,
+    "dopri8": dfx.Dopri8,
+    "implicit_euler": dfx.ImplicitEuler,
+    "kvaerno3": dfx.Kvaerno3,
+    "kvaerno4": dfx.Kvaerno4,
+    "kvaerno5": dfx.Kvaerno5,
+}
+"""Solvers by name; any other diffrax solver for ordinary differential equations may be given itself."""
+
+
+def named(solver: str | Solver) -> Solver:
+    """A solver from its name, or as it is.
+
+    Raises:
+        SimulationError: for a name that is not known.
+    """
+    if isinstance(solver, dfx.AbstractSolver):
+        return solver
+    if solver not in SOLVERS:
+        raise SimulationError(f"No solver '{solver}': {nearest(solver, (*SOLVERS, 'auto'))}")
+    return SOLVERS[solver]()
+
+
+def adaptive(solver: Solver) -> Solver:
+    """The solver, if it can choose its steps.
+
+    Raises:
+        SimulationError: for a solver without an error estimate.
+    """
+    if isinstance(solver, RK4) or not isinstance(solver, dfx.AbstractAdaptiveSolver):
+        name = type(solver).__name__
+        raise SimulationError(f"{name} has no error estimate: give dt for fixed steps, or choose solver='tsit5'.")
+    return solver
+
+
+def fixed(solver: Solver) -> Solver:
+    """The solver for fixed steps: an implicit one gets tolerances, which no step-size controller sets.
+
+    Raises:
+        SimulationError: for a solver that is no Runge–Kutta scheme.
+    """
+    if isinstance(solver, dfx.AbstractERK):
+        return solver
+    if not isinstance(solver, dfx.ImplicitEuler | dfx.AbstractRungeKutta):
+        name = type(solver).__name__
+        raise SimulationError(f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.")
+    newton = optx.Newton(rtol=IMPLICIT, atol=IMPLICIT)
+    return eqx.tree_at(lambda s: s.root_finder, solver, newton)
+
+
+def stiff(eigenvalues: np.ndarray, span: float) -> bool:
+    """Whether modes that die out quickly would force an explicit solver to needlessly short steps.
+
+    Only damped modes count (\\|Re λ\\| ≥ \\|Im λ\\|, Re λ < 0): oscillations must be resolved by any solver.
+    Stiff means that the fastest would cost more than `STIFF_STEPS` steps of Tsit5 over the span.
+    """
+    damped = eigenvalues[(eigenvalues.real < 0) & (np.abs(eigenvalues.real) >= np.abs(eigenvalues.imag))]
+    fastest = float(np.max(-damped.real, initial=0.0))
+    return fastest * span / STABILITY > STIFF_STEPS

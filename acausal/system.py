@@ -1,0 +1,210 @@
+"""The facade: `compile` a model, hold the `System`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import sympy as sp
+
+from acausal.aliases import parameter_aliases
+from acausal.component import Component
+from acausal.errors import DataError, ModelError, nearest
+from acausal.explicit import explicit_equations
+from acausal.flatten import FlatModel, flatten
+from acausal.generate import Program, generate
+from acausal.initialize import Initializer, initializer
+from acausal.parameters import Packed, ParameterLayout, lay_out_parameters
+from acausal.reduce import ReducedModel, reduce
+
+Params = Mapping[str, Any] | Packed
+
+
+def compile(model: Component) -> System:  # noqa: A001 (the field's word; reached as ac.compile)
+    """Derive the differential equations of a model and turn them into array code.
+
+    Arguments:
+        model: the component tree; inputs that nothing feeds become the system's inputs.
+
+    Raises:
+        ModelError: if the model is declared, connected or posed wrongly; the message names the place.
+    """
+    if isinstance(model, type) and issubclass(model, Component):
+        raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
+    if not isinstance(model, Component):
+        raise ModelError(f"compile needs a Component, got {type(model).__name__}")
+    flat = flatten(model)
+    reduced = reduce(flat)
+    parameters = lay_out_parameters(flat)
+    program = generate(reduced, parameters)
+    return System(model, flat, reduced, parameters, program, initializer(reduced, program, parameters))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class System:
+    """A compiled model: ``dx/dt = vector_field(t, x, u, params)`` and any variable by `observe`.
+
+    All functions are pure and can be jitted, differentiated and vmapped.
+
+    Attributes:
+        model: the component tree it came from.
+        flat, reduced, layout, program, initializer: the stages' results, for those who look inside.
+    """
+
+    model: Component
+    flat: FlatModel
+    reduced: ReducedModel
+    layout: ParameterLayout
+    program: Program
+    initializer: Initializer
+
+    # -- names ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def states(self) -> tuple[str, ...]:
+        """Names of the states, in the order of ``x``."""
+        return self.initializer.names
+
+    @cached_property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the inputs, in the order of ``u``; a ``der(...)`` is the derivative of an input that the
+        model differentiates."""
+        return tuple(self.reduced.name(int(i)) for i in self.reduced.inputs)
+
+    @cached_property
+    def variables(self) -> tuple[str, ...]:
+        """Dotted names of all variables."""
+        return tuple(self.flat.layout.variable(i) for i in range(self.flat.n_variables))
+
+    @cached_property
+    def equations(self) -> tuple[sp.Equality, ...]:
+        """The explicit differential equations as sympy, ``Derivative(state, time) = ...`` in the order of `states`.
+
+        Symbols bear dotted names; networks are functions named by their parameter. Unknowns of nonlinear
+        loops keep their names, and the loops' equations follow at the end.
+        """
+        return explicit_equations(self.reduced, parameter_aliases(self.flat))
+
+    def unit(self, name: str) -> str:
+        """Unit of a variable or parameter; of a derivative, the unit per second."""
+        if name.startswith("der(") and name.endswith(")"):
+            unit = self.unit(name[4:-1])
+            return f"({unit})/s" if "/" in unit else f"{unit}/s" if unit else ""
+        index = self.flat.layout.find_variable(name)
+        if index is not None:
+            return self.flat.layout.variable_declaration(index).unit
+        if name in self.layout.names:
+            position = self.layout.names.index(name)
+            return self.flat.layout.parameter_declaration(int(self.layout.free[position])).unit
+        raise ModelError(f"the model has no '{name}'; {nearest(name, self.variables)}")
+
+    # -- values --------------------------------------------------------------------------------------
+
+    def parameters(self, key: Any = None) -> dict[str, Any]:
+        """The model's parameters as a flat dict: numbers by dotted name, and modules.
+
+        Arguments:
+            key: a jax PRNG key (or an integer seed) for fresh weights of networks; 0 by default.
+        """
+        key = jax.random.key(0 if key is None else key) if key is None or isinstance(key, int) else key
+        return self.layout.defaults(key)
+
+    def pack(self, params: Params | None = None) -> Packed:
+        """Parameters as few arrays, bound ones computed; worth doing once before a loop.
+
+        Raises:
+            DataError: for an unknown name or a missing module.
+        """
+        if params is None:
+            params = self.parameters()
+        return self.layout.pack(params)
+
+    def vector_field(self, t: Any, x: Any, u: Any, params: Params) -> Any:
+        """Derivatives of the states.
+
+        Arguments:
+            t: time [s]. x: states, shape (n_states,). u: inputs, shape (n_inputs,), or None if there are none.
+            params: from `parameters` or `pack`.
+
+        Returns:
+            dx/dt, shape (n_states,).
+        """
+        x, u = self._check_shapes(x, u)
+        return self.program.vector_field(t, x, u, self.pack(params))
+
+    def observe(self, name: str | Sequence[str], t: Any, x: Any, u: Any, params: Params) -> Any:
+        """One variable (a scalar) or several (an array, in the order asked), by dotted name.
+
+        ``der(name)`` gives a derivative that the model knows.
+        """
+        x, u = self._check_shapes(x, u)
+        names = (name,) if isinstance(name, str) else tuple(name)
+        found = [self._find(n) for n in names]
+        values = self.program.values([node for node, _ in found], t, x, u, self.pack(params))
+        signs = [sign for _, sign in found]
+        signed = values if all(s == 1 for s in signs) else values * jnp.asarray(signs)
+        return signed[0] if isinstance(name, str) else signed
+
+    def initial_state(
+        self, params: Params | None = None, x0: Mapping[str, Any] | Any = None, u0: Any = None, t0: float = 0.0
+    ) -> Any:
+        """Consistent initial states, shape (n_states,).
+
+        Arguments:
+            x0: states by name (the rest from the model's starts), or all of them as an array.
+            u0: inputs at the initial time, where initial conditions depend on them.
+
+        Raises:
+            DataError: if ``x0`` does not fit. InitializationError: if the conditions contradict each other.
+        """
+        return self.initializer(self.pack(params), x0, u0, t0)
+
+    # -- inside --------------------------------------------------------------------------------------
+
+    def _find(self, name: str) -> tuple[int, int]:
+        """Node and sign of a variable or a known derivative."""
+        if name.startswith("der(") and name.endswith(")"):
+            node, sign = self._find(name[4:-1])
+            derivative = int(self.reduced.derivative[node])
+            if derivative < 0:
+                raise ModelError(f"the model does not differentiate '{name[4:-1]}'")
+            node, own = self.reduced.resolve(derivative)
+            return node, sign * int(self.reduced.derivative_sign[node]) * own
+        index = self.flat.layout.find_variable(name)
+        if index is None:
+            hint = nearest(name, self.variables)
+            if "[0]" in name:
+                hint = f"elements are counted from 1, as in Modelica: '{name.replace('[0]', '[1]')}'?"
+            raise ModelError(f"the model has no variable '{name}'; {hint}")
+        return self.reduced.resolve(index)
+
+    def _check_shapes(self, x: Any, u: Any) -> tuple[Any, Any]:
+        x = jnp.asarray(x, dtype=float)
+        u = jnp.zeros(0) if u is None else jnp.asarray(u, dtype=float)
+        if x.shape != (len(self.reduced.states),):
+            raise DataError(f"x has shape {x.shape}; the model has {len(self.states)} states")
+        if u.shape != (len(self.reduced.inputs),):
+            raise DataError(f"u has shape {u.shape}; the model has the inputs ({', '.join(self.inputs)})")
+        return x, u
+
+    def __repr__(self) -> str:
+        rows = [
+            ("states", self.states),
+            ("inputs", self.inputs),
+            ("parameters", self.layout.names),
+            ("modules", self.layout.module_names),
+        ]
+        counts = f"{self.flat.n_equations} equations, {len(self.reduced.states)} states"
+        lines = [f"System of {self.flat.name} ({counts})"]
+        for title, names in rows:
+            shown = ", ".join(names[:8]) + (f", ... ({len(names)})" if len(names) > 8 else "")
+            lines.append(f"  {title:<10} {shown or '-'}")
+        return "\n".join(lines)
+
+    def _repr_latex_(self) -> str:
+        rows = [f"{sp.latex(e.lhs)} &= {sp.latex(e.rhs)}" for e in self.equations]
+        return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
