@@ -171,15 +171,14 @@ def _unconnected_flows(layout: Layout, edges: Integers) -> Integers:
 
 
 def _group(template: Template, variables: Integers) -> EquationGroup:
-    n = len(variables)
-    nothing = np.empty((n, 0), dtype=np.int64)
-    return EquationGroup(template, variables, nothing, nothing, np.full(n, -1, dtype=np.int64))
+    nothing = np.empty((len(variables), 0), dtype=np.int64)
+    return EquationGroup(template, variables, nothing, nothing, -1 - variables[:, -1])
 
 
 @lru_cache(maxsize=None)
 def _equality() -> Template:
     a, b = slot("a"), slot("b")
-    return Template(a - b, (a, b), (0, 0), (), (), "connection: equal potentials")
+    return Template(a - b, (a, b), (0, 0), (), (), "connected: equal potentials")
 
 
 @lru_cache(maxsize=256)
@@ -187,5 +186,5 @@ def _balance(within: tuple[bool, ...]) -> Template:
     """Flows out of a node: a connector seen from within counts negatively."""
     flows = tuple(slot(f"f{i}") for i in range(1, len(within) + 1))
     total = sp.Add(*(-f if w else f for f, w in zip(flows, within, strict=True)))
-    origin = "connection: flows sum to zero" if len(flows) > 1 else "unconnected: no flow"
+    origin = "connected: flows sum to zero" if len(flows) > 1 else "unconnected: no flow"
     return Template(total, flows, (0,) * len(flows), (), (), origin)

@@ -51,7 +51,9 @@ def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
 
 def _equation(model: FlatModel, origin: tuple[str, int]) -> str:
     text, component = origin
-    path = model.layout.paths[component] if component >= 0 else ""
+    if component < 0:
+        return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({text})"
+    path = model.layout.paths[component]
     return f"{path} ({text})" if path else text
 
 

@@ -63,7 +63,7 @@ class _Writer:
                     stack += missing
                 elif isinstance(step, Assignment):
                     expression = derive.solve(step.template, step.column)
-                    self._values[current] = sp.nsimplify(0) + self._fill(step, row, expression)
+                    self._values[current] = self._fill(step, row, expression)
                 else:
                     self._write_loop(step, row)
         return self._values[node]

@@ -159,8 +159,14 @@ def _implicit(solver: Solver) -> Stepper:
 
     def step(field: Field, x: Array, h: ArrayLike, args: Any) -> Array:
         term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
-        memory = solver.init(term, 0.0, h, x, args)
-        x, _, _, _, result = solver.step(term, 0.0, h, x, args, memory, False)
+        start, h, args = _strong((jnp.zeros_like(h), h, args))
+        memory = solver.init(term, start, h, x, args)
+        x, _, _, _, result = solver.step(term, start, h, x, args, memory, False)
         return jnp.where(result == dfx.RESULTS.successful, x, jnp.nan)
 
     return step
+
+
+def _strong(tree: Any) -> Any:
+    """Arrays without JAX's weak types, which diffrax would take for a change of type within its loops."""
+    return jax.tree.map(lambda a: jax.lax.convert_element_type(a, a.dtype), tree)

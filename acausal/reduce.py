@@ -83,7 +83,8 @@ class ReducedModel:
     Attributes:
         states: nodes of the states, in order of declaration.
         rates, rate_signs: for every state the node of its derivative, and its sign.
-        inputs: nodes of the inputs; derivatives of inputs, where index reduction needs them, follow.
+        inputs: nodes of the inputs; derivatives of inputs, where the equations need them, follow.
+        input_orders: for every input, which one it derives from and how often it is differentiated.
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
@@ -95,6 +96,7 @@ class ReducedModel:
     rates: Integers
     rate_signs: Integers
     inputs: Integers
+    input_orders: tuple[tuple[int, int], ...]
     base: Integers
     derivative: Integers
     derivative_sign: Integers
@@ -319,13 +321,15 @@ def _order(system: _Equations, states: list[int]) -> ReducedModel:
             "the model has constraints that contradict or repeat each other"
         )
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)
+    inputs, orders = _inputs(system)
     return ReducedModel(
         model=system.model,
         aliases=system.aliases,
         states=np.asarray(states, dtype=np.int64),
         rates=np.asarray([system.structure.derivative[v] for v in states], dtype=np.int64),
         rate_signs=np.asarray([system.sign[v] for v in states], dtype=np.int64),
-        inputs=np.asarray(_inputs(system), dtype=np.int64),
+        inputs=np.asarray(inputs, dtype=np.int64),
+        input_orders=tuple(orders),
         base=np.asarray(system.base, dtype=np.int64),
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),
@@ -333,13 +337,17 @@ def _order(system: _Equations, states: list[int]) -> ReducedModel:
     )
 
 
-def _inputs(system: _Equations) -> list[int]:
-    inputs = [int(system.aliases.representative[i]) for i in system.model.inputs]
-    nodes = list(dict.fromkeys(inputs))
-    for node in inputs:
+def _inputs(system: _Equations) -> tuple[list[int], list[tuple[int, int]]]:
+    """Nodes of the inputs and of their derivatives, and (input, order) of each."""
+    nodes = [int(system.aliases.representative[i]) for i in system.model.inputs]
+    orders = [(i, 0) for i in range(len(nodes))]
+    for i, node in enumerate(tuple(nodes)):
+        order = 0
         while (node := system.structure.derivative[node]) >= 0:
+            order += 1
             nodes.append(node)
-    return nodes
+            orders.append((i, order))
+    return nodes, orders
 
 
 def _steps(

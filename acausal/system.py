@@ -73,7 +73,8 @@ class System:
     def inputs(self) -> tuple[str, ...]:
         """Names of the inputs, in the order of ``u``; a ``der(...)`` is the derivative of an input that the
         model differentiates."""
-        return tuple(self.reduced.name(int(i)) for i in self.reduced.inputs)
+        names = [self.reduced.name(int(i)) for i in self.reduced.inputs]
+        return tuple("der(" * order + names[i] + ")" * order for i, order in self.reduced.input_orders)
 
     @cached_property
     def variables(self) -> tuple[str, ...]:

@@ -48,7 +48,8 @@ class EquationGroup:
 
     Attributes:
         variables: (n, slots) variable indices; ``parameters`` and ``modules`` likewise.
-        components: (n,) index of the component that owns each instance (-1 for a connection).
+        components: (n,) index of the component that states each instance; for a connection, -1 minus the index of
+            a variable that it joins.
     """
 
     template: Template

@@ -1,0 +1,108 @@
+# Everything a developer types. `make` lists the targets; the first one that needs the environment
+# builds it in .venv from requirements.lock, with uv where it is installed and with pip elsewhere.
+#
+#   make test PYTEST_ARGS="-n 0 -x -k spring"     arguments for pytest
+#   make test PYTHON=python3.13                   the interpreter to build .venv with
+#   make lock LOCK_ARGS=--upgrade                 newer versions of everything
+
+VENV := .venv
+BIN := $(VENV)/bin
+LOCK := requirements.lock
+READY := $(VENV)/.ready
+
+PYTHON ?=
+PYTEST_ARGS ?= -n auto --maxprocesses 8 --dist loadfile
+LOCK_ARGS ?=
+
+RECENT := import sys; sys.exit(sys.version_info < (3, 11))
+export NO_MKDOCS_2_WARNING := 1
+
+UV := $(shell command -v uv 2>/dev/null)
+
+.DELETE_ON_ERROR:
+.PHONY: help qvm paper test test-slow lint format types contracts docs wheel check lock clean
+
+help: ## list the targets
+	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | while IFS='	' read -r target what; do \
+		printf '  make %-10s %s\n' "$$target" "$$what"; done
+
+qvm: $(READY) ## the quarter vehicle: compile, simulate and train it in a minute or so
+	$(BIN)/python -m examples.qvm
+
+paper: $(READY) ## the quarter vehicle with the whole training of the paper
+	$(BIN)/python -m examples.qvm --paper
+
+test: $(READY) ## all tests but the slow ones
+	$(BIN)/python -m pytest $(PYTEST_ARGS)
+
+test-slow: $(READY) ## the slow tests
+	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow
+
+lint: $(READY) ## ruff: rules and format
+	$(BIN)/python -m ruff check .
+	$(BIN)/python -m ruff format --check .
+
+format: $(READY) ## ruff: mend what can be mended
+	$(BIN)/python -m ruff check --fix .
+	$(BIN)/python -m ruff format .
+
+types: $(READY) ## pyright: strict for the kernel
+	$(BIN)/python -m pyright
+
+contracts: $(READY) ## import-linter: which module may import which
+	$(BIN)/lint-imports --no-logo
+
+docs: $(READY) ## the documentation, into site/
+	$(BIN)/python -m mkdocs build --strict --quiet
+
+wheel: $(READY) ## sdist and wheel, into dist/, and a check of what they hold
+	rm -rf build dist
+	$(BIN)/python -m build --quiet --no-isolation
+	$(BIN)/python -m zipfile --list dist/*.whl
+	$(BIN)/python -m pytest tests/test_packaging.py -m "slow or not slow"
+
+check: lint contracts types docs test test-slow ## everything but the wheel
+
+lock: ## requirements.lock from pyproject.toml (needs uv)
+	@$(if $(UV),,if [ ! -x $(BIN)/uv ]; then echo "make lock needs uv: https://docs.astral.sh/uv" >&2; exit 1; fi)
+	$(or $(UV),$(BIN)/uv) pip compile pyproject.toml --quiet --output-file $(LOCK) \
+		--extra dev --extra docs --extra bench \
+		--universal --python-version 3.11 --fork-strategy fewest \
+		--generate-hashes --no-header --no-emit-index-url $(LOCK_ARGS)
+
+clean: ## everything that was built, except .venv
+	rm -rf build dist site *.egg-info .pytest_cache .ruff_cache .import_linter_cache .hypothesis
+	find . -path ./$(VENV) -prune -o -name __pycache__ -prune -exec rm -rf {} +
+
+# A working .venv is kept and brought up to date; one that no longer runs is made anew.
+$(READY): $(LOCK) pyproject.toml
+	@set -eu; \
+	if ! $(BIN)/python -c '$(RECENT)' 2>/dev/null; then \
+		rm -rf $(VENV); \
+		if [ -n "$(UV)" ]; then \
+			"$(UV)" venv --quiet --python '$(or $(PYTHON),>=3.11)' $(VENV); \
+		else \
+			found=; \
+			for python in $(or $(PYTHON),python3 python3.14 python3.13 python3.12 python3.11); do \
+				if "$$python" -c '$(RECENT)' 2>/dev/null; then found=$$python; break; fi; \
+			done; \
+			if [ -z "$$found" ]; then \
+				echo "acausal needs Python 3.11 or newer: install it, or name it (make PYTHON=/path/to/python3)." >&2; \
+				exit 1; \
+			fi; \
+			if ! "$$found" -c 'import ensurepip, venv' 2>/dev/null; then \
+				echo "$$found cannot make virtual environments: install its venv module (Debian: python3-venv)." >&2; \
+				exit 1; \
+			fi; \
+			"$$found" -m venv $(VENV); \
+		fi; \
+	fi; \
+	if [ -n "$(UV)" ]; then \
+		"$(UV)" pip install --quiet --python $(BIN)/python --require-hashes -r $(LOCK); \
+		"$(UV)" pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation -e .; \
+	else \
+		$(BIN)/python -m pip --version >/dev/null 2>&1 || $(BIN)/python -m ensurepip >/dev/null; \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r $(LOCK); \
+		$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .; \
+	fi; \
+	touch $(READY)

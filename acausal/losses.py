@@ -1,0 +1,38 @@
+"""Losses: how far a predicted sequence is from the measured one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import jax.numpy as jnp
+from jax import Array
+
+from acausal.errors import TrainingError, nearest
+
+Loss = Callable[[Array, Array, Array], Array]
+"""(predicted, measured, sigma) -> scalar, of shapes (M, k), (M, k), (k,): M points of k targets."""
+
+
+def nrmse(predicted: Array, measured: Array, sigma: Array) -> Array:
+    """Normalised root mean square error, the paper's (21): ``sqrt(1/M Σ_i Σ_j ((q_ij − q̂_ij)/σ_j)²)``.
+
+    It sums over the targets: a prediction of the mean alone has the loss √k for k targets.
+    """
+    squares = jnp.sum(((predicted - measured) / sigma) ** 2, axis=1)
+    return jnp.sqrt(jnp.maximum(jnp.mean(squares), jnp.finfo(squares.dtype).tiny))
+
+
+LOSSES: dict[str, Loss] = {"nrmse": nrmse}
+
+
+def named(loss: str | Loss) -> Loss:
+    """A loss from its name, or the user's own function as it is.
+
+    Raises:
+        TrainingError: for a name that is not known.
+    """
+    if callable(loss):
+        return loss
+    if loss not in LOSSES:
+        raise TrainingError(f"No loss '{loss}': {nearest(loss, LOSSES)}")
+    return LOSSES[loss]

@@ -1,0 +1,152 @@
+"""What training minimises: the loss of a model's predictions over sequences of a record, and penalties."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+
+from acausal.arguments import arguments
+from acausal.integrate import integrate
+from acausal.losses import Loss
+from acausal.modifiers import Modifiers
+from acausal.record import Batch, Record, Sequences
+from acausal.regularizers import Context, Regularizer
+from acausal.solvers import Solver
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+
+class Trainable(eqx.Module):
+    """What an optimizer moves: a pytree of floating-point arrays.
+
+    Attributes:
+        networks: the arrays of every network that is trained, by name.
+        modifiers: the free variable δ of every parameter that is trained, by name.
+    """
+
+    networks: dict[str, Any]
+    modifiers: dict[str, Array]
+
+
+class Problem(eqx.Module):
+    """A training problem. It is a pytree, and all of its functions are pure.
+
+    Attributes:
+        system: the model.
+        params: all parameters where training starts.
+        networks: names of the networks that are trained.
+        modifiers: the parameters that are trained.
+        targets: the variables that are compared.
+        record: the data.
+        sequences: how batches are drawn from it.
+        x0: the state at the record's start, shape (number of states,), or ``None`` for the model's start values.
+        loss: compares a predicted with a measured sequence.
+        regularizers: penalties by name.
+        context: what regularizers may know.
+        solver, substeps: how a step from sample to sample is made.
+    """
+
+    system: System = eqx.field(static=True)
+    params: dict[str, Any]
+    networks: tuple[str, ...] = eqx.field(static=True)
+    modifiers: Modifiers
+    targets: tuple[str, ...] = eqx.field(static=True)
+    record: Record
+    sequences: Sequences
+    x0: Array | None
+    loss: Loss = eqx.field(static=True)
+    regularizers: dict[str, Regularizer] = eqx.field(static=True)
+    context: Context | None
+    solver: Solver = eqx.field(static=True)
+    substeps: int = eqx.field(static=True)
+
+    def start(self) -> Trainable:
+        """What is trained, where training starts."""
+        networks = {n: eqx.filter(self.params[n], eqx.is_inexact_array) for n in self.networks}
+        return Trainable(networks, self.modifiers.start())
+
+    def assemble(self, trainable: Trainable) -> dict[str, Any]:
+        """The model's parameters, with physical values, for some state of the training."""
+        networks = {n: eqx.combine(arrays, self.params[n]) for n, arrays in trainable.networks.items()}
+        return self.modifiers.apply({**self.params, **networks}, trainable.modifiers)
+
+    def draw(self, key: Array) -> Batch:
+        """A random batch of sequences."""
+        return self.sequences.draw(key)
+
+    def losses(self, trainable: Trainable, batch: Batch) -> Array:
+        """The loss of every sequence of a batch, shape (B,)."""
+        params = self.assemble(trainable)
+        packed = self.system.pack(params)
+
+        def one(start: Array, points: Array | None) -> Array:
+            steps, measured = self.record.window(start, self.sequences.length)
+            x0 = self._first_state(packed) if self.sequences.whole else self._measured(start)
+            _, predicted, _ = self._integrate(packed, x0, steps)
+            if points is not None:
+                predicted, measured = predicted[points], measured[points]
+            return self.loss(predicted, measured, self.record.sigma)
+
+        if batch.start.shape[0] == 1:
+            first = jax.tree.map(lambda a: a[0], (batch.start, batch.points))
+            return one(*first)[None]
+        return jax.vmap(one)(batch.start, batch.points)
+
+    def penalties(self, trainable: Trainable) -> dict[str, Array]:
+        """What every regularizer adds to the loss."""
+        params = self.assemble(trainable)
+        return {name: jnp.asarray(r(params, self.context)) for name, r in self.regularizers.items()}
+
+    def full_loss(self, trainable: Trainable) -> Array:
+        """The loss of one simulation of the whole record, every point of it."""
+        packed = self.system.pack(self.assemble(trainable))
+        _, predicted, _ = self._integrate(packed, self._first_state(packed), self.record.steps)
+        return self.loss(predicted, self.record.y, self.record.sigma)
+
+    def trajectory(self, trainable: Trainable) -> Array:
+        """The states at every sample in one simulation of the whole record, shape (N, number of states)."""
+        packed = self.system.pack(self.assemble(trainable))
+        return self._integrate(packed, self._first_state(packed), self.record.steps)[0]
+
+    def seen(self, trainable: Trainable, x: Array) -> dict[str, Array]:
+        """The arguments of every network in the states ``x`` (N, ...) of the record, each of shape (N, arguments).
+
+        A network with several places in the model is taken in all of them, one after the other.
+        """
+        packed = self.system.pack(self.assemble(trainable))
+        steps = self.record.steps
+
+        def at(name: str) -> Array:
+            def one(t: Array, x: Array, u: Array) -> Array:
+                return arguments(self.system, name, t, x, u, packed)
+
+            rows = jax.vmap(one)(steps.t, x, steps.inputs.start)
+            return rows.reshape(-1, rows.shape[-1])
+
+        return {name: at(name) for name in self.networks}
+
+    def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array, Array]:
+        return integrate(
+            self.system, packed, x0, steps, self.solver, outputs=self.targets, substeps=self.substeps
+        )
+
+    def _measured(self, start: Array) -> Array:
+        assert self.record.x is not None
+        return self.record.x[start]
+
+    def _first_state(self, packed: Any) -> Array:
+        if self.x0 is not None:
+            return self.x0
+        steps = self.record.steps
+        return self.system.initial_state(packed, None, steps.inputs.start[0], steps.t[0])
+
+
+def modified(problem: Problem, trainable: Trainable) -> Mapping[str, Array]:
+    """The relative changes ``p̃/p − 1`` of the parameters that are trained."""
+    return problem.modifiers.relative(trainable.modifiers)

@@ -1,0 +1,151 @@
+"""A record laid out for training: arrays on the device, cut into sequences."""
+
+from __future__ import annotations
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array, lax
+
+from acausal.data import Data
+from acausal.errors import DataError
+from acausal.inputs import Samples
+from acausal.integrate import Steps
+
+
+class Record(eqx.Module):
+    """N samples of a model's inputs, targets and states. A step begins at every sample; the last one leads nowhere.
+
+    Attributes:
+        steps: N steps with the inputs, linear between samples.
+        y: targets, shape (N, number of targets).
+        sigma: their standard deviations, shape (number of targets,).
+        x: states, shape (N, number of states), or ``None`` where they are not all measured.
+    """
+
+    steps: Steps
+    y: Array
+    sigma: Array
+    x: Array | None
+
+    def __len__(self) -> int:
+        return self.y.shape[0]
+
+    def window(self, start: Array, length: int) -> tuple[Steps, Array]:
+        """Steps and targets of the ``length`` samples from ``start`` on."""
+
+        def cut(a: Array) -> Array:
+            return lax.dynamic_slice_in_dim(a, start, length) if a.ndim else a
+
+        return jax.tree.map(cut, self.steps), cut(self.y)
+
+
+def lay_out(
+    data: Data, inputs: tuple[str, ...], targets: tuple[str, ...], states: tuple[str, ...] | None
+) -> Record:
+    """A `Record` of some signals of the data, in the model's units.
+
+    Raises:
+        DataError: for a signal that is missing, or a target that is constant.
+    """
+    u = data.columns(inputs, "an input of the model")
+    y = data.columns(targets, "a target of the training")
+    sigma = y.std(axis=0)
+    for name, deviation in zip(targets, sigma, strict=True):
+        if not deviation > 1e-12 * np.max(np.abs(data[name])):
+            raise DataError(f"Target '{name}' is constant in the data; it gives nothing to learn from.")
+    x = None if states is None else jnp.asarray(data.columns(states, "a state of the model"))
+    h = np.diff(data.time)
+    lengths = jnp.asarray(data.sample_time) if data.uniform else jnp.asarray(np.append(h, h[-1]))
+    samples = Samples(jnp.asarray(u), jnp.asarray(np.concatenate([u[1:], u[-1:]])))
+    steps = Steps(jnp.asarray(data.time), lengths, samples)
+    return Record(steps, jnp.asarray(y), jnp.asarray(sigma), x)
+
+
+class Batch(eqx.Module):
+    """Some sequences of a record.
+
+    Attributes:
+        start: index of each one's first sample, shape (B,).
+        weight: 1, or 0 for a sequence that is left out, shape (B,).
+        points: which of its samples count, shape (B, K), or ``None`` for all.
+    """
+
+    start: Array
+    weight: Array
+    points: Array | None
+
+    def without(self, bad: Array) -> Batch:
+        """The batch with some sequences (a mask) left out: repetitions of a good one in their place.
+
+        Their gradients would be undefined even if multiplied by a weight of zero.
+        """
+        good = jnp.argmin(bad)
+        replaced = jax.tree.map(lambda a: jnp.where(_column(bad, a), a[good], a), self)
+        return eqx.tree_at(lambda b: b.weight, replaced, jnp.where(bad, 0.0, self.weight))
+
+
+def _column(mask: Array, like: Array) -> Array:
+    return mask.reshape(mask.shape + (1,) * (like.ndim - 1))
+
+
+class Sequences(eqx.Module):
+    """Draws random sequences of a record, and a random part of their points.
+
+    Attributes:
+        record_length: samples in the record.
+        length: samples in a sequence.
+        batch_size: sequences in a batch.
+        points: samples that count in each sequence, or ``None`` for all.
+    """
+
+    record_length: int = eqx.field(static=True)
+    length: int = eqx.field(static=True)
+    batch_size: int = eqx.field(static=True)
+    points: int | None = eqx.field(static=True)
+
+    @property
+    def whole(self) -> bool:
+        """Whether the one sequence is the whole record."""
+        return self.length == self.record_length
+
+    def draw(self, key: Array) -> Batch:
+        """A batch; the same key gives the same batch."""
+        for_start, for_points = jax.random.split(key)
+        last = self.record_length - self.length
+        start = jax.random.randint(for_start, (self.batch_size,), 0, last + 1)
+        points = None
+        if self.points is not None:
+            keys = jax.random.split(for_points, self.batch_size)
+            points = jax.vmap(lambda k: jax.random.choice(k, self.length, (self.points,), replace=False))(keys)
+        return Batch(start, jnp.ones(self.batch_size), points)
+
+    def all(self) -> Batch:
+        """The whole record as one sequence, every point of it."""
+        return Batch(jnp.zeros(1, int), jnp.ones(1), None)
+
+
+def sequences(data: Data, seconds: float | None, batch_size: int, fraction: float | None) -> Sequences:
+    """How to cut a record.
+
+    Arguments:
+        seconds: length of a sequence; ``None`` takes the whole record.
+        batch_size: sequences in a batch.
+        fraction: part of each sequence's points that counts; ``None`` takes all.
+
+    Raises:
+        DataError: for a length, size or fraction that does not fit the record.
+    """
+    n = len(data) if seconds is None else round(seconds / data.sample_time)
+    if not 2 <= n <= len(data):
+        raise DataError(
+            f"sequence_length={seconds:g} s is {n} samples; the record has {len(data)} at {data.sample_time:g} s."
+        )
+    if batch_size < 1 or (seconds is None and batch_size != 1):
+        raise DataError(f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record.")
+    if fraction is None:
+        return Sequences(len(data), n, batch_size, None)
+    if not 0 < fraction <= 1:
+        raise DataError(f"subsample={fraction:g} is no fraction of the points; give a number in (0, 1].")
+    return Sequences(len(data), n, batch_size, max(1, round(fraction * n)))

@@ -1,0 +1,105 @@
+"""Regularizers: what training wants of a model beside fitting the data.
+
+A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace; those here are frozen
+descriptions. Outputs of networks are taken relative to their ``output_scale``, so that weights are pure numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal.errors import TrainingError, nearest
+from acausal.neural import output_scale
+
+
+class Context(eqx.Module):
+    """What a regularizer may know beside the parameters.
+
+    Attributes:
+        networks: names of the networks that are trained.
+        arguments: by network, the arguments it is called with over the record, shape (N, number of arguments).
+    """
+
+    networks: tuple[str, ...] = eqx.field(static=True)
+    arguments: Mapping[str, Array]
+
+
+Regularizer = Callable[[Mapping[str, Any], Context], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class ZeroCrossing:
+    """Networks should vanish at zero: ``weight · Σ F(0)²``, the paper's (4).
+
+    A network with secondary arguments T is held at zero for all of them: the mean over samples of
+    ``F(0, T_i)²``, the paper's (6).
+
+    Attributes:
+        weight: the paper's λ, for outputs relative to their scale.
+        networks: which; ``None`` means all that are trained.
+        secondary: by network, samples of its secondary arguments, shape (N, number of them); by default
+            those that occur over the record.
+    """
+
+    weight: float = 0.01
+    networks: tuple[str, ...] | None = None
+    secondary: Mapping[str, Any] | None = None
+
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+        """The penalty."""
+        names = _chosen(self.networks, context)
+        return self.weight * sum(self._at_zero(name, params[name], context) for name in names)
+
+    def _at_zero(self, name: str, network: Any, context: Context) -> Array:
+        given = (self.secondary or {}).get(name)
+        others = context.arguments[name][:, 1:] if given is None else jnp.asarray(np.atleast_2d(np.asarray(given).T).T)
+        if others.shape[1] == 0:
+            others = others[:1]
+        force = jax.vmap(lambda row: network(jnp.zeros(()), *row))(others)
+        return jnp.mean((force / output_scale(network)) ** 2)
+
+
+@dataclass(frozen=True)
+class SmallCorrection:
+    """Networks should add as little as the data allow: ``weight · Σ mean F²`` over the record.
+
+    A prior that fixes what data leave open. In the quarter vehicle, say, one factor on all masses, the tyre and
+    the suspension's force changes no acceleration; only the smallest correction picks one.
+
+    Attributes:
+        weight: of the mean square output, relative to the output's scale.
+        networks: which; ``None`` means all that are trained.
+    """
+
+    weight: float = 1e-3
+    networks: tuple[str, ...] | None = None
+
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+        """The penalty."""
+        names = _chosen(self.networks, context)
+        return self.weight * sum(_mean_square(params[n], context.arguments[n]) for n in names)
+
+
+def _mean_square(network: Any, arguments: Array) -> Array:
+    force = jax.vmap(lambda row: network(*row))(arguments)
+    return jnp.mean((force / output_scale(network)) ** 2)
+
+
+def _chosen(networks: tuple[str, ...] | None, context: Context) -> tuple[str, ...]:
+    for name in networks or ():
+        if name not in context.networks:
+            raise TrainingError(f"A regularizer names the network '{name}': {nearest(name, context.networks)}")
+    return context.networks if networks is None else networks
+
+
+def label(regularizer: Regularizer) -> str:
+    """The name of a regularizer in histories."""
+    return getattr(regularizer, "__name__", type(regularizer).__name__)

@@ -1,0 +1,221 @@
+"""How training moves: updates of an optimizer, many in one compiled program.
+
+The trainer knows nothing of models. It asks a problem for batches, losses and penalties, takes gradients and
+sees to it that a sequence which diverges poisons neither weights nor the optimizer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import optax
+from jax import Array
+
+CHUNK = 128
+"""At most so many updates between two looks at the training."""
+
+
+class Batch(Protocol):
+    """A batch of sequences that can leave out some of them."""
+
+    @property
+    def start(self) -> Array:
+        """Index of each sequence's first sample, shape (B,)."""
+        ...
+
+    @property
+    def weight(self) -> Array:
+        """Weight of each sequence, shape (B,)."""
+        ...
+
+    def without(self, bad: Any) -> Any:
+        """The batch without the sequences of a mask."""
+        ...
+
+
+class Objective(Protocol):
+    """What a trainer can minimise: a pytree with pure functions."""
+
+    def draw(self, key: Any) -> Any:
+        """A batch."""
+        ...
+
+    def losses(self, trainable: Any, batch: Any) -> Array:
+        """The loss of every sequence of a batch, shape (B,)."""
+        ...
+
+    def penalties(self, trainable: Any) -> dict[str, Array]:
+        """Terms that are added, by name."""
+        ...
+
+
+class State(eqx.Module):
+    """Everything that training carries from update to update.
+
+    Attributes:
+        trainable: what is trained.
+        optimizer: the optimizer's state.
+        epoch: updates done.
+        rejected: updates rejected in a row up to now.
+        key: source of all batches; batch i depends on it and on i alone.
+    """
+
+    trainable: Any
+    optimizer: Any
+    epoch: Array
+    rejected: Array
+    key: Array
+
+
+class Entry(eqx.Module):
+    """What an update tells; with a leading axis, what many tell.
+
+    Attributes:
+        loss: mean loss of the batch's sequences that count, without penalties.
+        penalties: by name.
+        trainable: what was logged of the trainable, see `advance`.
+        diverged: how many sequences were left out; ``first``: where the first of them starts (a sample's index).
+        rejected: whether the update was rejected.
+    """
+
+    loss: Array
+    penalties: dict[str, Array]
+    logged: Any
+    diverged: Array
+    first: Array
+    rejected: Array
+
+
+class Trainer(NamedTuple):
+    """How a problem is trained.
+
+    Attributes:
+        optimizer: any optax optimizer.
+        limit: a sequence with a larger loss has diverged.
+        log: what of the trainable to log at every update.
+    """
+
+    optimizer: optax.GradientTransformationExtraArgs
+    limit: float
+    log: Callable[[Any, Any], Any]
+
+
+def begin(trainer: Trainer, trainable: Any, key: Array) -> State:
+    """The state before the first update."""
+    zero = jnp.zeros((), int)
+    return State(trainable, trainer.optimizer.init(trainable), zero, zero, key)
+
+
+@eqx.filter_jit
+def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple[State, Entry]:
+    """Make updates until ``until`` of them are done, at most `CHUNK`.
+
+    Returns:
+        The new state, and a log with room for `CHUNK` entries of which the first are filled.
+    """
+    first = state.epoch
+    shapes = jax.eval_shape(lambda s: _update(problem, trainer, s)[1], state)
+    log = jax.tree.map(lambda s: jnp.zeros((CHUNK, *s.shape), s.dtype), shapes)
+
+    def body(carry: tuple[State, Entry]) -> tuple[State, Entry]:
+        state, log = carry
+        row = state.epoch - first
+        state, entry = _update(problem, trainer, state)
+        return state, jax.tree.map(lambda rows, new: rows.at[row].set(new), log, entry)
+
+    return jax.lax.while_loop(lambda carry: carry[0].epoch < until, body, (state, log))
+
+
+class _Gradient(eqx.Module):
+    """Losses and the gradient for a batch."""
+
+    losses: Array
+    penalties: dict[str, Array]
+    total: Array
+    gradient: Any
+
+
+def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
+    drawn = problem.draw(jax.random.fold_in(state.key, state.epoch))
+    batch, result, bad = _gradient(problem, trainer, state.trainable, drawn)
+    accepted = _finite((result.total, result.gradient)) & ~_diverged(result.losses, trainer).any()
+    steps, optimizer = trainer.optimizer.update(
+        result.gradient,
+        state.optimizer,
+        state.trainable,
+        value=result.total,
+        grad=result.gradient,
+        value_fn=lambda trainable: _total(problem, trainable, batch)[0],
+    )
+    moved = optax.apply_updates(state.trainable, steps)
+    accepted &= _finite(moved)
+    trainable, optimizer = _select(accepted, (moved, optimizer), (state.trainable, state.optimizer))
+    rejected = jnp.where(accepted, 0, state.rejected + 1)
+    entry = Entry(
+        jnp.average(result.losses, weights=batch.weight),
+        result.penalties,
+        trainer.log(problem, state.trainable),
+        bad.sum(),
+        drawn.start[jnp.argmax(bad)],
+        ~accepted,
+    )
+    return State(trainable, optimizer, state.epoch + 1, rejected, state.key), entry
+
+
+def _gradient(problem: Objective, trainer: Trainer, trainable: Any, batch: Any) -> tuple[Any, _Gradient, Array]:
+    """The gradient for the sequences of a batch that do not diverge, and a mask of those that do.
+
+    Where some diverge the gradient is computed a second time without them: in a loop, so that the
+    program holds it once and a healthy batch pays nothing.
+    """
+
+    def evaluate(batch: Any) -> _Gradient:
+        (total, (losses, penalties)), gradient = jax.value_and_grad(
+            lambda tree: _total(problem, tree, batch), has_aux=True
+        )(trainable)
+        return _Gradient(losses, penalties, total, gradient)
+
+    if batch.start.shape[0] == 1:
+        result = evaluate(batch)
+        return batch, result, _diverged(result.losses, trainer)
+
+    def again(carry: tuple[Any, _Gradient, Array, Array]) -> Array:
+        _, result, bad, count = carry
+        new = _diverged(result.losses, trainer)
+        return (count == 0) | ((count == 1) & new.any() & ~bad.all())
+
+    def body(carry: tuple[Any, _Gradient, Array, Array]) -> tuple[Any, _Gradient, Array, Array]:
+        batch, _, bad, count = carry
+        batch = jax.tree.map(
+            lambda new, old: jnp.where(bad.any(), new, old), batch.without(bad), batch
+        )
+        result = evaluate(batch)
+        bad = jnp.where(count == 0, _diverged(result.losses, trainer), bad)
+        return batch, result, bad, count + 1
+
+    empty = jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), jax.eval_shape(evaluate, batch))
+    none = jnp.zeros(batch.start.shape, bool)
+    batch, result, bad, _ = jax.lax.while_loop(again, body, (batch, empty, none, jnp.asarray(0)))
+    return batch, result, bad
+
+
+def _total(problem: Objective, trainable: Any, batch: Any) -> tuple[Array, tuple[Array, dict[str, Array]]]:
+    losses = problem.losses(trainable, batch)
+    penalties = problem.penalties(trainable)
+    return jnp.average(losses, weights=batch.weight) + sum(penalties.values()), (losses, penalties)
+
+
+def _diverged(losses: Array, trainer: Trainer) -> Array:
+    return ~(losses <= trainer.limit)
+
+
+def _finite(tree: Any) -> Array:
+    return jnp.stack([jnp.isfinite(leaf).all() for leaf in jax.tree.leaves(tree)]).all()
+
+
+def _select(condition: Array, new: Any, old: Any) -> Any:
+    return jax.tree.map(lambda a, b: jnp.where(condition, a, b), new, old)

@@ -1,0 +1,12 @@
+"""Component library: one package per domain, with the names of the Modelica Standard Library 4.1.0.
+
+| package | Modelica |
+|---|---|
+| `translational` | `Modelica.Mechanics.Translational` |
+| `blocks` | `Modelica.Blocks` |
+| `thermal` | `Modelica.Thermal.HeatTransfer` |
+| `neural` | none: two-ports of any domain whose law is a network |
+
+The library is written as a user writes one: it knows the rest of the package only as
+``import acausal as ac``.
+"""

@@ -1,0 +1,224 @@
+"""Continuous blocks with states; controllers and filters come from their own modules."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+
+from .controllers import PI, PID, LimPID
+from .filters import CriticalDamping, Filter, LowpassButterworth
+from .interfaces import INIT, MIMO, SISO, PartialStart
+
+__all__ = [
+    "PI",
+    "PID",
+    "CriticalDamping",
+    "Der",
+    "Derivative",
+    "Filter",
+    "FirstOrder",
+    "Integrator",
+    "LimIntegrator",
+    "LimPID",
+    "LowpassButterworth",
+    "SecondOrder",
+    "StateSpace",
+    "TransferFunction",
+]
+
+
+class Integrator(SISO, PartialStart):
+    """``der(y) = k u``, from ``y = y_start``. There is no reset: that needs events."""
+
+    k = ac.Parameter(1.0, doc="gain")
+    use_reset = ac.Option(False, choices=(False,), doc="reset is not available")
+    use_set = ac.Option(False, choices=(False,), doc="reset is not available")
+    initType = ac.Option("InitialState", choices=INIT, doc="type of initialization")
+    y = ac.Output(start="y_start", doc="output signal")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.y), self.k * self.u)
+
+
+class LimIntegrator(SISO, PartialStart):
+    """Integrator that stops at limits: ``der(y) = k u``, but 0 where that leads out of them.
+
+    ``outMin`` (default ``-outMax``) and ``outMax`` bound ``y``. There is no reset; ``strict`` and
+    ``limitsAtInit`` have no effect.
+    """
+
+    k = ac.Parameter(1.0, doc="gain")
+    outMax = ac.Parameter(doc="upper limit")
+    outMin = ac.Parameter(lambda self: -self.outMax, doc="lower limit")
+    use_reset = ac.Option(False, choices=(False,), doc="reset is not available")
+    use_set = ac.Option(False, choices=(False,), doc="reset is not available")
+    initType = ac.Option("InitialState", choices=INIT, doc="type of initialization")
+    limitsAtInit = ac.Option(True, doc="without effect")
+    strict = ac.Option(False, doc="without effect")
+    y = ac.Output(start="y_start", doc="output signal")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        rate = self.k * self.u
+        upwards = ac.where(self.y > self.outMax, ac.minimum(rate, 0), rate)
+        yield ac.Eq(ac.der(self.y), ac.where(self.y < self.outMin, ac.maximum(rate, 0), upwards))
+
+
+class Derivative(SISO):
+    """Approximate derivative ``k s/(T s + 1)``: ``y = k (u - x)/T``, ``der(x) = (u - x)/T``."""
+
+    k = ac.Parameter(1.0, doc="gain")
+    T = ac.Parameter(0.01, unit="s", min=0, doc="time constant, greater than zero")
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
+    y_start = ac.Parameter(0.0, doc="initial value of the output")
+    x = ac.Variable(start="x_start", doc="state: the input, delayed")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.x), (self.u - self.x) / self.T)
+        yield ac.Eq(self.y, self.k * (self.u - self.x) / self.T)
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        match self.initType:
+            case "SteadyState":
+                yield ac.Eq(ac.der(self.x), 0)
+            case "InitialState":
+                yield ac.Eq(self.x, self.x_start)
+            case "InitialOutput":
+                yield ac.Eq(self.y, self.y_start)
+            case _:
+                pass
+
+
+class Der(SISO):
+    """``y = der(u)``: the input must be differentiable in the model."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, ac.der(self.u))
+
+
+class FirstOrder(SISO, PartialStart):
+    """Lag ``k/(T s + 1)``: ``der(y) = (k u - y)/T``."""
+
+    k = ac.Parameter(1.0, doc="gain")
+    T = ac.Parameter(unit="s", doc="time constant")
+    y = ac.Output(start="y_start", doc="output signal")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.y), (self.k * self.u - self.y) / self.T)
+
+
+class SecondOrder(SISO, PartialStart):
+    """``k/((s/w)**2 + 2 D s/w + 1)``: ``der(y) = yd``, ``der(yd) = w (w (k u - y) - 2 D yd)``."""
+
+    k = ac.Parameter(1.0, doc="gain")
+    w = ac.Parameter(unit="rad/s", doc="angular frequency")
+    D = ac.Parameter(doc="damping")
+    yd_start = ac.Parameter(0.0, doc="initial or guess value of the output's derivative")
+    y = ac.Output(start="y_start", doc="output signal")
+    yd = ac.Variable(start="yd_start", doc="derivative of the output")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(ac.der(self.y), self.yd)
+        pull = self.w * (self.k * self.u - self.y) - 2 * self.D * self.yd
+        yield ac.Eq(ac.der(self.yd), self.w * pull)
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        yield from super().initial_equations()
+        if self.initType == "SteadyState":
+            yield ac.Eq(ac.der(self.yd), 0)
+        elif self.initType != "NoInit":
+            yield ac.Eq(self.yd, self.yd_start)
+
+
+class TransferFunction(SISO):
+    """``(b[1] s**m + ... + b[m+1])/(a[1] s**n + ... + a[n+1])`` with ``m <= n``.
+
+    In controller canonical form: ``a[1] der(x[1]) = u - a[2] x[1] - ... - a[n+1] x[n]``,
+    ``der(x[i]) = x[i-1]``. (Modelica's states are the same; inside, it scales them by ``a[n+1]``.)
+    """
+
+    b = ac.Parameter([1.0], shape=":", doc="numerator, highest power first")
+    a = ac.Parameter([1.0], shape=":", doc="denominator, highest power first")
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    x_start = ac.Parameter(0.0, shape="nx", doc="initial or guess values of the states")
+    y_start = ac.Parameter(0.0, doc="initial value of the output")
+    x = ac.Variable(shape="nx", start="x_start", doc="states in controller canonical form")
+
+    @property
+    def nx(self) -> int:
+        """Number of states."""
+        return len(self.a) - 1
+
+    def equations(self) -> Iterator[ac.Eq]:
+        if len(self.b) > len(self.a):
+            raise ac.DeclarationError(
+                f"TransferFunction: the numerator has {len(self.b)} coefficients, the denominator "
+                f"{len(self.a)}; it must not have fewer"
+            )
+        a, b = self.a, (*[0] * (len(self.a) - len(self.b)), *self.b)
+        d = b[0] / a[0]
+        if self.x:
+            yield ac.Eq(ac.der(self.x[0]), (self.u - _dot(a[1:], self.x)) / a[0])
+        for x, before in zip(self.x[1:], self.x[:-1], strict=True):
+            yield ac.Eq(ac.der(x), before)
+        residues = [bi - d * ai for ai, bi in zip(a[1:], b[1:], strict=True)]
+        yield ac.Eq(self.y, _dot(residues, self.x) + d * self.u)
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        match self.initType:
+            case "SteadyState":
+                yield from (ac.Eq(ac.der(x), 0) for x in self.x)
+            case "InitialState":
+                yield from (ac.Eq(x, s) for x, s in zip(self.x, self.x_start, strict=True))
+            case "InitialOutput":
+                yield ac.Eq(self.y, self.y_start)
+                yield from (ac.Eq(ac.der(x), 0) for x in self.x[1:])
+            case _:
+                pass
+
+
+class StateSpace(MIMO):
+    """``der(x) = A x + B u``, ``y = C x + D u`` with matrices; ``D`` is zero by default.
+
+    ``initType``: ``NoInit``, ``SteadyState`` or ``InitialState`` (Modelica's ``InitialOutput``, a least
+    squares problem, is not available).
+    """
+
+    A = ac.Parameter(shape=(":", ":"), doc="state matrix")
+    B = ac.Parameter(shape=(":", ":"), doc="input matrix")
+    C = ac.Parameter(shape=(":", ":"), doc="output matrix")
+    D = ac.Parameter(0.0, shape=("nout", "nin"), doc="feedthrough matrix")
+    initType = ac.Option("NoInit", choices=INIT[:3], doc="type of initialization")
+    x_start = ac.Parameter(0.0, shape="nx", doc="initial or guess values of the states")
+    x = ac.Variable(shape="nx", start="x_start", doc="states")
+
+    @property
+    def nx(self) -> int:
+        """Number of states."""
+        return len(self.A)
+
+    @property
+    def nin(self) -> int:
+        """Number of inputs."""
+        return len(self.B[0])
+
+    @property
+    def nout(self) -> int:
+        """Number of outputs."""
+        return len(self.C)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        for x, a, b in zip(self.x, self.A, self.B, strict=True):
+            yield ac.Eq(ac.der(x), _dot(a, self.x) + _dot(b, self.u))
+        for y, c, d in zip(self.y, self.C, self.D, strict=True):
+            yield ac.Eq(y, _dot(c, self.x) + _dot(d, self.u))
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        if self.initType == "SteadyState":
+            yield from (ac.Eq(ac.der(x), 0) for x in self.x)
+        elif self.initType == "InitialState":
+            yield from (ac.Eq(x, s) for x, s in zip(self.x, self.x_start, strict=True))
+
+
+def _dot(a: Any, b: Any) -> Any:
+    return sum(x * y for x, y in zip(a, b, strict=True))

@@ -1,0 +1,95 @@
+"""Bases of blocks: which signals enter and leave. Signals have no unit unless a block says so."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+RealInput = ac.Input
+RealOutput = ac.Output
+
+INIT = ("NoInit", "SteadyState", "InitialState", "InitialOutput")
+"""How a block with states starts: the choices of ``initType``, as in `Modelica.Blocks.Types.Init`."""
+
+INSTANT = 1e-15
+"""Shortest duration [s]: it stands for a duration of zero in a quotient."""
+
+
+class SO(ac.Component):
+    """One output ``y``."""
+
+    y = ac.Output(doc="output signal")
+
+
+class SI(ac.Component):
+    """One input ``u``."""
+
+    u = ac.Input(doc="input signal")
+
+
+class SISO(ac.Component):
+    """One input ``u``, one output ``y``."""
+
+    u = ac.Input(doc="input signal")
+    y = ac.Output(doc="output signal")
+
+
+class SI2SO(ac.Component):
+    """Two inputs ``u1`` and ``u2``, one output ``y``."""
+
+    u1 = ac.Input(doc="first input signal")
+    u2 = ac.Input(doc="second input signal")
+    y = ac.Output(doc="output signal")
+
+
+class MISO(ac.Component):
+    """``nin`` inputs ``u``, one output ``y``."""
+
+    nin = ac.Option(1, doc="number of inputs")
+    u = ac.Input(shape="nin", doc="input signals")
+    y = ac.Output(doc="output signal")
+
+
+class MO(ac.Component):
+    """``nout`` outputs ``y``; a subclass says how many."""
+
+    y = ac.Output(shape="nout", doc="output signals")
+
+
+class MIMO(ac.Component):
+    """``nin`` inputs ``u``, ``nout`` outputs ``y``; a subclass says how many."""
+
+    u = ac.Input(shape="nin", doc="input signals")
+    y = ac.Output(shape="nout", doc="output signals")
+
+
+class SVcontrol(ac.Component):
+    """Set point ``u_s`` and measurement ``u_m`` enter, actuator signal ``y`` leaves."""
+
+    u_s = ac.Input(doc="set point")
+    u_m = ac.Input(doc="measurement")
+    y = ac.Output(doc="actuator signal")
+
+
+class SignalSource(SO):
+    """One output that is ``offset`` before ``startTime`` [s]."""
+
+    offset = ac.Parameter(0.0, doc="offset of the output")
+    startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
+
+
+class PartialStart(ac.Component):
+    """What blocks with one state ``y`` share: ``initType`` and ``y_start``.
+
+    ``SteadyState``: ``der(y) = 0``; ``InitialState`` and ``InitialOutput``: ``y = y_start``;
+    ``NoInit``: ``y_start`` is a guess.
+    """
+
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    y_start = ac.Parameter(0.0, doc="initial or guess value of the output")
+    y = ac.Output(start="y_start", doc="output signal")
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        if self.initType == "SteadyState":
+            yield ac.Eq(ac.der(self.y), 0)
+        elif self.initType != "NoInit":
+            yield ac.Eq(self.y, self.y_start)

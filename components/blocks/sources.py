@@ -1,0 +1,116 @@
+"""Signal sources; waves, periodic ones, motions and tables come from their own modules."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+
+from .interfaces import INSTANT, SO, SignalSource
+from .motions import KinematicPTP, KinematicPTP2
+from .periodic import Pulse, SawTooth, Trapezoid
+from .tables import CombiTimeTable, SampledSignal, TimeTable
+from .waves import (
+    Cosine,
+    CosineVariableFrequencyAndAmplitude,
+    Exponentials,
+    ExpSine,
+    Sinc,
+    Sine,
+    SineVariableFrequencyAndAmplitude,
+)
+
+__all__ = [
+    "CombiTimeTable",
+    "Constant",
+    "ContinuousClock",
+    "Cosine",
+    "CosineVariableFrequencyAndAmplitude",
+    "ExpSine",
+    "Exponentials",
+    "KinematicPTP",
+    "KinematicPTP2",
+    "LogFrequencySweep",
+    "Pulse",
+    "Ramp",
+    "RealExpression",
+    "SampledSignal",
+    "SawTooth",
+    "Sinc",
+    "Sine",
+    "SineVariableFrequencyAndAmplitude",
+    "Step",
+    "TimeTable",
+    "Trapezoid",
+]
+
+class RealExpression(SO):
+    """A number or an expression of `acausal.time`: ``RealExpression(y=2 * ac.sin(ac.time))``.
+
+    To read another component's variable, state an equation for ``y`` in the enclosing model's
+    `equations` instead and give no expression.
+    """
+
+    def __init__(self, *, y: Any = None, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        self.expression = y
+
+    def equations(self) -> Iterator[ac.Eq]:
+        if self.expression is not None:
+            yield ac.Eq(self.y, self.expression)
+
+
+class Constant(SO):
+    """``y = k``."""
+
+    k = ac.Parameter(doc="constant output")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.k)
+
+
+class ContinuousClock(SO):
+    """The time since ``startTime``: ``y = offset + max(time - startTime, 0)`` [s]."""
+
+    offset = ac.Parameter(0.0, unit="s", doc="offset of the output")
+    startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
+    y = ac.Output(unit="s", doc="output signal")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.offset + ac.maximum(ac.time - self.startTime, 0))
+
+
+class Step(SignalSource):
+    """``y = offset``, from ``startTime`` on ``y = offset + height``."""
+
+    height = ac.Parameter(1.0, doc="height of the step")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.offset + ac.where(ac.time < self.startTime, 0, self.height))
+
+
+class Ramp(SignalSource):
+    """``y`` rises by ``height`` during ``duration`` [s] and stays there."""
+
+    height = ac.Parameter(1.0, doc="height of the ramp")
+    duration = ac.Parameter(unit="s", min=0, doc="duration of the ramp; 0 gives a step")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        t = ac.time - self.startTime
+        rise = self.height * t / ac.maximum(self.duration, INSTANT)
+        ramp = ac.where(t < 0, 0, ac.where(t < self.duration, rise, self.height))
+        yield ac.Eq(self.y, self.offset + ramp)
+
+
+class LogFrequencySweep(SO):
+    """From ``wMin`` to ``wMax`` during ``duration`` [s], with a logarithm that is linear in time."""
+
+    wMin = ac.Parameter(min=0, doc="start frequency")
+    wMax = ac.Parameter(min=0, doc="end frequency")
+    startTime = ac.Parameter(0.0, unit="s", doc="start of the sweep")
+    duration = ac.Parameter(unit="s", min=0, doc="duration of the sweep; 0 gives a step")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        elapsed = (ac.time - self.startTime) / ac.maximum(self.duration, INSTANT)
+        share = ac.maximum(ac.minimum(elapsed, 1), 0)
+        low, high = ac.log(self.wMin), ac.log(self.wMax)
+        yield ac.Eq(self.y, ac.exp(low + (high - low) * share))

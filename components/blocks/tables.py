@@ -1,0 +1,151 @@
+"""Signals from data: tables over time, and samples."""
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import acausal as ac
+
+from .interfaces import MO, SO
+
+SMOOTHNESS = {
+    "LinearSegments": "linear",
+    "ConstantSegments": "previous",
+    "ContinuousDerivative": "cubic",
+}
+EXTRAPOLATION = {"HoldLastPoint": "hold", "LastTwoPoints": "linear", "Periodic": "periodic"}
+
+
+def _interpolant(
+    points: Any, smoothness: str, extrapolation: str, what: str, _key: Any = None
+) -> ac.Signal:
+    """A signal through rows ``(t, y)``; a repeated time is a jump, a single row a constant."""
+    rows = np.asarray(points, dtype=float)
+    if len(rows) == 1:
+        rows = np.concatenate([rows, rows + [[1.0, 0.0]]])
+    ts = rows[:, 0].copy()
+    for i in np.flatnonzero(np.diff(ts) == 0)[::-1]:
+        ts[i] = np.nextafter(min(ts[i], ts[i + 1]), -np.inf)
+    return ac.Signal(
+        ts, rows[:, 1], SMOOTHNESS[smoothness], EXTRAPOLATION[extrapolation], name=what
+    )
+
+
+class _TimeTable(ac.Component):
+    """What time tables share: ``y = offset`` before ``startTime``, then ``offset`` plus the table.
+
+    The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s].
+    """
+
+    table = ac.Option(None, doc="rows of time and values")
+    timeScale = ac.Parameter(1.0, unit="s", min=0, doc="unit of the table's times")
+    startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
+    shiftTime = ac.Parameter(lambda self: self.startTime, unit="s", doc="time of the table's zero")
+
+    def _rows(self) -> np.ndarray:
+        if self.table is None or np.ndim(self.table) != 2 or np.shape(self.table)[1] < 2:
+            raise ac.DeclarationError(
+                f"{type(self).__name__} needs table=[[t, y, ...], ...], got {self.table!r}"
+            )
+        return np.asarray(self.table, dtype=float)
+
+    def _equation(self, y: Any, offset: Any, column: Any) -> ac.Eq:
+        value = column((ac.time - self.shiftTime) / self.timeScale)
+        return ac.Eq(y, offset + ac.where(ac.time < self.startTime, 0, value))
+
+
+class TimeTable(SO, _TimeTable):
+    """Linear interpolation in rows ``[t, y]``; a time that stands twice is a jump.
+
+    Beyond its ends the table goes on through its first and last two points. The values are a module,
+    ``column``, among the model's parameters.
+    """
+
+    offset = ac.Parameter(0.0, doc="offset of the output")
+    column = ac.Module("_column")
+
+    def _column(self, key: Any) -> ac.Signal:
+        return _interpolant(self._rows(), "LinearSegments", "LastTwoPoints", "table", key)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield self._equation(self.y, self.offset, self.column)
+
+
+class CombiTimeTable(MO, _TimeTable):
+    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``.
+
+    ``smoothness``: ``LinearSegments``, ``ConstantSegments``, or ``ContinuousDerivative``, a cubic
+    Hermite spline (its slopes are those of parabolas through three neighbours; Modelica's are
+    Akima's). ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints`` or ``Periodic``. ``columns`` counts
+    from 1, the column of times; by default all others are outputs. A time that stands twice is a jump.
+    Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
+    """
+
+    columns = ac.Option(None, doc="columns of the table that are outputs, counted from 1")
+    smoothness = ac.Option("LinearSegments", choices=tuple(SMOOTHNESS), doc="kind of interpolation")
+    extrapolation = ac.Option(
+        "LastTwoPoints", choices=tuple(EXTRAPOLATION), doc="what holds outside of the table"
+    )
+    offset = ac.Parameter([0.0], shape=":", doc="offsets of the outputs, or one for all")
+
+    def __init__(self, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        self.column = [ac.Module(partial(self._column, i)) for i in range(self.nout)]
+
+    @property
+    def nout(self) -> int:
+        """Number of outputs."""
+        return len(self._columns)
+
+    @property
+    def _columns(self) -> Sequence[int]:
+        width = self._rows().shape[1]
+        columns = range(2, width + 1) if self.columns is None else [int(c) for c in self.columns]
+        for column in columns:
+            if not 2 <= column <= width:
+                raise ac.DeclarationError(f"columns={self.columns}: the table has columns 2 to {width}")
+        return columns
+
+    def _column(self, i: int, key: Any) -> ac.Signal:
+        points = self._rows()[:, [0, self._columns[i] - 1]]
+        what = f"column {self._columns[i]} of the table"
+        return _interpolant(points, self.smoothness, self.extrapolation, what, key)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        offsets = self.offset if len(self.offset) > 1 else self.offset * self.nout
+        for y, offset, column in zip(self.y, offsets, self.column, strict=True):
+            yield self._equation(y, offset, column)
+
+
+class SampledSignal(SO):
+    """Measured samples as a signal: ``y = signal(time)``.
+
+    Arguments:
+        values: the samples. ts: their times [s], or ``dt``: the sample time [s], from ``startTime`` on.
+        interpolation: ``"linear"``, ``"previous"`` (each sample holds until the next) or ``"cubic"``.
+        extrapolation: ``"hold"``, ``"linear"`` or ``"periodic"``.
+
+    The samples are a module, ``signal``, among the model's parameters.
+    """
+
+    values = ac.Option(None, doc="samples")
+    ts = ac.Option(None, doc="times of the samples")
+    dt = ac.Option(None, doc="sample time, instead of ts")
+    startTime = ac.Option(0.0, doc="time of the first sample, with dt")
+    interpolation = ac.Option("linear", choices=("linear", "previous", "cubic"))
+    extrapolation = ac.Option("hold", choices=("hold", "linear", "periodic"))
+    signal = ac.Module("_signal")
+
+    def _signal(self, key: Any) -> ac.Signal:
+        if self.values is None or (self.ts is None) == (self.dt is None):
+            raise ac.DeclarationError("SampledSignal needs values=[...] and either ts=[...] or dt=...")
+        if self.ts is None:
+            ts = self.startTime + self.dt * np.arange(len(self.values))
+        else:
+            ts = np.asarray(self.ts, dtype=float)
+        return ac.Signal(ts, self.values, self.interpolation, self.extrapolation, name="values")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.signal(ac.time))

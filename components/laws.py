@@ -1,0 +1,83 @@
+"""Constitutive laws that several domains share: friction, contact and tables of points."""
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import acausal as ac
+
+Regularization = Literal["Exp", "Sine", "Linear", "CoSine"]
+REGULARIZATION: tuple[Regularization, ...] = ("Exp", "Sine", "Linear", "CoSine")
+
+Smoothness = Literal["LinearSegments", "ConstantSegments"]
+SMOOTHNESS: tuple[Smoothness, ...] = ("LinearSegments", "ConstantSegments")
+
+
+def regularized_sign(v: Any, v0: Any, kind: Regularization) -> Any:
+    """The sign of a speed ``v``, made continuous for ``|v| < v0``.
+
+    ``Exp``: ``2/(1 + exp(-v/(0.01 v0))) - 1``, computed as the equal ``tanh(v/(0.02 v0))``;
+    ``Sine``: ``sin(pi/2 v/v0)``; ``Linear``: ``v/v0``; ``CoSine``: ``sign(v) (1 - cos(pi/2 v/v0))``.
+    """
+    if kind == "Exp":
+        return ac.tanh(v / (0.02 * v0))
+    r = ac.maximum(ac.minimum(v / v0, 1), -1)
+    if kind == "Sine":
+        return ac.sin(ac.pi / 2 * r)
+    if kind == "Linear":
+        return r
+    return ac.where(v < 0, -1, 1) * (1 - ac.cos(ac.pi / 2 * r))
+
+
+def coulomb(v: Any, sliding: Any, excess: Any, v_small: Any) -> Any:
+    """Smooth Coulomb friction: the force against a speed ``v``.
+
+    ``sliding tanh(v/v_small) + excess r exp((1 - r**2)/2)`` with ``r = v/(3 v_small)``. The second
+    term makes the force peak by ``excess`` at ``|v| = 3 v_small``. There is no locked state: under a
+    load below the peak the contact creeps with a speed of the order of ``v_small``.
+
+    Arguments:
+        v: relative speed.
+        sliding: force while sliding, as a function of ``|v|``.
+        excess: how much the static force exceeds the sliding force at rest.
+        v_small: speed at which 76 % of the sliding force are reached.
+    """
+    r = v / (3 * v_small)
+    return sliding * ac.tanh(v / v_small) + excess * r * ac.exp((1 - r**2) / 2)
+
+
+def contact(depth: Any, rate: Any, c: Any, d: Any, n: Any = 1) -> tuple[Any, Any]:
+    """Elastic and damping force between two bodies that may lift off; both push, none pulls.
+
+    ``f_c = c max(depth, 0)**n`` and ``f_d = d rate``, bounded to ``|f_d| <= f_c``: so the total is
+    never negative and continuous at touch-down.
+
+    Arguments:
+        depth: how deep the bodies penetrate; negative where they are apart.
+        rate: its derivative.
+        c, d, n: stiffness, damping, exponent of the stiffness.
+    """
+    f_c = c * ac.maximum(depth, 0) ** n
+    return f_c, ac.maximum(ac.minimum(d * rate, f_c), -f_c)
+
+
+def lookup(x: Any, points: Sequence[Sequence[Any]], smoothness: Smoothness) -> Any:
+    """Interpolate in rows ``(x_i, y_i)`` with ascending ``x_i``; a single row is a constant.
+
+    ``LinearSegments`` continue beyond both ends, ``ConstantSegments`` take the row to the left.
+    """
+    if len(points) == 1:
+        return points[0][1]
+    lower = points[:-1]
+    if smoothness == "ConstantSegments":
+        pieces = [y for _, y in points]
+        bounds = [x_i for x_i, _ in points[1:]]
+    else:
+        pieces = [
+            a[1] + (b[1] - a[1]) / (b[0] - a[0]) * (x - a[0])
+            for a, b in zip(lower, points[1:], strict=True)
+        ]
+        bounds = [x_i for x_i, _ in lower[1:]]
+    value = pieces[-1]
+    for bound, piece in zip(reversed(bounds), reversed(pieces[:-1]), strict=True):
+        value = ac.where(x < bound, piece, value)
+    return value

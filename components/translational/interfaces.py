@@ -1,0 +1,185 @@
+"""The translational flange, and the bases that components and users' own elements extend.
+
+Along one axis of movement: a positive position, speed or force points in its positive direction. A
+flange's force ``f`` is positive where it pushes the component that way.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+
+STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
+
+
+class Flange(ac.Connector):
+    """Position ``s`` [m] and cut force ``f`` [N], positive into the component."""
+
+    s = ac.Potential(unit="m", doc="absolute position of the flange")
+    f = ac.Flow(unit="N", doc="cut force in the flange")
+
+    pair = ("flange_a", "flange_b")
+    across = "s_rel"
+    through = "f"
+    rate = "v_rel"
+    second_minus_first = True
+
+
+Flange_a = Flange
+Flange_b = Flange
+Support = Flange
+
+
+class PartialTwoFlanges(ac.Component):
+    """Two flanges, and nothing said about them."""
+
+    flange_a = Flange()
+    flange_b = Flange()
+
+
+class PartialRigid(PartialTwoFlanges):
+    """Two flanges held at distance ``L``: ``flange_a.s = s - L/2``, ``flange_b.s = s + L/2``.
+
+    ``s`` [m] is the position of the centre.
+    """
+
+    L = ac.Parameter(0.0, unit="m", doc="length from left flange to right flange")
+    s = ac.Variable(unit="m", doc="position of the centre")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange_a.s, self.s - self.L / 2)
+        yield ac.Eq(self.flange_b.s, self.s + self.L / 2)
+
+
+class PartialCompliant(PartialTwoFlanges):
+    """A massless element with a force ``f`` [N] over a distance ``s_rel`` [m].
+
+    ``s_rel = flange_b.s - flange_a.s``, ``flange_b.f = f``, ``flange_a.f = -f``.
+    A subclass states ``f``; it is positive where it pulls the flanges together.
+    """
+
+    s_rel = ac.Variable(unit="m", doc="distance from flange_a to flange_b")
+    f = ac.Variable(unit="N", doc="force between the flanges, = flange_b.f")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.s_rel, self.flange_b.s - self.flange_a.s)
+        yield ac.Eq(self.flange_b.f, self.f)
+        yield ac.Eq(self.flange_a.f, -self.f)
+
+
+class PartialCompliantWithRelativeStates(PartialCompliant):
+    """A compliant element that also knows the relative speed ``v_rel = der(s_rel)`` [m/s].
+
+    Absolute positions and speeds of masses are preferred as states, so ``stateSelect`` is
+    ``"default"`` here (Modelica: ``"prefer"``); with ``"prefer"`` an element's ``s_rel`` and
+    ``v_rel`` become states. ``s_nominal`` [m] is the magnitude of ``s_rel``, for scaling only.
+    """
+
+    stateSelect = ac.Option("default", choices=STATE_SELECT, doc="priority of s_rel, v_rel as states")
+    s_nominal = ac.Option(1e-4, doc="nominal value of s_rel")
+    s_rel = ac.Variable(
+        unit="m", state="stateSelect", nominal="s_nominal", doc="distance from flange_a to flange_b"
+    )
+    v_rel = ac.Variable(unit="m/s", state="stateSelect", doc="relative speed")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.v_rel, ac.der(self.s_rel))
+
+
+class PartialElementaryOneFlangeAndSupport2(ac.Component):
+    """One flange that works against a support, or against the ground without ``useSupport``.
+
+    ``s = flange.s - support.s`` [m], ``support.f = -flange.f``.
+    """
+
+    useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
+    flange = Flange()
+    support = Support(when="useSupport")
+    s = ac.Variable(unit="m", doc="position of the flange relative to the support")
+
+    @property
+    def s_support(self) -> Any:
+        """Position of the support."""
+        return self.support.s if self.useSupport else 0
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.s, self.flange.s - self.s_support)
+        if self.useSupport:
+            yield ac.Eq(self.support.f, -self.flange.f)
+
+
+class PartialElementaryTwoFlangesAndSupport2(PartialTwoFlanges):
+    """Two flanges that work against a support, or against the ground without ``useSupport``.
+
+    ``s_a = flange_a.s - support.s``, ``s_b = flange_b.s - support.s`` [m],
+    ``support.f = -flange_a.f - flange_b.f``.
+    """
+
+    useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
+    support = Support(when="useSupport")
+    s_a = ac.Variable(unit="m", doc="position of flange_a relative to the support")
+    s_b = ac.Variable(unit="m", doc="position of flange_b relative to the support")
+
+    @property
+    def s_support(self) -> Any:
+        """Position of the support."""
+        return self.support.s if self.useSupport else 0
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.s_a, self.flange_a.s - self.s_support)
+        yield ac.Eq(self.s_b, self.flange_b.s - self.s_support)
+        if self.useSupport:
+            yield ac.Eq(self.support.f, -self.flange_a.f - self.flange_b.f)
+
+
+class PartialForce(PartialElementaryOneFlangeAndSupport2):
+    """A force ``f = flange.f`` [N] on the flange; negative values push what is connected forward."""
+
+    f = ac.Variable(unit="N", doc="force at the flange, = flange.f")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.f, self.flange.f)
+
+
+class PartialSpeedDependentForce(PartialForce):
+    """A force that depends on the flange's speed ``v = der(s)`` [m/s] against the support."""
+
+    v = ac.Variable(unit="m/s", doc="speed of the flange relative to the support")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.v, ac.der(self.s))
+
+
+class PartialAbsoluteSensor(ac.Component):
+    """One flange that is measured without a force: ``flange.f = 0``."""
+
+    flange = Flange()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange.f, 0)
+
+
+class PartialRelativeSensor(PartialTwoFlanges):
+    """Two flanges between which is measured, without inertia: ``flange_a.f + flange_b.f = 0``."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange_a.f + self.flange_b.f, 0)
+
+
+class PartialFriction(ac.Component):
+    """What friction elements share: the speed ``v_small`` [m/s] that smooths the law around rest.
+
+    Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
+    creeps instead, and it is the stiffer the smaller ``v_small`` is.
+    """
+
+    v_small = ac.Parameter(1e-3, unit="m/s", min=0, doc="speed below which friction is smoothed")
