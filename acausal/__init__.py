@@ -4,10 +4,19 @@ import jax as _jax
 
 _jax.config.update("jax_enable_x64", True)
 
-from acausal.component import Component, Connector  # noqa: E402
-from acausal.errors import (  # noqa: E402
+from acausal.component import (
+    Component,
+    Connector,
+)
+from acausal.data import (
+    Data,
+)
+from acausal.diagram import (
+    diagram,
+)
+from acausal.errors import (
     AcausalError,
-    ConnectionError,  # noqa: A004
+    ConnectionError,
     DataError,
     DeclarationError,
     InitializationError,
@@ -16,7 +25,11 @@ from acausal.errors import (  # noqa: E402
     StructureError,
     TrainingError,
 )
-from acausal.functions import (  # noqa: E402
+from acausal.fit import (
+    Fit,
+    fit,
+)
+from acausal.functions import (
     Abs,
     acos,
     asin,
@@ -39,7 +52,25 @@ from acausal.functions import (  # noqa: E402
     tanh,
     where,
 )
-from acausal.symbols import (  # noqa: E402
+from acausal.neural import (
+    MLP,
+    OffsetCorrected,
+    remove_offset,
+)
+from acausal.regularizers import (
+    SmallCorrection,
+    ZeroCrossing,
+)
+from acausal.signals import (
+    Signal,
+)
+from acausal.simulate import (
+    simulate,
+)
+from acausal.solution import (
+    Solution,
+)
+from acausal.symbols import (
     Eq,
     Flow,
     Input,
@@ -53,6 +84,70 @@ from acausal.symbols import (  # noqa: E402
     der,
     time,
 )
-from acausal.system import System, compile  # noqa: A004, E402
+from acausal.system import (
+    System,
+    compile,
+)
 
 __version__ = "0.1.0"
+
+__all__ = [
+    "Abs",
+    "AcausalError",
+    "Component",
+    "ConnectionError",
+    "Connector",
+    "Data",
+    "DataError",
+    "DeclarationError",
+    "Eq",
+    "Fit",
+    "Flow",
+    "InitializationError",
+    "Input",
+    "MLP",
+    "ModelError",
+    "Module",
+    "OffsetCorrected",
+    "Option",
+    "Output",
+    "Parameter",
+    "Potential",
+    "Signal",
+    "SimulationError",
+    "SmallCorrection",
+    "Solution",
+    "Start",
+    "StructureError",
+    "System",
+    "TrainingError",
+    "Variable",
+    "ZeroCrossing",
+    "acos",
+    "asin",
+    "atan",
+    "atan2",
+    "compile",
+    "cos",
+    "cosh",
+    "der",
+    "diagram",
+    "exp",
+    "fit",
+    "floor",
+    "log",
+    "maximum",
+    "minimum",
+    "pi",
+    "prescribed",
+    "remove_offset",
+    "sign",
+    "simulate",
+    "sin",
+    "sinh",
+    "sqrt",
+    "tan",
+    "tanh",
+    "time",
+    "where",
+]

@@ -5,39 +5,32 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
-import equinox as eqx
 import jax
-import jax.numpy as jnp
 import numpy as np
 import optax
-from jax import Array
 from jax.typing import ArrayLike
 
-from acausal import losses, solvers
 from acausal.data import Data
-from acausal.errors import DataError, TrainingError, listing, nearest
+from acausal.errors import TrainingError
 from acausal.history import History
-from acausal.modifiers import modifiers
-from acausal.neural import networks, remove_offset
-from acausal.problem import Problem, Trainable, modified
+from acausal.losses import Loss
+from acausal.neural import remove_offset
+from acausal.pose import Start, pose
+from acausal.problem import Problem, modified
 from acausal.progress import Observer, display
-from acausal.record import Record, lay_out, sequences
-from acausal.regularizers import Context, Regularizer, label
+from acausal.regularizers import Regularizer
+from acausal.solvers import Solver
 from acausal.trainer import Trainer, begin
-from acausal.training import Trained, train
+from acausal.training import Trained
+from acausal.training import train as run
 
 if TYPE_CHECKING:
     from acausal.system import System
 
 DIVERGED = 1e3
 """A sequence whose normalised error is larger has diverged."""
-
-REFERENCE_POINTS = 1000
-"""Points of the record at which regularizers look at networks."""
-
-Start = Literal["data", "model"]
 
 
 def fit(
@@ -49,7 +42,7 @@ def fit(
     train: Iterable[str] | None = None,
     modifiers: Mapping[str, float] | Iterable[str] | None = None,
     gamma: float = 0.2,
-    loss: str | losses.Loss = "nrmse",
+    loss: str | Loss = "nrmse",
     regularizers: Iterable[Regularizer] = (),
     sequence_length: float | None = None,
     batch_size: int = 1,
@@ -57,7 +50,7 @@ def fit(
     epochs: int = 1000,
     optimizer: optax.GradientTransformation | None = None,
     dt: float | None = None,
-    solver: str | solvers.Solver = "heun",
+    solver: str | Solver = "heun",
     x0: Start | Mapping[str, float] = "data",
     seed: int = 0,
     evaluate_every: int | None = None,
@@ -105,20 +98,131 @@ def fit(
     """
     if epochs < 1:
         raise TrainingError(f"epochs={epochs}; at least one is needed.")
-    problem = _problem(
+    problem = pose(
         system,
         Data.of(data).for_system(system),
         (targets,) if isinstance(targets, str) else tuple(targets),
         dict(system.parameters(seed) if params is None else params),
-        _Choice(train, modifiers, gamma, loss, tuple(regularizers), x0),
-        _Cut(sequence_length, batch_size, subsample),
-        _Scheme(dt, solver),
+        train=train,
+        modifiers=modifiers,
+        gamma=gamma,
+        loss=loss,
+        regularizers=tuple(regularizers),
+        sequence_length=sequence_length,
+        batch_size=batch_size,
+        subsample=subsample,
+        dt=dt,
+        solver=solver,
+        x0=x0,
     )
-    chosen = _default_optimizer(epochs) if optimizer is None else optimizer
-    method = Trainer(optax.with_extra_args_support(chosen), DIVERGED if loss == "nrmse" else np.inf, modified)
-    state = begin(method, problem.start(), jax.random.key(seed))
+    chosen = default_optimizer(epochs) if optimizer is None else optimizer
+    trainer = Trainer(optax.with_extra_args_support(chosen), DIVERGED if loss == "nrmse" else np.inf, modified)
+    state = begin(trainer, problem.start(), jax.random.key(seed))
     every = max(1, epochs // 10) if evaluate_every is None else evaluate_every
     with display(progress, epochs) as show:
-        trained = _train(problem, method, state, epochs, every, (show, *observers))
+        trained = run(problem, trainer, state, epochs, every, (show, *observers))
     _warn(trained)
     return _result(problem, trained)
+
+
+def default_optimizer(epochs: int) -> optax.GradientTransformation:
+    """Adam, its rate falling from 0.01 to 0.0001 as a cosine over the epochs."""
+    return optax.adam(optax.cosine_decay_schedule(1e-2, epochs, 1e-2))
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What a network was called with over the record, in one simulation with the trained parameters.
+
+    Attributes:
+        mean: of every argument, shape (number of arguments,).
+        sigma: standard deviation, likewise.
+    """
+
+    mean: np.ndarray
+    sigma: np.ndarray
+
+    def interval(self, sigmas: float = 2.0) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds ``mean ± sigmas · σ`` of every argument; outside of 2σ a network extrapolates."""
+        return self.mean - sigmas * self.sigma, self.mean + sigmas * self.sigma
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """The result of `fit`.
+
+    Attributes:
+        system: the model.
+        params: its trained parameters: a flat dict with networks and physical values.
+        loss: over one simulation of the whole record, every point of it; infinite if the model diverges there.
+        loss_before: the same before training.
+        best_epoch: updates after which ``params`` were reached.
+        modifiers: relative change p̃/p − 1 of every parameter that was trained.
+        seen: by network, the statistics of what it was called with.
+        history: the training, update by update.
+        seconds: what all of it took, of which ``compile_seconds`` in XLA's compiler.
+        seconds_per_epoch: what an update took on average.
+        interrupted: whether the user ended it early.
+    """
+
+    system: System
+    params: dict[str, Any]
+    loss: float
+    loss_before: float
+    best_epoch: int
+    modifiers: dict[str, float]
+    seen: dict[str, Seen]
+    history: History
+    seconds: float
+    compile_seconds: float
+    seconds_per_epoch: float
+    interrupted: bool
+
+    def remove_offset(self) -> dict[str, Any]:
+        """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
+        return remove_offset(self.params, tuple(self.seen))
+
+    def __repr__(self) -> str:
+        changes = ", ".join(f"{n} {value:+.3f}" for n, value in self.modifiers.items())
+        end = " (interrupted)" if self.interrupted else ""
+        lines = [
+            f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",
+            f"  loss      {self.loss_before:.4g} before, {self.loss:.4g} after epoch {self.best_epoch}",
+            f"  time      {self.seconds:.3g} s, {self.seconds_per_epoch * 1e3:.3g} ms an epoch",
+        ]
+        lines += [f"  modifiers {changes}"] if changes else []
+        diverged = self.history.divergences
+        lines += [f"  diverged  sequences in {len(diverged)} epochs"] if diverged else []
+        return "\n".join(lines)
+
+
+def _result(problem: Problem, trained: Trained) -> Fit:
+    best, history = trained.best, trained.history
+    x = problem.trajectory(best.trainable)
+    seen = {n: Seen(np.mean(a, axis=0), np.std(a, axis=0)) for n, a in problem.seen(best.trainable, x).items()}
+    return Fit(
+        system=problem.system,
+        params=problem.assemble(best.trainable),
+        loss=best.loss,
+        loss_before=float(history.full_loss[0, 1]),
+        best_epoch=best.epoch,
+        modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},
+        seen=seen,
+        history=history,
+        seconds=trained.seconds,
+        compile_seconds=trained.compiling,
+        seconds_per_epoch=trained.updating / max(history.epochs, 1),
+        interrupted=trained.interrupted,
+    )
+
+
+def _warn(trained: Trained) -> None:
+    diverged = trained.history.divergences
+    if diverged:
+        warnings.warn(
+            f"Sequences diverged in {len(diverged)} of {trained.history.epochs} epochs and were left out "
+            f"(fit.history.divergences); first, {diverged[0]}.",
+            stacklevel=3,
+        )
+    if not np.isfinite(trained.best.loss):
+        warnings.warn("The trained model diverges over the whole record: its loss is infinite.", stacklevel=3)

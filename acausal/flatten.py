@@ -247,11 +247,18 @@ def _structure(component: Component) -> Hashable:
     cls = type(component)
     options = tuple((k, _frozen(v)) for k, v in sorted(component._options.items()))
     constants = tuple((k, _frozen(v)) for k, v in sorted(component._constants.items()))
-    dynamic = tuple((k, id(v)) for k, v in component._dynamic.items())
+    dynamic = tuple((k, type(v), *_attributes(v)) for k, v in component._dynamic.items())
     sizes = tuple(
         (k, np.shape(v)) for k, v in component._modifiers.items() if isinstance(v, np.ndarray)
     )
     return cls, options, constants, dynamic, sizes
+
+
+def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:
+    """What a declaration says, whichever instance made it."""
+    if isinstance(declared, Connector):
+        return (declared._when,)
+    return tuple((k, _frozen(v)) for k, v in sorted(vars(declared).items()))
 
 
 def _frozen(value: Any) -> Hashable:

@@ -6,7 +6,7 @@ Values live in a list of arrays: the state, the input, then one array per step.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -180,7 +180,17 @@ class Program:
         arrays = self._run(wanted.sources, t, x, u, packed)
         return jnp.broadcast_to(wanted.read(arrays), (len(nodes),))
 
-    def _run(self, wanted: Sequence[int], t: Any, x: Any, u: Any, packed: Packed) -> list[Any]:
+    def both(self, nodes: Sequence[int], t: Any, x: Any, u: Any, packed: Packed) -> tuple[Any, Any]:
+        """Derivatives of the states and values of some nodes, what they share computed once."""
+        chosen = np.asarray(nodes, dtype=np.int64)
+        wanted = gather(self.source[chosen], self.index[chosen], self.sizes)
+        rates = self.rates
+        arrays = self._run({*wanted.sources, *(rates.sources if rates else ())}, t, x, u, packed)
+        dx = jnp.broadcast_to(rates.read(arrays), x.shape) if rates else jnp.zeros_like(x)
+        dx = dx if (self.rate_signs == 1).all() else dx * self.rate_signs
+        return dx, jnp.broadcast_to(wanted.read(arrays), (len(nodes),))
+
+    def _run(self, wanted: Iterable[int], t: Any, x: Any, u: Any, packed: Packed) -> list[Any]:
         """Run the instructions that the wanted arrays depend on."""
         arrays: list[Any] = [x, u, jnp.zeros(()), *[None] * (len(self.sizes) - 3)]
         needed = set(wanted)

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 Field = Callable[[ArrayLike, Array, Any], Array]
 """The right-hand side within a step: (fraction of the step, state, arguments) -> derivative."""
 
-Stepper = Callable[[Field, Array, ArrayLike, Any], Array]
-"""One step of a scheme: (field, state, length of the step, arguments) -> state."""
+Stepper = Callable[[Field, Array, ArrayLike, Any, Array | None], Array]
+"""One step of a scheme: (field, state, length, arguments, derivative at the start if known) -> state."""
 
 
 class Steps(eqx.Module):
@@ -96,53 +96,57 @@ def integrate(
     """
     outputs = tuple(outputs)
     functions = steps.inputs.functions
-    advance = stepper(solver)
+    equal = steps.h if steps.h.ndim == 0 else None
+    explicit = isinstance(solver, dfx.AbstractERK)
+    advance = _explicit(solver) if explicit else _implicit(solver)
 
     def field(fraction: ArrayLike, x: Array, args: tuple[Any, tuple[Drive | None, ...], Step]) -> Array:
         packed, functions, step = args
         return system.vector_field(step.time(fraction), x, step.inputs(fraction, functions), packed)
 
-    def whole(x: Array, step: Step) -> Array:
-        return advance(field, x, step.h, (packed, functions, step))
+    def part(x: Array, j: ArrayLike, step: Step, slope: Array | None) -> Array:
+        def within(fraction: ArrayLike, x: Array, args: Any) -> Array:
+            j, args = args
+            return field((j + fraction) / substeps, x, args)
 
-    def divided(x: Array, step: Step) -> Array:
-        def part(x: Array, j: Array) -> tuple[Array, None]:
-            def within(fraction: ArrayLike, x: Array, args: Any) -> Array:
-                j, args = args
-                return field((j + fraction) / substeps, x, args)
+        return advance(within, x, step.h / substeps, (j, (packed, functions, step)), slope)
 
-            return advance(within, x, step.h / substeps, (j, (packed, functions, step))), None
+    def whole(x: Array, step: Step, slope: Array | None) -> Array:
+        if substeps == 1:
+            return advance(field, x, step.h, (packed, functions, step), slope)
+        x = part(x, jnp.zeros(()), step, slope)
+        return jax.lax.scan(lambda x, j: (part(x, j, step, None), None), x, jnp.arange(1.0, substeps))[0]
 
-        return jax.lax.scan(part, x, jnp.arange(substeps))[0]
+    def observe(x: Array, step: Step) -> tuple[Array | None, Array]:
+        if not outputs:
+            return None, jnp.zeros(0)
+        point = (step.t, x, step.inputs(0.0, functions), packed)
+        if explicit:
+            return system.vector_field_and_observe(outputs, *point)
+        return None, system.observe(outputs, *point)
 
     def body(x: Array, row: tuple[Array, ...]) -> tuple[Array, tuple[Array, Array]]:
         step = Step(row[0], row[3] if equal is None else equal, row[1], row[2])
-        u = step.inputs(0.0, functions)
-        y = system.observe(outputs, step.t, x, u, packed) if outputs else jnp.zeros(0)
-        return (whole if substeps == 1 else divided)(x, step), (x, y)
+        slope, y = observe(x, step)
+        return whole(x, step, slope), (x, y)
 
-    equal = steps.h if steps.h.ndim == 0 else None
     rows = (steps.t, steps.inputs.start, steps.inputs.end, *(() if equal is not None else (steps.h,)))
     end, (xs, ys) = jax.lax.scan(body, x0, rows)
     return xs, ys, end
 
 
-def stepper(solver: Solver) -> Stepper:
-    """How a solver makes one step."""
-    return _explicit(solver) if isinstance(solver, dfx.AbstractERK) else _implicit(solver)
-
-
 def _explicit(solver: dfx.AbstractERK) -> Stepper:
+    """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
     tableau = solver.tableau
     rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
     fractions = [0.0, *(float(c) for c in tableau.c)]
     weights = [float(b) for b in tableau.b_sol]
     needed = max(i for i, b in enumerate(weights) if b) + 1
 
-    def step(field: Field, x: Array, h: ArrayLike, args: Any) -> Array:
-        slopes: list[Array] = []
-        for fraction, row in zip(fractions[:needed], rows, strict=False):
-            slopes.append(field(fraction, _sum(x, h, row, slopes), args))
+    def step(field: Field, x: Array, h: ArrayLike, args: Any, slope: Array | None) -> Array:
+        slopes = [] if slope is None else [slope]
+        for i in range(len(slopes), needed):
+            slopes.append(field(fractions[i], _sum(x, h, rows[i], slopes), args))
         return _sum(x, h, weights, slopes)
 
     return step
@@ -157,7 +161,7 @@ def _sum(x: Array, h: ArrayLike, weights: Sequence[float], slopes: Sequence[Arra
 def _implicit(solver: Solver) -> Stepper:
     """A solver's own `step`, in local time from 0 to h."""
 
-    def step(field: Field, x: Array, h: ArrayLike, args: Any) -> Array:
+    def step(field: Field, x: Array, h: ArrayLike, args: Any, slope: Array | None) -> Array:
         term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
         start, h, args = _strong((jnp.zeros_like(h), h, args))
         memory = solver.init(term, start, h, x, args)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 from acausal.arguments import arguments
@@ -109,13 +110,20 @@ class Problem(eqx.Module):
         _, predicted, _ = self._integrate(packed, self._first_state(packed), self.record.steps)
         return self.loss(predicted, self.record.y, self.record.sigma)
 
+    @eqx.filter_jit
     def trajectory(self, trainable: Trainable) -> Array:
         """The states at every sample in one simulation of the whole record, shape (N, number of states)."""
         packed = self.system.pack(self.assemble(trainable))
         return self._integrate(packed, self._first_state(packed), self.record.steps)[0]
 
-    def seen(self, trainable: Trainable, x: Array) -> dict[str, Array]:
-        """The arguments of every network in the states ``x`` (N, ...) of the record, each of shape (N, arguments).
+    @eqx.filter_jit
+    def seen(self, trainable: Trainable, x: Array, rows: np.ndarray | slice = slice(None)) -> dict[str, Array]:
+        """What every network is called with in the states ``x`` of the record, shape (N, number of arguments).
+
+        Arguments:
+            trainable: some state of the training.
+            x: states at every sample, shape (N, number of states).
+            rows: which samples.
 
         A network with several places in the model is taken in all of them, one after the other.
         """
@@ -126,8 +134,8 @@ class Problem(eqx.Module):
             def one(t: Array, x: Array, u: Array) -> Array:
                 return arguments(self.system, name, t, x, u, packed)
 
-            rows = jax.vmap(one)(steps.t, x, steps.inputs.start)
-            return rows.reshape(-1, rows.shape[-1])
+            values = jax.vmap(one)(steps.t[rows], x[rows], steps.inputs.start[rows])
+            return values.reshape(-1, values.shape[-1])
 
         return {name: at(name) for name in self.networks}
 

@@ -114,10 +114,24 @@ class _MathML(MathMLPresentationPrinter):
     def _print_Derivative(self, e: sp.Derivative) -> Any:
         over = self.dom.createElement("mover")
         over.appendChild(self._print(e.expr))
-        dot = self.dom.createElement("mo")
-        dot.appendChild(self.dom.createTextNode("\u02d9"))
-        over.appendChild(dot)
+        over.appendChild(self._mo("\u02d9"))
         return over
+
+    def _print_AppliedUndef(self, e: Any) -> Any:
+        row = self.dom.createElement("mrow")
+        row.appendChild(self._print(sp.Symbol(e.func.__name__)))
+        row.appendChild(self._mo("("))
+        for i, argument in enumerate(e.args):
+            if i:
+                row.appendChild(self._mo(","))
+            row.appendChild(self._print(argument))
+        row.appendChild(self._mo(")"))
+        return row
+
+    def _mo(self, text: str) -> Any:
+        operator = self.dom.createElement("mo")
+        operator.appendChild(self.dom.createTextNode(text))
+        return operator
 
 
 def _mathml(equation: sp.Equality, names: dict[str, str]) -> str:

@@ -150,6 +150,20 @@ class System:
         signed = values if all(s == 1 for s in signs) else values * jnp.asarray(signs)
         return signed[0] if isinstance(name, str) else signed
 
+    def vector_field_and_observe(
+        self, names: Sequence[str], t: Any, x: Any, u: Any, params: Params
+    ) -> tuple[Any, Any]:
+        """Derivatives of the states and some variables at once: ``(dx, y)``.
+
+        What both need is computed once, and once only where it is differentiated: twice as fast as
+        `vector_field` and `observe` in the gradient of a loss.
+        """
+        x, u = self._check_shapes(x, u)
+        found = [self._find(n) for n in names]
+        dx, y = self.program.both([node for node, _ in found], t, x, u, self.pack(params))
+        signs = [sign for _, sign in found]
+        return dx, y if all(s == 1 for s in signs) else y * jnp.asarray(signs)
+
     def initial_state(
         self, params: Params | None = None, x0: Mapping[str, Any] | Any = None, u0: Any = None, t0: float = 0.0
     ) -> Any:

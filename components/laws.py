@@ -54,7 +54,9 @@ def contact(depth: Any, rate: Any, c: Any, d: Any, n: Any = 1) -> tuple[Any, Any
     Arguments:
         depth: how deep the bodies penetrate; negative where they are apart.
         rate: its derivative.
-        c, d, n: stiffness, damping, exponent of the stiffness.
+        c: stiffness.
+        d: damping.
+        n: exponent of the stiffness.
     """
     f_c = c * ac.maximum(depth, 0) ** n
     return f_c, ac.maximum(ac.minimum(d * rate, f_c), -f_c)

@@ -5,10 +5,11 @@ from typing import Any
 
 import acausal as ac
 
+from .integrators import Derivative, Integrator
 from .interfaces import INIT, SISO, SVcontrol
-from .lags import Derivative, Integrator
 from .math import Add, Add3, Gain
 from .nonlinear import Limiter
+from .sources import Constant
 
 CONTROLLER = ("P", "PI", "PD", "PID")
 
@@ -84,7 +85,7 @@ class LimPID(SVcontrol):
     ``Td (wd u_s - u_m)``. ``controllerType`` chooses ``"P"``, ``"PI"``, ``"PD"`` or ``"PID"``;
     ``withFeedForward`` adds the input ``u_ff``. The parts bear Modelica's names: `addP`, `P`, `addI`, `I`,
     `addSat`, `gainTrack`, `addD`, `D`, `addPID`, `gainPID`, `addFF`, `limiter`. ``strict`` and
-    ``homotopyType`` have no effect. Choose options when the controller is made.
+    ``homotopyType`` have no effect. Choose options where the controller is made.
     """
 
     controllerType = ac.Option("PID", choices=CONTROLLER, doc="type of controller")
@@ -113,7 +114,7 @@ class LimPID(SVcontrol):
         with_I, with_D = "I" in self.controllerType, "D" in self.controllerType
         self.addP = Add(k1=self.wp, k2=-1)
         self.P = Gain(k=1)
-        self.addPID = Add3(**({} if with_D else {"k2": 0}), **({} if with_I else {"k3": 0}))
+        self.addPID = Add3()
         self.gainPID = Gain(k=self.k)
         self.addFF = Add(k2=self.kFF)
         self.limiter = Limiter(uMax=self.yMax, uMin=self.yMin)
@@ -127,10 +128,19 @@ class LimPID(SVcontrol):
         self.connect(self.limiter.y, self.y)
         if with_D:
             self._differentiate()
+        else:
+            self.Dzero = Constant(k=0)
+            self.connect(self.Dzero.y, self.addPID.u2)
         if with_I:
             self._integrate()
+        else:
+            self.Izero = Constant(k=0)
+            self.connect(self.Izero.y, self.addPID.u3)
         if self.withFeedForward:
             self.connect(self.u_ff, self.addFF.u2)
+        else:
+            self.FFzero = Constant(k=0)
+            self.connect(self.FFzero.y, self.addFF.u2)
 
     def _differentiate(self) -> None:
         self.addD = Add(k1=self.wd, k2=-1)
@@ -156,12 +166,6 @@ class LimPID(SVcontrol):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.controlError, self.u_s - self.u_m)
-        if "D" not in self.controllerType:
-            yield ac.Eq(self.addPID.u2, 0)
-        if "I" not in self.controllerType:
-            yield ac.Eq(self.addPID.u3, 0)
-        if not self.withFeedForward:
-            yield ac.Eq(self.addFF.u2, 0)
 
     def initial_equations(self) -> Iterator[ac.Eq]:
         if self.initType == "InitialOutput":

@@ -280,7 +280,9 @@ class WrapAngle(SISO):
 
     def equations(self) -> Iterator[ac.Eq]:
         turn = 2 * ac.pi
-        turns = ac.floor(self.u / turn) if self.positiveRange else -ac.floor((ac.pi - self.u) / turn)
+        turns = (
+            ac.floor(self.u / turn) if self.positiveRange else -ac.floor((ac.pi - self.u) / turn)
+        )
         yield ac.Eq(self.y, self.u - turn * turns)
 
 

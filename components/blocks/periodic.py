@@ -15,14 +15,14 @@ class _Periodic(SignalSource):
     period = ac.Parameter(unit="s", min=0, doc="duration of one period")
     nperiod = ac.Option(-1, doc="number of periods; endless if negative")
 
-    def _shape(self, t: Any) -> Any:
+    def _curve(self, t: Any) -> Any:
         """The shape as a function of the time since its period began."""
         raise NotImplementedError
 
     def equations(self) -> Iterator[ac.Eq]:
         elapsed = ac.time - self.startTime
         count = ac.floor(elapsed / self.period)
-        shape = self._shape(elapsed - count * self.period)
+        shape = self._curve(elapsed - count * self.period)
         if self.nperiod >= 0:
             shape = ac.where(count < self.nperiod, shape, 0)
         yield ac.Eq(self.y, self.offset + ac.where(elapsed < 0, 0, shape))
@@ -33,14 +33,14 @@ class Pulse(_Periodic):
 
     width = ac.Parameter(50.0, min=0, max=100, doc="width of the pulse in per cent of the period")
 
-    def _shape(self, t: Any) -> Any:
+    def _curve(self, t: Any) -> Any:
         return ac.where(t < self.period * self.width / 100, self.amplitude, 0)
 
 
 class SawTooth(_Periodic):
     """Rises from 0 to ``amplitude`` in each period, plus ``offset``."""
 
-    def _shape(self, t: Any) -> Any:
+    def _curve(self, t: Any) -> Any:
         return self.amplitude * t / self.period
 
 
@@ -51,7 +51,7 @@ class Trapezoid(_Periodic):
     width = ac.Parameter(0.5, unit="s", min=0, doc="duration at the amplitude")
     falling = ac.Parameter(0.0, unit="s", min=0, doc="duration of the fall")
 
-    def _shape(self, t: Any) -> Any:
+    def _curve(self, t: Any) -> Any:
         top, fall = self.rising, self.rising + self.width
         end = fall + self.falling
         up = self.amplitude * t / ac.maximum(self.rising, INSTANT)

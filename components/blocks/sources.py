@@ -43,6 +43,7 @@ __all__ = [
     "Trapezoid",
 ]
 
+
 class RealExpression(SO):
     """A number or an expression of `acausal.time`: ``RealExpression(y=2 * ac.sin(ac.time))``.
 

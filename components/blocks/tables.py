@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -10,12 +10,16 @@ import acausal as ac
 
 from .interfaces import MO, SO
 
-SMOOTHNESS = {
+SMOOTHNESS: dict[str, Literal["linear", "previous", "cubic"]] = {
     "LinearSegments": "linear",
     "ConstantSegments": "previous",
     "ContinuousDerivative": "cubic",
 }
-EXTRAPOLATION = {"HoldLastPoint": "hold", "LastTwoPoints": "linear", "Periodic": "periodic"}
+EXTRAPOLATION: dict[str, Literal["hold", "linear", "periodic"]] = {
+    "HoldLastPoint": "hold",
+    "LastTwoPoints": "linear",
+    "Periodic": "periodic",
+}
 
 
 def _interpolant(
@@ -24,7 +28,7 @@ def _interpolant(
     """A signal through rows ``(t, y)``; a repeated time is a jump, a single row a constant."""
     rows = np.asarray(points, dtype=float)
     if len(rows) == 1:
-        rows = np.concatenate([rows, rows + [[1.0, 0.0]]])
+        rows = np.concatenate([rows, rows + np.array([1.0, 0.0])])
     ts = rows[:, 0].copy()
     for i in np.flatnonzero(np.diff(ts) == 0)[::-1]:
         ts[i] = np.nextafter(min(ts[i], ts[i + 1]), -np.inf)
@@ -105,7 +109,9 @@ class CombiTimeTable(MO, _TimeTable):
         columns = range(2, width + 1) if self.columns is None else [int(c) for c in self.columns]
         for column in columns:
             if not 2 <= column <= width:
-                raise ac.DeclarationError(f"columns={self.columns}: the table has columns 2 to {width}")
+                raise ac.DeclarationError(
+                    f"columns={self.columns}: the table has columns 2 to {width}"
+                )
         return columns
 
     def _column(self, i: int, key: Any) -> ac.Signal:
@@ -140,7 +146,9 @@ class SampledSignal(SO):
 
     def _signal(self, key: Any) -> ac.Signal:
         if self.values is None or (self.ts is None) == (self.dt is None):
-            raise ac.DeclarationError("SampledSignal needs values=[...] and either ts=[...] or dt=...")
+            raise ac.DeclarationError(
+                "SampledSignal needs values=[...] and either ts=[...] or dt=..."
+            )
         if self.ts is None:
             ts = self.startTime + self.dt * np.arange(len(self.values))
         else:

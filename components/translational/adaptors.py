@@ -49,7 +49,9 @@ class RelativeStates(PartialTwoFlanges):
     With the default ``stateSelect`` they are preferred over the states of masses.
     """
 
-    stateSelect = ac.Option("always", choices=STATE_SELECT, doc="priority of s_rel, v_rel as states")
+    stateSelect = ac.Option(
+        "always", choices=STATE_SELECT, doc="priority of s_rel, v_rel as states"
+    )
     s_rel = ac.Variable(unit="m", state="stateSelect", doc="distance, used as a state")
     v_rel = ac.Variable(unit="m/s", state="stateSelect", doc="relative speed, used as a state")
     a_rel = ac.Variable(unit="m/s2", doc="relative acceleration")

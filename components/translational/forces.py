@@ -117,9 +117,7 @@ class InverseSpeedDependentForce(_NominalForce):
         force = self.f_nominal * self.v_nominal / fast
         if not self.ForceDirection:
             slow = self.f_nominal * self.v / self.v0
-            force = ac.where(
-                ac.Abs(self.v) < self.v0, slow, force * ac.where(self.v < 0, -1, 1)
-            )
+            force = ac.where(ac.Abs(self.v) < self.v0, slow, force * ac.where(self.v < 0, -1, 1))
         yield ac.Eq(self.f, -force)
 
 

@@ -73,7 +73,9 @@ class Brake(_SlidingContact):
     Modelica locks at rest; here it creeps, see `PartialFriction`.
     """
 
-    mu_pos = ac.Parameter([[0.0, 0.5]], shape=(":", ":"), doc="rows of speed and friction coefficient")
+    mu_pos = ac.Parameter(
+        [[0.0, 0.5]], shape=(":", ":"), doc="rows of speed and friction coefficient"
+    )
     cgeo = ac.Parameter(1.0, min=0, doc="geometry constant of the friction pairing")
     fn_max = ac.Parameter(unit="N", min=0, doc="greatest normal force")
     f_normalized = ac.Input(doc="normal force as a fraction of fn_max")
@@ -100,7 +102,7 @@ class MassWithStopAndFriction(
     Modelica locks at rest and reinitializes at a stop. Here the friction creeps, and the stops at
     ``smin`` and ``smax`` are stiff: where an end of the mass goes beyond, spring ``c_stop`` and damper
     ``d_stop`` push back but never pull (`acausal.components.laws.contact`). The default ``d_stop``
-    makes the impact inelastic, as Modelica's. ``stopped`` is -1 at ``smin``, 1 at ``smax``, else 0.
+    makes the impact nearly inelastic (Modelica: inelastic). ``stopped`` is -1 at ``smin``, 1 at ``smax``, else 0.
     ``lossPower = f v`` leaves out the impacts.
     """
 
@@ -113,7 +115,10 @@ class MassWithStopAndFriction(
     fexp = ac.Parameter(unit="s/m", min=0, doc="decay of the Stribeck effect")
     c_stop = ac.Parameter(1e6, unit="N/m", min=0, doc="stiffness of the stops")
     d_stop = ac.Parameter(
-        lambda self: 4 * ac.sqrt(self.c_stop * self.m), unit="N.s/m", min=0, doc="damping of the stops"
+        lambda self: 20 * ac.sqrt(self.c_stop * self.m),
+        unit="N.s/m",
+        min=0,
+        doc="damping of the stops",
     )
     stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of s and v as states")
     s = ac.Variable(unit="m", state="stateSelect", doc="position of the centre")

@@ -77,7 +77,9 @@ class PartialCompliantWithRelativeStates(PartialCompliant):
     ``v_rel`` become states. ``s_nominal`` [m] is the magnitude of ``s_rel``, for scaling only.
     """
 
-    stateSelect = ac.Option("default", choices=STATE_SELECT, doc="priority of s_rel, v_rel as states")
+    stateSelect = ac.Option(
+        "default", choices=STATE_SELECT, doc="priority of s_rel, v_rel as states"
+    )
     s_nominal = ac.Option(1e-4, doc="nominal value of s_rel")
     s_rel = ac.Variable(
         unit="m", state="stateSelect", nominal="s_nominal", doc="distance from flange_a to flange_b"

@@ -46,7 +46,9 @@ class Position(PartialElementaryOneFlangeAndSupport2):
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
     s_ref = ac.Input(unit="m", doc="reference position")
-    s = ac.Variable(unit="m", state="_priority", doc="position of the flange relative to the support")
+    s = ac.Variable(
+        unit="m", state="_priority", doc="position of the flange relative to the support"
+    )
     v = ac.Variable(unit="m/s", state="_priority", doc="speed of the flange; 0 if exact")
     a = ac.Variable(unit="m/s2", doc="acceleration of the flange; 0 if exact")
 

@@ -1,0 +1,89 @@
+"""Plots of a training: what a network has learned and where to trust it, and how the loss fell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from acausal.fit import Fit, Seen
+    from acausal.history import History
+
+TRUTH = "#22303c"
+LEARNED = ("#1f77b4", "#d1603d", "#3d8c5a", "#8a5a9e", "#b8860b", "#417f8a")
+"""Colours of learned curves, in order."""
+GUIDE = "#8795a1"
+SPAN = 3.0
+"""Learned functions are drawn over this many sigmas of their inputs."""
+
+
+def learned(
+    ax: Axes,
+    functions: Mapping[str, Callable[..., Any]],
+    seen: Seen,
+    *,
+    truth: Callable[[Any], Any] | None = None,
+    xlabel: str = "",
+    ylabel: str = "",
+) -> None:
+    """Draw learned functions of one argument over what they have seen.
+
+    Vertical lines mark 1 sigma (dashed) and 2 sigma (solid) of the inputs in training; beyond 2 sigma, shaded,
+    a function extrapolates.
+
+    Arguments:
+        functions: by label; scalar functions that JAX can map.
+        seen: statistics of the argument in training.
+        truth: the true function, where it is known.
+    """
+    mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
+    x = np.linspace(mean - SPAN * sigma, mean + SPAN * sigma, 601)
+    if truth is not None:
+        ax.plot(x, np.asarray(truth(x)), color=TRUTH, lw=2.4, alpha=0.55, label="truth")
+    for (label, function), color in zip(functions.items(), LEARNED, strict=False):
+        ax.plot(x, np.asarray(jax.vmap(function)(jnp.asarray(x))), color=color, lw=1.5, label=label)
+    for times, style in ((1.0, "--"), (2.0, "-")):
+        for side in (-1, 1):
+            ax.axvline(mean + side * times * sigma, color=GUIDE, lw=0.9, ls=style)
+    for side in (-1, 1):
+        edge, end = mean + 2 * side * sigma, mean + SPAN * side * sigma
+        ax.axvspan(min(edge, end), max(edge, end), color=GUIDE, alpha=0.12, lw=0)
+    ax.set_xlim(x[0], x[-1])
+    ax.set(xlabel=xlabel, ylabel=ylabel)
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False)
+
+
+def losses(ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None) -> None:
+    """Draw losses over epochs: of the batches (thin) and over the whole record (dots).
+
+    Arguments:
+        levels: horizontal lines by label, such as a published loss.
+    """
+    for (label, history), color in zip(histories.items(), LEARNED, strict=False):
+        ax.semilogy(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
+        ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
+    for label, level in (levels or {}).items():
+        ax.axhline(level, color=GUIDE, lw=1, ls=":")
+        ax.annotate(label, (1, level), xycoords=("axes fraction", "data"), xytext=(-4, 3),
+                    textcoords="offset points", ha="right", fontsize=8, color=GUIDE)
+    ax.set(xlabel="epoch", ylabel="loss")
+    ax.grid(alpha=0.25, which="both")
+    ax.legend(frameon=False)
+
+
+def modifiers(ax: Axes, fit: Fit, *, targets: Mapping[str, float] | None = None) -> None:
+    """Draw the relative changes of trained parameters over epochs, and their targets where these are known."""
+    for (name, values), color in zip(fit.history.modifiers.items(), LEARNED, strict=False):
+        ax.plot(values, color=color, lw=1.4, label=name)
+        if targets is not None:
+            ax.axhline(targets[name], color=color, lw=0.9, ls="--")
+    ax.set(xlabel="epoch", ylabel="relative change")
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False)

@@ -1,0 +1,153 @@
+"""Pose a training problem: a user's wishes and data, checked, become a `Problem`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal import losses, solvers
+from acausal import modifiers as parameter_modifiers
+from acausal.data import Data
+from acausal.errors import DataError, TrainingError, listing, nearest
+from acausal.neural import networks
+from acausal.problem import Problem
+from acausal.record import lay_out, sequences
+from acausal.regularizers import Context, Regularizer, label
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+REFERENCE_POINTS = 1000
+"""Points of the record at which regularizers look at networks."""
+
+Start = Literal["data", "model"]
+
+
+def pose(
+    system: System,
+    data: Data,
+    targets: tuple[str, ...],
+    params: dict[str, Any],
+    *,
+    train: Iterable[str] | None,
+    modifiers: Mapping[str, float] | Iterable[str] | None,
+    gamma: float,
+    loss: str | losses.Loss,
+    regularizers: tuple[Regularizer, ...],
+    sequence_length: float | None,
+    batch_size: int,
+    subsample: float | None,
+    dt: float | None,
+    solver: str | solvers.Solver,
+    x0: Start | Mapping[str, float],
+) -> Problem:
+    """The problem of a training; arguments as those of `acausal.fit`, data in the model's units.
+
+    Raises:
+        DataError: if the data do not serve the training.
+        TrainingError: if there is nothing to train, or a wish cannot be met.
+    """
+    chosen = _networks(train, params)
+    changed = parameter_modifiers.modifiers(modifiers, gamma, params)
+    if not chosen and not changed.names:
+        raise TrainingError("There is nothing to train: the model has no network. Give modifiers=[...] to train parameters.")
+    if not targets:
+        raise TrainingError("There are no targets: name the variables to fit.")
+    if len(data) < 2:
+        raise DataError("The record has less than two samples.")
+    cut = sequences(data, sequence_length, batch_size, subsample)
+    missing = [n for n in system.states if n not in data.signals]
+    if missing and not cut.whole:
+        raise DataError(
+            f"The data lack {listing(missing)}: sequences start from measured states. "
+            "Train on the whole record (sequence_length=None) with x0='model' or x0={...}."
+        )
+    record = lay_out(data, system.inputs, targets, None if missing else system.states)
+    problem = Problem(
+        system=system,
+        params={n: leaf if callable(leaf) else jnp.asarray(leaf, float) for n, leaf in params.items()},
+        networks=chosen,
+        modifiers=changed,
+        targets=targets,
+        record=record,
+        sequences=cut,
+        x0=_first_state(system, data, x0, missing),
+        loss=losses.named(loss),
+        regularizers=_labelled(regularizers),
+        context=None,
+        solver=solvers.fixed(solvers.named(solver)),
+        substeps=_substeps(data, dt),
+    )
+    if not regularizers:
+        return problem
+    return eqx.tree_at(lambda p: p.context, problem, _context(problem), is_leaf=lambda leaf: leaf is None)
+
+
+def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:
+    found = networks(params)
+    if train is None:
+        return tuple(found)
+    chosen = (train,) if isinstance(train, str) else tuple(train)
+    for name in chosen:
+        if name not in found:
+            raise TrainingError(f"There is no network '{name}' to train: {nearest(name, found)}")
+    return chosen
+
+
+def _first_state(
+    system: System, data: Data, x0: Start | Mapping[str, float], missing: list[str]
+) -> Array | None:
+    if x0 == "model":
+        return None
+    given: Mapping[str, float] = {} if isinstance(x0, str) else x0
+    for name in given:
+        if name not in system.states:
+            raise DataError(f"x0: '{name}' is no state of the model: {nearest(name, system.states)}")
+    unknown = [n for n in missing if n not in given]
+    if unknown:
+        raise DataError(
+            f"The data lack {listing(unknown)}, with which the record starts: "
+            f"give x0={{'{unknown[0]}': ...}}, or x0='model' for the model's start values."
+        )
+    return jnp.asarray([given[n] if n in given else data[n][0] for n in system.states], float)
+
+
+def _labelled(regularizers: tuple[Regularizer, ...]) -> dict[str, Regularizer]:
+    named: dict[str, Regularizer] = {}
+    for regularizer in regularizers:
+        name = label(regularizer)
+        count = sum(n.split(" ")[0] == name for n in named)
+        named[f"{name} {count + 1}" if count else name] = regularizer
+    return named
+
+
+def _substeps(data: Data, dt: float | None) -> int:
+    if dt is None:
+        return 1
+    longest = data.sample_time if data.uniform else float(np.max(np.diff(data.time)))
+    if not (np.isfinite(dt) and dt > 0):
+        raise TrainingError(f"dt={dt} is no step; give a positive time in seconds.")
+    n = max(1, round(longest / dt)) if data.uniform else int(np.ceil(longest / dt - 1e-6))
+    if data.uniform and abs(longest / dt - n) > 1e-6 * n:
+        raise TrainingError(
+            f"dt={dt:g} s is no whole part of the data's sample time, {longest:g} s: "
+            f"choose {longest / n:g} s, or resample the data."
+        )
+    return n
+
+
+def _context(problem: Problem) -> Context:
+    """What networks are called with over the record: in the measured states, else in a simulation."""
+    trainable = problem.start()
+    x = problem.record.x
+    if x is None:
+        x = problem.trajectory(trainable)
+        if not bool(jnp.isfinite(x).all()):
+            raise TrainingError("The model diverges over the record before training; start from better parameters.")
+    rows = np.unique(np.linspace(0, len(problem.record) - 1, REFERENCE_POINTS).astype(int))
+    return Context(problem.networks, problem.seen(trainable, x, rows))
