@@ -1,7 +1,8 @@
 """Alias elimination: variables that are equal up to sign become one, and equations shrink accordingly.
 
 ``x = y``, ``x = -y`` and ``x = 0`` need no solver. A union-find with signs merges such variables; where
-``x`` and ``y`` are merged so are their derivatives. Equations are then *specialised*: rewritten once per
+``x`` and ``y`` are merged so are their derivatives. Derivatives form chains, which stay chains: an
+equation such as ``der(x) = -x`` remains one. Equations are then *specialised*: rewritten once per
 pattern of merged, negated and vanished slots, which may reveal further aliases.
 """
 
@@ -53,7 +54,9 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
     changed = True
     while changed:
         classes.settle()
-        pieces = [p for group in pending for p in specialise(group, classes, parameters, model.folded)]
+        pieces = [
+            p for group in pending for p in specialise(group, classes, parameters, model.folded)
+        ]
         pending, changed = [], False
         for piece in pieces:
             alias = _alias(piece.template)
@@ -62,9 +65,12 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
             elif alias is None:
                 pending.append(piece)
             else:
-                dropped = classes.merge(piece, alias)
-                redundant += [(piece.template.origin, int(piece.components[i])) for i in dropped]
-                changed = True
+                outcome = classes.merge(piece, alias)
+                told = np.flatnonzero(outcome == _KNOWN)
+                redundant += [(piece.template.origin, int(piece.components[i])) for i in told]
+                if (outcome == _REFUSED).any():
+                    pending.append(piece.rows(outcome == _REFUSED))
+                changed = changed or bool((outcome == _MERGED).any())
     _check_inputs(model, classes)
     return _result(model, classes, pending, tuple(redundant))
 
@@ -96,14 +102,22 @@ def parameter_aliases(model: FlatModel) -> Integers:
     return target
 
 
+_KNOWN, _MERGED, _REFUSED = 0, 1, 2
+
+
 @dataclass
 class _Classes:
-    """The union-find: parents and signs of all nodes, and the derivative of every class."""
+    """The union-find: parents and signs of all nodes, and the derivative of every class.
+
+    ``antecedent`` leads from a class to the one that it is the derivative of. But for zero, which is its own
+    derivative, a class has at most one derivative and is the derivative of at most one.
+    """
 
     zero: int
     parent: list[int]
     sign: list[int]
     derivative: dict[int, tuple[int, int]]
+    antecedent: dict[int, int]
     base: list[int]
     root: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     root_sign: Integers = field(default_factory=lambda: np.empty(0, dtype=np.int64))
@@ -111,7 +125,7 @@ class _Classes:
     @staticmethod
     def of(n_variables: int) -> _Classes:
         n = n_variables + 1
-        return _Classes(n_variables, list(range(n)), [1] * n, {}, [-1] * n)
+        return _Classes(n_variables, list(range(n)), [1] * n, {}, {}, [-1] * n)
 
     def with_derivative_nodes(self, group: EquationGroup) -> EquationGroup:
         """The group with nodes in the slots of derivatives."""
@@ -121,7 +135,9 @@ class _Classes:
         for column, order in enumerate(group.template.orders):
             for _ in range(order):
                 variables[:, column] = [self._node(int(v)) for v in variables[:, column]]
-        return EquationGroup(group.template, variables, group.parameters, group.modules, group.components)
+        return EquationGroup(
+            group.template, variables, group.parameters, group.modules, group.components
+        )
 
     def _node(self, variable: int) -> int:
         if variable not in self.derivative:
@@ -130,6 +146,7 @@ class _Classes:
             self.sign.append(1)
             self.base.append(variable)
             self.derivative[variable] = node, 1
+            self.antecedent[node] = variable
         return self.derivative[variable][0]
 
     def find(self, node: int) -> tuple[int, int]:
@@ -144,15 +161,30 @@ class _Classes:
             self.parent[step], self.sign[step] = node, sign
         return node, sign
 
-    def merge(self, group: EquationGroup, relative: tuple[int, ...]) -> list[int]:
-        """Merge the two slots of every row (or one slot with zero); returns the rows that told nothing new."""
-        told: list[int] = []
-        pairs = group.variables.tolist()
-        for i, row in enumerate(pairs):
-            new = self._union(row[0], row[1], relative[0]) if len(row) == 2 else self._union(row[0], self.zero, 1)
-            if not new:
-                told.append(i)
-        return told
+    def merge(self, group: EquationGroup, relative: tuple[int, ...]) -> Integers:
+        """Merge the two slots of every row (or one slot with zero); returns what came of every row."""
+        outcome: list[int] = []
+        for row in group.variables.tolist():
+            a, b, sign = (*row, *relative) if len(row) == 2 else (*row, self.zero, 1)
+            (ra, _), (rb, _) = self.find(a), self.find(b)
+            if ra != rb and not self._may_join(ra, rb):
+                outcome.append(_REFUSED)
+            else:
+                outcome.append(_MERGED if self._union(a, b, sign) else _KNOWN)
+        return np.asarray(outcome)
+
+    def _may_join(self, a: int, b: int) -> bool:
+        """Whether derivatives form chains also where two classes are one: no rings, no branches."""
+        if self.zero in (a, b):
+            return True
+        if a in self.antecedent and b in self.antecedent:
+            return False
+        return self._bottom(a) != self._bottom(b)
+
+    def _bottom(self, root: int) -> int:
+        while root in self.antecedent and root != self.zero:
+            root = self.find(self.antecedent[root])[0]
+        return root
 
     def _union(self, a: int, b: int, relative: int) -> bool:
         """State ``a = relative * b``; False if it was known."""
@@ -170,6 +202,8 @@ class _Classes:
                 ra, rb = rb, ra
             new = True
             self.parent[ra], self.sign[ra] = rb, relative
+            if (antecedent := self.antecedent.pop(ra, None)) is not None and rb != self.zero:
+                self.antecedent.setdefault(rb, antecedent)
             queue += self._join_derivatives(ra, rb, relative)
         return new
 
@@ -248,12 +282,16 @@ def _first_equal(rows: Integers) -> Integers:
 
 
 @lru_cache(maxsize=None)
-def specialised(template: Template, pattern: tuple[int, ...]) -> tuple[Template, tuple[list[int], ...]]:
+def specialised(
+    template: Template, pattern: tuple[int, ...]
+) -> tuple[Template, tuple[list[int], ...]]:
     """The template with slots merged, negated or set to zero, and the columns of the slots that remain."""
     n = len(template.variables)
     replaced: dict[sp.Symbol, Any] = {}
     for symbol, code in zip(template.variables, pattern[:n], strict=True):
-        replaced[symbol] = sp.S.Zero if code == 0 else sp.sign(code) * template.variables[abs(code) - 1]
+        replaced[symbol] = (
+            sp.S.Zero if code == 0 else sp.sign(code) * template.variables[abs(code) - 1]
+        )
     for symbol, is_zero in zip(template.parameters, pattern[n:], strict=True):
         if is_zero:
             replaced[symbol] = sp.S.Zero
@@ -287,7 +325,9 @@ def _alias(template: Template) -> tuple[int, ...] | None:
     slopes = [template.residual.diff(s) for s in template.variables]
     if not all(s.is_number and s != 0 for s in slopes):
         return None
-    rest = template.residual - sp.Add(*(c * s for c, s in zip(slopes, template.variables, strict=True)))
+    rest = template.residual - sp.Add(
+        *(c * s for c, s in zip(slopes, template.variables, strict=True))
+    )
     if sp.expand(rest) != 0:
         return None
     if len(slopes) == 1:
@@ -300,7 +340,10 @@ def _alias(template: Template) -> tuple[int, ...] | None:
 
 
 def _result(
-    model: FlatModel, classes: _Classes, groups: Sequence[EquationGroup], redundant: tuple[tuple[str, int], ...]
+    model: FlatModel,
+    classes: _Classes,
+    groups: Sequence[EquationGroup],
+    redundant: tuple[tuple[str, int], ...],
 ) -> AliasFree:
     """Name every class by its best member and express everything in these."""
     root, root_sign, zero = classes.root, classes.root_sign, classes.zero
@@ -321,10 +364,23 @@ def _result(
         flips = root_sign[best[group.variables]]
         for piece in _negated(group, flips):
             renamed.append(
-                EquationGroup(piece.template, best[piece.variables], piece.parameters, piece.modules, piece.components)
+                EquationGroup(
+                    piece.template,
+                    best[piece.variables],
+                    piece.parameters,
+                    piece.modules,
+                    piece.components,
+                )
             )
     return AliasFree(
-        zero, representative, sign, derivative, derivative_sign, np.asarray(classes.base), tuple(renamed), redundant
+        zero,
+        representative,
+        sign,
+        derivative,
+        derivative_sign,
+        np.asarray(classes.base),
+        tuple(renamed),
+        redundant,
     )
 
 
@@ -354,7 +410,10 @@ def _best_members(model: FlatModel, classes: _Classes) -> Integers:
 def _depths(model: FlatModel) -> Integers:
     """How many dots each variable's name has."""
     layout = model.layout
-    own = [np.asarray([path.count(".") for path, _ in form.variables], dtype=np.int64) for form in layout.forms]
+    own = [
+        np.asarray([path.count(".") for path, _ in form.variables], dtype=np.int64)
+        for form in layout.forms
+    ]
     above = [0 if not path else path.count(".") + 1 for path in layout.paths]
     pieces = [own[f] + above[i] for i, f in enumerate(layout.form_of)]
     return np.concatenate(pieces) if pieces else np.empty(0, dtype=np.int64)
@@ -367,8 +426,12 @@ def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
     kinds, which = np.unique(flips, axis=0, return_inverse=True)
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(group.template.parameters)
+        pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(
+            group.template.parameters
+        )
         template, _ = specialised(group.template, pattern)
         rows = group.rows(which.ravel() == number)
-        pieces.append(EquationGroup(template, rows.variables, rows.parameters, rows.modules, rows.components))
+        pieces.append(
+            EquationGroup(template, rows.variables, rows.parameters, rows.modules, rows.components)
+        )
     return pieces

@@ -14,6 +14,7 @@ from acausal.errors import ModelError, nearest
 from acausal.lower import ModuleValue, evaluate
 from acausal.parameters import Packed
 from acausal.symbols import ModuleCall, time
+from acausal.template import EquationGroup
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -30,7 +31,7 @@ class Call:
         modules: which module fills a slot, for calls within the arguments.
     """
 
-    arguments: tuple[sp.Expr, ...]
+    arguments: tuple[Any, ...]
     variables: tuple[tuple[sp.Symbol, str], ...]
     parameters: tuple[tuple[sp.Symbol, int], ...]
     modules: tuple[tuple[sp.Symbol, int], ...]
@@ -51,23 +52,25 @@ def calls(system: System, module: str) -> tuple[Call, ...]:
 
 
 def _calls(system: System, target: int) -> Iterator[Call]:
-    names, parameters = system.flat.layout, system.layout
     for group in system.flat.groups:
-        template = group.template
-        found = sorted(template.residual.atoms(ModuleCall), key=sp.default_sort_key) if template.modules else []
-        for row in range(len(group) if found else 0):
-            modules = dict(zip(template.modules, parameters.module_of[group.modules[row]].tolist(), strict=True))
-            slots = zip(template.variables, group.variables[row].tolist(), template.orders, strict=True)
-            variables = tuple((s, "der(" * n + names.variable(v) + ")" * n) for s, v, n in slots)
-            numbers = zip(template.parameters, group.parameters[row].tolist(), strict=True)
-            for call in found:
-                if modules[call.args[0]] == target:
-                    yield Call(
-                        call.args[2:],
-                        variables,
-                        tuple((s, int(parameters.position[p])) for s, p in numbers),
-                        tuple(modules.items()),
-                    )
+        if not group.template.modules:
+            continue
+        found = sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key)
+        for row in range(len(group)):
+            filled = _slots(system, group, row)
+            modules: dict[Any, int] = dict(filled[2])
+            yield from (Call(c.args[2:], *filled) for c in found if modules[c.args[0]] == target)
+
+
+def _slots(system: System, group: EquationGroup, row: int) -> tuple[Any, Any, Any]:
+    """What fills the slots of one equation: its variables, parameters and modules."""
+    template, names, layout = group.template, system.flat.layout, system.layout
+    filled = zip(template.variables, group.variables[row].tolist(), template.orders, strict=True)
+    variables = tuple((s, "der(" * n + names.variable(v) + ")" * n) for s, v, n in filled)
+    positions = layout.position[group.parameters[row]].tolist()
+    chosen = layout.module_of[group.modules[row]].tolist()
+    parameters = tuple(zip(template.parameters, positions, strict=True))
+    return variables, parameters, tuple(zip(template.modules, chosen, strict=True))
 
 
 def arguments(system: System, module: str, t: Any, x: Array, u: Array, packed: Packed) -> Array:

@@ -79,7 +79,9 @@ class Connector:
 
     def _read(self, declaration: Declaration) -> Reference:
         if self._owner is None:
-            raise DeclarationError(f"connector class {type(self).__name__} is used outside of a component")
+            raise DeclarationError(
+                f"connector class {type(self).__name__} is used outside of a component"
+            )
         name = declaration.name
         if name not in self._references:
             self._references[name] = Reference(self._owner, f"{self._name}.{name}", declaration)
@@ -247,7 +249,9 @@ class Component:
         if ":" in declaration.shape:
             value = self._modifiers.get(name, cast(Parameter, declaration).default)
             if value is None:
-                raise DeclarationError(f"{self._label()} has no value for '{name}'; give {name}=[...]")
+                raise DeclarationError(
+                    f"{self._label()} has no value for '{name}'; give {name}=[...]"
+                )
             shape = np.shape(np.asarray(value, dtype=object))
             if len(shape) != len(declaration.shape):
                 raise DeclarationError(
@@ -283,11 +287,15 @@ class Component:
 
     def _claim(self, name: str) -> None:
         if not name.isidentifier():
-            raise DeclarationError(f"'{name}' is no name for a part: letters, digits and underscores only")
+            raise DeclarationError(
+                f"'{name}' is no name for a part: letters, digits and underscores only"
+            )
         if name in self.__dict__:
             raise DeclarationError(f"{self._label()} has a '{name}' already; choose another name")
         if hasattr(type(self), name):
-            raise DeclarationError(f"'{name}' is a method of {type(self).__name__}; choose another name")
+            raise DeclarationError(
+                f"'{name}' is a method of {type(self).__name__}; choose another name"
+            )
 
     def _add(self, name: str, part: Component | Connector | Declaration) -> Any:
         if isinstance(part, Component):
@@ -331,10 +339,14 @@ class Component:
         match declaration:
             case Connector():
                 if not isinstance(value, Mapping):
-                    raise DeclarationError(f"{where} is a connector; modify its variables by a mapping")
+                    raise DeclarationError(
+                        f"{where} is a connector; modify its variables by a mapping"
+                    )
                 for key, start in cast(Mapping[str, Any], value).items():
                     if key not in declaration.declarations:
-                        raise DeclarationError(f"{where} has no '{key}': {nearest(key, declaration.declarations)}")
+                        raise DeclarationError(
+                            f"{where} has no '{key}': {nearest(key, declaration.declarations)}"
+                        )
                     self._restart(f"{name}.{key}", _start(f"{where}.{key}", start))
             case Option():
                 if declaration.choices is not None and value not in declaration.choices:
@@ -347,7 +359,9 @@ class Component:
                 self._restart(name, _start(where, value))
             case Module():
                 if not callable(value) and not isinstance(value, ModuleReference):
-                    raise DeclarationError(f"{where} needs a module or a function key -> module, got {value!r}")
+                    raise DeclarationError(
+                        f"{where} needs a module or a function key -> module, got {value!r}"
+                    )
                 self._modifiers[name] = value
             case Parameter():
                 self._modifiers[name] = _value(where, declaration, value)
@@ -359,22 +373,31 @@ class Component:
         """Give a variable's attributes; what an earlier modifier gave and this one leaves open stays."""
         earlier = self._modifiers.get(name, Start())
         self._modifiers[name] = Start(
-            **{f.name: v if (v := getattr(start, f.name)) is not None else getattr(earlier, f.name) for f in fields(Start)}
+            **{
+                f.name: v if (v := getattr(start, f.name)) is not None else getattr(earlier, f.name)
+                for f in fields(Start)
+            }
         )
 
     def _attribute(self, variable: Variable, attribute: str) -> Any:
         """A declared attribute of a variable, looked up where the declaration gives the name of another one."""
         value = getattr(variable, attribute)
-        return getattr(self, value) if isinstance(value, str) and value not in STATE_SELECT else value
+        return (
+            getattr(self, value) if isinstance(value, str) and value not in STATE_SELECT else value
+        )
 
     # -- connections -------------------------------------------------------------------------------
 
     def _join(self, a: Any, b: Any) -> None:
         for end in (a, b):
             if not (isinstance(end, Connector) or _is_signal(end)):
-                raise ConnectionError(f"{_label(end)} is not a connector; connect({_label(a)}, {_label(b)})")
+                raise ConnectionError(
+                    f"{_label(end)} is not a connector; connect({_label(a)}, {_label(b)})"
+                )
         if isinstance(a, Connector) != isinstance(b, Connector):
-            raise ConnectionError(f"unlike connectors: {_label(a)} and {_label(b)}; one is a signal")
+            raise ConnectionError(
+                f"unlike connectors: {_label(a)} and {_label(b)}; one is a signal"
+            )
         if a is b:
             raise ConnectionError(f"{_label(a)} is connected to itself")
         if isinstance(a, Connector) and a.kind() != b.kind():
@@ -384,7 +407,9 @@ class Component:
         self._connections.append((a, b))
 
 
-def _elements(owner: Component, name: str, declaration: Declaration, shape: tuple[int, ...] | None) -> Any:
+def _elements(
+    owner: Component, name: str, declaration: Declaration, shape: tuple[int, ...] | None
+) -> Any:
     """A reference, or nested tuples of references named as Modelica does: ``y[1]``, ``A[1,2]``."""
     if shape is None:
         return Reference(owner, name, declaration)
@@ -401,7 +426,9 @@ def _is_list_of_parts(value: Any) -> bool:
     return (
         isinstance(value, list | tuple)
         and len(cast(Sequence[Any], value)) > 0
-        and all(isinstance(v, Component | Connector | Declaration) for v in cast(Sequence[Any], value))
+        and all(
+            isinstance(v, Component | Connector | Declaration) for v in cast(Sequence[Any], value)
+        )
     )
 
 
@@ -416,7 +443,9 @@ def _start(where: str, value: Any) -> Start:
         try:
             return Start(**value)
         except TypeError:
-            raise DeclarationError(f"{where}: a start has value, fixed, nominal and state") from None
+            raise DeclarationError(
+                f"{where}: a start has value, fixed, nominal and state"
+            ) from None
     raise DeclarationError(f"{where} is a variable; give its start as ac.Start({value!r})")
 
 
@@ -426,21 +455,29 @@ def _value(where: str, declaration: Parameter, value: Any) -> Any:
     if isinstance(value, sp.Expr) and not value.is_number:
         foreign = [r for r in value.free_symbols if not isinstance(r, Reference)]
         unsteady = [
-            r for r in value.free_symbols if isinstance(r, Reference) and not isinstance(r.declaration, Parameter)
+            r
+            for r in value.free_symbols
+            if isinstance(r, Reference) and not isinstance(r.declaration, Parameter)
         ]
         if foreign or unsteady:
-            raise DeclarationError(f"{where} = {value}: only parameters may stand in a parameter's value")
+            raise DeclarationError(
+                f"{where} = {value}: only parameters may stand in a parameter's value"
+            )
         return value
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise DeclarationError(f"{where}={value!r}: a number or an expression of parameters is needed") from None
+        raise DeclarationError(
+            f"{where}={value!r}: a number or an expression of parameters is needed"
+        ) from None
     if not math.isfinite(number):
         raise DeclarationError(f"{where}={number}: a finite number is needed")
     low, high = declaration.min, declaration.max
     if (low is not None and number < low) or (high is not None and number > high):
         bound = f"at least {low:g}" if low is not None and number < low else f"at most {high:g}"
-        raise DeclarationError(f"{where}={number:g} is out of range: {bound} {declaration.unit}".rstrip())
+        raise DeclarationError(
+            f"{where}={number:g} is out of range: {bound} {declaration.unit}".rstrip()
+        )
     return number
 
 

@@ -52,13 +52,16 @@ def connection_sets(layout: Layout) -> ConnectionSets:
         return ConnectionSets((), edges)
     sides, index = np.unique(edges, return_inverse=True)
     pairs = index.reshape(edges.shape)
-    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(sides), len(sides)))
+    graph = coo_array(
+        (np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(sides), len(sides))
+    )
     _, label = connected_components(graph, directed=False)
     order = np.argsort(label, kind="stable")
     members = np.split(sides[order], np.flatnonzero(np.diff(label[order])) + 1)
     members.sort(key=lambda m: int(m[0]))
     nodes = tuple(
-        _Node(tuple(int(s) >> 1 for s in m), tuple(bool(s & 1) for s in m), kinds[int(m[0]) >> 1]) for m in members
+        _Node(tuple(int(s) >> 1 for s in m), tuple(bool(s & 1) for s in m), kinds[int(m[0]) >> 1])
+        for m in members
     )
     return ConnectionSets(nodes, edges)
 
@@ -99,7 +102,9 @@ def model_inputs(layout: Layout, sets: ConnectionSets) -> Integers:
 
 def _fed(layout: Layout, node: _Node) -> list[int]:
     """The signals of a node that it determines; where nothing feeds the node, its first stays open."""
-    sinks = [v for v, w in zip(node.variables, node.within, strict=True) if not _is_source(layout, v, w)]
+    sinks = [
+        v for v, w in zip(node.variables, node.within, strict=True) if not _is_source(layout, v, w)
+    ]
     return sinks if len(sinks) < len(node.variables) else sinks[1:]
 
 
@@ -108,7 +113,9 @@ def _is_source(layout: Layout, variable: int, within: bool) -> bool:
 
 
 def _check_sources(layout: Layout, node: _Node) -> None:
-    sources = [v for v, w in zip(node.variables, node.within, strict=True) if _is_source(layout, v, w)]
+    sources = [
+        v for v, w in zip(node.variables, node.within, strict=True) if _is_source(layout, v, w)
+    ]
     if len(sources) > 1:
         names = " and ".join(f"'{layout.variable(v)}'" for v in sources[:12])
         raise ConnectionError(f"{names} feed one signal; a signal has one source")
@@ -129,7 +136,9 @@ def _edges(layout: Layout) -> tuple[Integers, dict[int, type[Connector] | None]]
     return np.asarray(edges, dtype=np.int64).reshape(-1, 2), kinds
 
 
-def _locate(layout: Layout, scope: Component, end: Any) -> tuple[Component, int, type[Connector] | None]:
+def _locate(
+    layout: Layout, scope: Component, end: Any
+) -> tuple[Component, int, type[Connector] | None]:
     owner: Component = end._owner if isinstance(end, Connector) else end.owner
     number = layout.position.get(id(owner))
     if number is None:

@@ -178,10 +178,14 @@ class Data:
 def _check_units(units: Mapping[str, str], signals: Mapping[str, Any]) -> None:
     without = [n for n in signals if n not in units]
     if without:
-        raise DataError(f"{listing(without)} have no unit while other signals have one; give units to all.")
+        raise DataError(
+            f"{listing(without)} have no unit while other signals have one; give units to all."
+        )
     extra = [n for n in units if n not in signals and n != "time"]
     if extra:
-        raise DataError(f"There are units for {listing(extra)} but no such signal: {nearest(extra[0], signals)}")
+        raise DataError(
+            f"There are units for {listing(extra)} but no such signal: {nearest(extra[0], signals)}"
+        )
 
 
 def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:
@@ -190,7 +194,9 @@ def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:
     for cell in header:
         match = HEADER.fullmatch(cell)
         if match is None or not match["name"]:
-            raise DataError(f"{where}: '{cell}' is no column header; write 'name' or 'name [unit]'.")
+            raise DataError(
+                f"{where}: '{cell}' is no column header; write 'name' or 'name [unit]'."
+            )
         name = match["name"]
         if name in names:
             raise DataError(f"{where}: two columns are called '{name}'.")

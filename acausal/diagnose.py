@@ -25,12 +25,16 @@ def explain_singularity(
     collapsed = [list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in incidence]
     bottoms = list(dict.fromkeys(chains.values()))
     number = {v: i for i, v in enumerate(bottoms)}
-    found = graph.singularity([[number[v] for v in row] for row in collapsed], len(bottoms), range(len(bottoms)))
+    found = graph.singularity(
+        [[number[v] for v in row] for row in collapsed], len(bottoms), range(len(bottoms))
+    )
     if found is None and not aliases.redundant:
         return None
     unknowns = model.n_variables - len(model.inputs)
     parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
-    missing = [_name(model, aliases, bottoms[i]) for i in (found.unmatched_variables if found else ())]
+    missing = [
+        _name(model, aliases, bottoms[i]) for i in (found.unmatched_variables if found else ())
+    ]
     surplus = [origins[e] for e in (found.unmatched_equations if found else ())]
     related = [origins[e] for e in (found.equations if found else ()) if origins[e] not in surplus]
     if missing:
@@ -39,7 +43,9 @@ def explain_singularity(
         told = [_equation(model, origin) for origin in (*surplus, *aliases.redundant)]
         parts.append(f"too much is said by: {listing(dict.fromkeys(told), 6)}")
     if related:
-        parts.append(f"together with: {listing(dict.fromkeys(_equation(model, o) for o in related), 6)}")
+        parts.append(
+            f"together with: {listing(dict.fromkeys(_equation(model, o) for o in related), 6)}"
+        )
     return "; ".join(parts) + ". " + _mend(bool(missing), bool(surplus or aliases.redundant))
 
 

@@ -122,18 +122,32 @@ def _learns(part: Component) -> bool:
 
 
 def _draw_wire(
-    ax: Axes, wire: _Wire, positions: dict[str, tuple[float, float]], node: tuple[float, float], color: str
+    ax: Axes,
+    wire: _Wire,
+    positions: dict[str, tuple[float, float]],
+    node: tuple[float, float],
+    color: str,
 ) -> None:
     for part, name in wire.ends:
         if not part:
-            ax.annotate(name, node, xytext=(0, 8), textcoords="offset points", ha="center", fontsize=8, color=color)
+            ax.annotate(
+                name,
+                node,
+                xytext=(0, 8),
+                textcoords="offset points",
+                ha="center",
+                fontsize=8,
+                color=color,
+            )
             continue
         x, y = positions[part]
         ax.plot([node[0], x], [node[1], y], color=color, lw=1.6, zorder=1, solid_capstyle="round")
     ax.plot(*node, "o", color=color, ms=5, zorder=2)
 
 
-def _draw_box(ax: Axes, position: tuple[float, float], name: str, kind: str, *, learned: bool) -> None:
+def _draw_box(
+    ax: Axes, position: tuple[float, float], name: str, kind: str, *, learned: bool
+) -> None:
     ax.annotate(
         f"{name}\n{kind}",
         position,
@@ -142,7 +156,12 @@ def _draw_box(ax: Axes, position: tuple[float, float], name: str, kind: str, *, 
         fontsize=8,
         linespacing=1.3,
         zorder=3,
-        bbox={"boxstyle": "round,pad=0.45", "fc": LEARNED if learned else PLAIN, "ec": "#44525f", "lw": 1.0},
+        bbox={
+            "boxstyle": "round,pad=0.45",
+            "fc": LEARNED if learned else PLAIN,
+            "ec": "#44525f",
+            "lw": 1.0,
+        },
     )
 
 
@@ -151,5 +170,3 @@ def _frame(ax: Axes, positions: Iterable[tuple[float, float]]) -> None:
     ax.set_xlim(min(xs) - 0.9, max(xs) + 0.9)
     ax.set_ylim(min(ys) - 0.6, max(ys) + 0.6)
     ax.set_axis_off()
-
-

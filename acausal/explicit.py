@@ -19,11 +19,15 @@ MAX_LOOP = 6
 time = sp.Symbol("time")
 
 
-def explicit_equations(reduced: ReducedModel, aliases_of_parameters: Any) -> tuple[sp.Equality, ...]:
+def explicit_equations(
+    reduced: ReducedModel, aliases_of_parameters: Any
+) -> tuple[sp.Equality, ...]:
     """``der(state) = ...`` for every state, in order, then the equations of loops left implicit."""
     writer = _Writer(reduced, aliases_of_parameters)
     rates = [
-        sp.Eq(sp.Derivative(writer.symbol(int(s)), time), sign * writer.value(int(r)), evaluate=False)
+        sp.Eq(
+            sp.Derivative(writer.symbol(int(s)), time), sign * writer.value(int(r)), evaluate=False
+        )
         for s, r, sign in zip(reduced.states, reduced.rates, reduced.rate_signs, strict=True)
     ]
     return (*rates, *writer.implicit)
@@ -100,9 +104,15 @@ class _Writer:
                 loop.modules[row][list(equation.modules)],
             )
             for symbol, code in zip(equation.template.variables, equation.variables, strict=True):
-                names[symbol] = own[code] if code >= 0 else self._values[int(loop.externals[row, -1 - code])]
+                names[symbol] = (
+                    own[code] if code >= 0 else self._values[int(loop.externals[row, -1 - code])]
+                )
             residuals.append(_readable(equation.template.residual.xreplace(names)))
-        solved = sp.solve(residuals, own, dict=True) if loop.shape.is_linear and len(own) <= MAX_LOOP else []
+        solved = (
+            sp.solve(residuals, own, dict=True)
+            if loop.shape.is_linear and len(own) <= MAX_LOOP
+            else []
+        )
         if solved:
             self._values.update({v: solved[0][s] for v, s in zip(unknowns, own, strict=True)})
         else:

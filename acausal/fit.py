@@ -69,8 +69,9 @@ def fit(
         targets: the variables to fit, measured in the data.
         params: where to start, as `system.parameters` gives them; by default with networks made from ``seed``.
         train: names of the networks to train; by default all.
-        modifiers: parameters to train beside them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or a γ by
-            name. ``gamma``: the γ of those without their own.
+        modifiers: parameters to train beside them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
+            a γ by name.
+        gamma: the γ of modifiers without their own.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
             (M, k), (M, k), (k,); averaged over a batch's sequences.
         regularizers: penalties, see `acausal.regularizers`; any function (params, context) -> scalar.
@@ -116,7 +117,9 @@ def fit(
         x0=x0,
     )
     chosen = default_optimizer(epochs) if optimizer is None else optimizer
-    trainer = Trainer(optax.with_extra_args_support(chosen), DIVERGED if loss == "nrmse" else np.inf, modified)
+    trainer = Trainer(
+        optax.with_extra_args_support(chosen), DIVERGED if loss == "nrmse" else np.inf, modified
+    )
     state = begin(trainer, problem.start(), jax.random.key(seed))
     every = max(1, epochs // 10) if evaluate_every is None else evaluate_every
     with display(progress, epochs) as show:
@@ -199,7 +202,10 @@ class Fit:
 def _result(problem: Problem, trained: Trained) -> Fit:
     best, history = trained.best, trained.history
     x = problem.trajectory(best.trainable)
-    seen = {n: Seen(np.mean(a, axis=0), np.std(a, axis=0)) for n, a in problem.seen(best.trainable, x).items()}
+    seen = {
+        n: Seen(np.mean(a, axis=0), np.std(a, axis=0))
+        for n, a in problem.seen(best.trainable, x).items()
+    }
     return Fit(
         system=problem.system,
         params=problem.assemble(best.trainable),
@@ -225,4 +231,6 @@ def _warn(trained: Trained) -> None:
             stacklevel=3,
         )
     if not np.isfinite(trained.best.loss):
-        warnings.warn("The trained model diverges over the whole record: its loss is infinite.", stacklevel=3)
+        warnings.warn(
+            "The trained model diverges over the whole record: its loss is infinite.", stacklevel=3
+        )

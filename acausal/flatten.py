@@ -213,7 +213,9 @@ def _lay_out(model: Component) -> Layout:
                 f"{component._label()} has no '{part}': {nearest(part, [*component._declared, *component._children])}"
             )
         prefix = f"{path}." if path else ""
-        stack.extend((child, prefix + name) for name, child in reversed(component._children.items()))
+        stack.extend(
+            (child, prefix + name) for name, child in reversed(component._children.items())
+        )
 
     forms: list[Form] = []
     known: dict[Hashable, int] = {}
@@ -290,7 +292,9 @@ def _form(component: Component) -> Form:
             case Option():
                 pass
             case _:
-                raise DeclarationError(f"{component._label()}.{name}: a bare Declaration declares nothing")
+                raise DeclarationError(
+                    f"{component._label()}.{name}: a bare Declaration declares nothing"
+                )
     return Form(component, tuple(variables), tuple(parameters), tuple(modules), connectors)
 
 
@@ -342,7 +346,9 @@ def _members(layout: Layout) -> list[Integers]:
 def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slots]:
     owner = form.prototype
     if not isinstance(equation, Eq):
-        raise DeclarationError(f"{owner._label()}: equations() yields {equation!r}; yield ac.Eq(left, right)")
+        raise DeclarationError(
+            f"{owner._label()}: equations() yields {equation!r}; yield ac.Eq(left, right)"
+        )
     where = f"{type(owner).__name__}: {equation}"
     residual = _without_der(equation.lhs - equation.rhs, where)
     names: dict[sp.Symbol, sp.Symbol] = {}
@@ -352,7 +358,9 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
     for symbol in _symbols(residual):
         if symbol == time:
             continue
-        reference, order = (symbol.reference, symbol.order) if isinstance(symbol, _Derived) else (symbol, 0)
+        reference, order = (
+            (symbol.reference, symbol.order) if isinstance(symbol, _Derived) else (symbol, 0)
+        )
         if not isinstance(reference, Reference):
             raise DeclarationError(f"{where}: '{reference}' is not declared")
         chain = _chain(owner, reference, where)
@@ -374,7 +382,9 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
         modules=tuple(modules),
         origin=where,
     )
-    slots = _Slots(tuple(w for _, w in variables.values()), tuple(parameters.values()), tuple(modules.values()))
+    slots = _Slots(
+        tuple(w for _, w in variables.values()), tuple(parameters.values()), tuple(modules.values())
+    )
     return template, slots
 
 
@@ -466,7 +476,9 @@ def _owners(layout: Layout, members: Integers, chain: tuple[str, ...]) -> Intege
 # -- attributes ---------------------------------------------------------------------------------------
 
 
-def _tiled(layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: Any) -> np.ndarray:
+def _tiled(
+    layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: Any
+) -> np.ndarray:
     """Spread per-form local values over all instances."""
     flat = np.empty(int(base[-1]), dtype=dtype)
     for members, values in zip(_members(layout), local, strict=True):
@@ -479,22 +491,41 @@ def _variable_attributes(layout: Layout) -> tuple[Any, ...]:
     base = layout.variable_base
 
     def declared(attribute: str, dtype: Any) -> np.ndarray:
-        local = [[form.prototype._attribute(d, attribute) for _, d in form.variables] for form in layout.forms]
-        return _tiled(layout, base, [[0.0 if isinstance(v, sp.Expr | tuple) else v for v in row] for row in local], dtype)
+        local = [
+            [form.prototype._attribute(d, attribute) for _, d in form.variables]
+            for form in layout.forms
+        ]
+        return _tiled(
+            layout,
+            base,
+            [[0.0 if isinstance(v, sp.Expr | tuple) else v for v in row] for row in local],
+            dtype,
+        )
 
-    start, fixed, nominal = declared("start", float), declared("fixed", bool), declared("nominal", float)
+    start, fixed, nominal = (
+        declared("start", float),
+        declared("fixed", bool),
+        declared("nominal", float),
+    )
     rank = [[_rank(form.prototype, d) for _, d in form.variables] for form in layout.forms]
     state = _tiled(layout, base, rank, float)
     given = np.zeros(len(start), dtype=bool)
     starts: list[Binding] = []
-    named = [[(i, path, d) for i, (path, d) in enumerate(f.variables) if isinstance(d.start, str)] for f in layout.forms]
+    named = [
+        [(i, path, d) for i, (path, d) in enumerate(f.variables) if isinstance(d.start, str)]
+        for f in layout.forms
+    ]
     for number, component in enumerate(layout.components):
         for index, path, d in named[layout.form_of[number]]:
             if component._modifiers.get(d.name, Start()).value is not None:
                 continue
             variable = int(base[number]) + index
             given[variable] = d.start in component._modifiers
-            starts.append(_binding(layout, variable, _start_element(getattr(component, d.start), path, d.name)))
+            starts.append(
+                _binding(
+                    layout, variable, _start_element(getattr(component, d.start), path, d.name)
+                )
+            )
         if not component._modifiers:
             continue
         form = layout.form(number)
@@ -555,7 +586,11 @@ def _parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], 
             if isinstance(given, Start) or name in form.module_index:
                 continue
             elements = np.ravel(given) if isinstance(given, np.ndarray) else [given]
-            paths = _paths(component, name, cast(Declaration, component._declared.get(name) or component._dynamic[name]))
+            paths = _paths(
+                component,
+                name,
+                cast(Declaration, component._declared.get(name) or component._dynamic[name]),
+            )
             for path, element in zip(paths, elements, strict=True):
                 index = int(base[number]) + form.parameter_index[path]
                 folded[index] = False
@@ -581,9 +616,14 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
     default = declaration.default
     if default is None or callable(default) or isinstance(default, str):
         return np.nan
+    if declaration.shape is not None and declaration.name in form.prototype._modifiers:
+        return np.nan  # all instances of the form have such an array of their own
     if declaration.shape is not None:
         index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
-        default = np.broadcast_to(np.asarray(default, dtype=float), form.prototype._shape(declaration.name, declaration) or ())[index]
+        default = np.broadcast_to(
+            np.asarray(default, dtype=float),
+            form.prototype._shape(declaration.name, declaration) or (),
+        )[index]
     return float(default)
 
 
@@ -591,7 +631,11 @@ def _default_bindings(layout: Layout, value: np.ndarray, bound: set[int]) -> lis
     """Defaults that are functions of the component: ``Parameter(lambda self: 2 * self.m)``."""
     bindings: list[Binding] = []
     for number, members in enumerate(_members(layout)):
-        computed = [(i, d) for i, (_, d) in enumerate(layout.forms[number].parameters) if callable(d.default)]
+        computed = [
+            (i, d)
+            for i, (_, d) in enumerate(layout.forms[number].parameters)
+            if callable(d.default)
+        ]
         for member in members if computed else ():
             component = layout.components[member]
             for i, declaration in computed:
@@ -629,11 +673,16 @@ def _module_values(layout: Layout) -> tuple[Any, ...]:
         for name, declaration in layout.form(number).modules:
             value = component._modifiers.get(name, declaration.default)
             if value is None:
-                raise DeclarationError(f"{component._label()} has no module '{name}'; give {name}=...")
+                raise DeclarationError(
+                    f"{component._label()} has no module '{name}'; give {name}=..."
+                )
             if isinstance(value, str):
                 value = getattr(component, value)
             if isinstance(value, ModuleReference):  # a module of an enclosing component
                 owner = layout.position[id(value.symbol.owner)]
-                value = int(layout.module_base[owner]) + layout.form(owner).module_index[value.symbol.path]
+                value = (
+                    int(layout.module_base[owner])
+                    + layout.form(owner).module_index[value.symbol.path]
+                )
             values.append(value)
     return tuple(values)

@@ -38,7 +38,9 @@ class Runs:
     runs: tuple[tuple[int, int, int, int], ...]
 
     def read(self, arrays: Arrays) -> Any:
-        pieces = [_slice(arrays[source], start, step, length) for source, start, step, length in self.runs]
+        pieces = [
+            _slice(arrays[source], start, step, length) for source, start, step, length in self.runs
+        ]
         return pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
 
     @property
@@ -56,7 +58,9 @@ class Take:
     def read(self, arrays: Arrays) -> Any:
         pieces = [jnp.atleast_1d(arrays[s]) for s in self.sources]
         whole = pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
-        return jnp.take(whole, self.index, axis=0, unique_indices=len(np.unique(self.index)) == len(self.index))
+        return jnp.take(
+            whole, self.index, axis=0, unique_indices=len(np.unique(self.index)) == len(self.index)
+        )
 
 
 Gather = One | Runs | Take

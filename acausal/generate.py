@@ -18,7 +18,7 @@ import sympy as sp
 
 from acausal import derive
 from acausal.gather import Gather, gather
-from acausal.lower import ModuleValue, evaluate
+from acausal.lower import ModuleValue, collect, evaluate
 from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import Assignment, BlockShape, Loop, ReducedModel
 from acausal.solve import solve_linear, solve_nonlinear
@@ -44,7 +44,7 @@ class Arguments:
         values: dict[sp.Symbol, Any] = {time: t}
         values |= {symbol: g.read(arrays) for symbol, g in self.variables}
         values |= {symbol: g.read([packed.values]) for symbol, g in self.parameters}
-        values |= {symbol: _module(packed, chosen) for symbol, chosen in self.modules}
+        values |= {symbol: chosen_module(packed, chosen) for symbol, chosen in self.modules}
         return values
 
 
@@ -86,17 +86,38 @@ class SolveLoop:
             return solve(lambda tears: _torn(self.shape, tears, t, known), guess)
 
         named = {s.name: v for s, v in values.items()}
+        guess = jnp.asarray(self.guess)
         if self.size == 1:
-            return list(one(jnp.asarray(self.guess[0]), named))
-        stacked = {k: v.module if isinstance(v, ModuleValue) and v.stacked else v for k, v in named.items()}
-        shared = {k: v for k, v in stacked.items() if isinstance(v, ModuleValue)}
-        batched = {
-            k: v if not eqx.is_array(v) else jnp.broadcast_to(v, (self.size, *jnp.shape(v)[1:]))
-            for k, v in stacked.items()
+            return list(one(guess[0], named))
+        if any(isinstance(v, ModuleValue) and isinstance(v.module, tuple) for v in named.values()):
+            rows = [{k: _row(v, i) for k, v in named.items()} for i in range(self.size)]
+            return list(jnp.stack([one(g, row) for g, row in zip(guess, rows, strict=True)]).T)
+        shared = {k: v for k, v in named.items() if isinstance(v, ModuleValue) and not v.stacked}
+        parts = {
+            k: eqx.partition(v.module if isinstance(v, ModuleValue) else v, eqx.is_array)
+            for k, v in named.items()
             if k not in shared
         }
-        result = jax.vmap(lambda g, f: one(g, {**shared, **f}))(jnp.asarray(self.guess), batched)
-        return list(result.T)
+        batched = {
+            k: jnp.broadcast_to(v, (self.size, *jnp.shape(v)[1:])) if eqx.is_array(v) else v
+            for k, (v, _) in parts.items()
+        }
+
+        def each(guess: Any, arrays: dict[str, Any]) -> Any:
+            return one(guess, {**shared, **{k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}})
+
+        return list(jax.vmap(each)(guess, batched).T)
+
+
+def _row(value: Any, i: int) -> Any:
+    """What one of several instances sees."""
+    if not isinstance(value, ModuleValue):
+        return value[i] if jnp.ndim(value) else value
+    if isinstance(value.module, tuple):
+        return value.module[i]
+    if not value.stacked:
+        return value
+    return jax.tree.map(lambda leaf: leaf[i] if eqx.is_array(leaf) else leaf, value.module)
 
 
 def _torn(shape: BlockShape, tears: Any, t: Any, known: dict[sp.Symbol, Any]) -> tuple[Any, Any]:
@@ -121,7 +142,9 @@ def _torn(shape: BlockShape, tears: Any, t: Any, known: dict[sp.Symbol, Any]) ->
         stated = shape.equations[equation]
         explicit = derive.solve(stated.template, stated.variables.index(variable))
         unknowns[variable] = evaluate(explicit, fill(equation))
-    residuals = [evaluate(shape.equations[e].template.residual, fill(e)) for e in shape.torn.residuals]
+    residuals = [
+        evaluate(shape.equations[e].template.residual, fill(e)) for e in shape.torn.residuals
+    ]
     return jnp.stack(unknowns), jnp.stack(residuals)
 
 
@@ -137,11 +160,11 @@ def _callable(i: int) -> sp.Symbol:
     return sp.Symbol(f"m{i}")
 
 
-def _module(packed: Packed, chosen: tuple[int, ...]) -> ModuleValue:
+def chosen_module(packed: Packed, chosen: Sequence[int]) -> ModuleValue:
+    """The module of one instance or of all; those of several instances side by side."""
     if len(set(chosen)) == 1:
         return ModuleValue(packed.modules[chosen[0]])
-    stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *(packed.modules[i] for i in chosen))
-    return ModuleValue(stacked, stacked=True)
+    return ModuleValue.side_by_side([packed.modules[i] for i in chosen])
 
 
 Instruction = Evaluate | SolveLoop
@@ -233,23 +256,36 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
             for column in step.unknowns.T:
                 place(column, len(sizes))
                 sizes.append(len(column))
-    rates = gather(source[reduced.rates], index[reduced.rates], sizes) if len(reduced.rates) else None
-    return Program(source, index, tuple(instructions), tuple(first), tuple(sizes), rates, reduced.rate_signs)
+    rates = (
+        gather(source[reduced.rates], index[reduced.rates], sizes) if len(reduced.rates) else None
+    )
+    return Program(
+        source, index, tuple(instructions), tuple(first), tuple(sizes), rates, reduced.rate_signs
+    )
 
 
 def _evaluate(
-    step: Assignment, source: Integers, index: Integers, sizes: Sequence[int], layout: ParameterLayout
+    step: Assignment,
+    source: Integers,
+    index: Integers,
+    sizes: Sequence[int],
+    layout: ParameterLayout,
 ) -> Evaluate:
     expression = derive.solve(step.template, step.column)
     assert expression is not None
     present = expression.free_symbols
     template = step.template
 
-    def columns(symbols: tuple[sp.Symbol, ...], table: Integers) -> list[tuple[sp.Symbol, Integers]]:
+    def columns(
+        symbols: tuple[sp.Symbol, ...], table: Integers
+    ) -> list[tuple[sp.Symbol, Integers]]:
         return [(s, table[:, i]) for i, s in enumerate(symbols) if s in present]
 
     arguments = Arguments(
-        tuple((s, gather(source[v], index[v], sizes)) for s, v in columns(template.variables, step.variables)),
+        tuple(
+            (s, gather(source[v], index[v], sizes))
+            for s, v in columns(template.variables, step.variables)
+        ),
         tuple((s, layout.gather(p)) for s, p in columns(template.parameters, step.parameters)),
         tuple((s, layout.chosen(m)) for s, m in columns(template.modules, step.modules)),
     )
@@ -265,7 +301,10 @@ def _solve_loop(
     layout: ParameterLayout,
 ) -> SolveLoop:
     arguments = Arguments(
-        tuple((_external(i), gather(source[v], index[v], sizes)) for i, v in enumerate(loop.externals.T)),
+        tuple(
+            (_external(i), gather(source[v], index[v], sizes))
+            for i, v in enumerate(loop.externals.T)
+        ),
         tuple((_parameter(i), layout.gather(p)) for i, p in enumerate(loop.parameters.T)),
         tuple((_callable(i), layout.chosen(m)) for i, m in enumerate(loop.modules.T)),
     )

@@ -30,7 +30,9 @@ class Matching:
         self.colored_equations: list[int] = []
         self.colored_variables: list[int] = []
 
-    def augment(self, equation: int, incidence: Incidence, usable: Callable[[int], bool] | None = None) -> bool:
+    def augment(
+        self, equation: int, incidence: Incidence, usable: Callable[[int], bool] | None = None
+    ) -> bool:
         """Assign ``equation``, re-assigning others along one path; False if there is no path."""
         equation_of = self.equation_of
         self.colored_equations = [equation]
@@ -76,7 +78,9 @@ def match(incidence: Incidence, n_variables: int) -> list[int]:
         return []
     lengths = np.fromiter((len(row) for row in incidence), dtype=np.int64, count=len(incidence))
     pointers = np.concatenate([[0], np.cumsum(lengths)])
-    columns = np.fromiter((v for row in incidence for v in row), dtype=np.int64, count=int(pointers[-1]))
+    columns = np.fromiter(
+        (v for row in incidence for v in row), dtype=np.int64, count=int(pointers[-1])
+    )
     ones = np.ones(len(columns), dtype=np.int8)
     graph = csr_array((ones, columns, pointers), shape=(len(incidence), n_variables))
     return maximum_bipartite_matching(graph, perm_type="column").tolist()
@@ -145,7 +149,9 @@ def pantelides(structure: DifferentialStructure, max_order: int = 12) -> list[in
     return matching.equation_of
 
 
-def choose_variables(incidence: Incidence, candidates: Sequence[int], n_variables: int) -> list[int]:
+def choose_variables(
+    incidence: Incidence, candidates: Sequence[int], n_variables: int
+) -> list[int]:
     """Pick one variable for every equation, as early as possible in ``candidates``.
 
     The sets of variables that can be matched are independent (a transversal matroid), so taking them
@@ -183,7 +189,9 @@ def order_blocks(incidence: Incidence, variable_of: Sequence[int], n_variables: 
     owner[np.asarray(variable_of, dtype=np.int64)] = np.arange(n)
     lengths = np.fromiter((len(row) for row in incidence), dtype=np.int64, count=n)
     equation = np.repeat(np.arange(n), lengths)
-    needs = owner[np.fromiter((v for row in incidence for v in row), dtype=np.int64, count=int(lengths.sum()))]
+    needs = owner[
+        np.fromiter((v for row in incidence for v in row), dtype=np.int64, count=int(lengths.sum()))
+    ]
     real = (needs >= 0) & (needs != equation)
     equation, needs = equation[real], needs[real]
     graph = csr_array((np.ones(len(needs), dtype=np.int8), (equation, needs)), shape=(n, n))
@@ -285,7 +293,9 @@ class Singularity:
     unmatched_variables: tuple[int, ...]
 
 
-def singularity(incidence: Incidence, n_variables: int, unknowns: Sequence[int]) -> Singularity | None:
+def singularity(
+    incidence: Incidence, n_variables: int, unknowns: Sequence[int]
+) -> Singularity | None:
     """The singular parts of a structure, or None if every unknown can be matched to an equation."""
     variable_of = match(incidence, n_variables)
     equation_of = [-1] * n_variables
@@ -301,7 +311,9 @@ def singularity(incidence: Incidence, n_variables: int, unknowns: Sequence[int])
         for v in row:
             equations_of[v].append(e)
     over = _reach(surplus, lambda e: [equation_of[v] for v in incidence[e] if equation_of[v] >= 0])
-    under = _reach(missing, lambda v: [variable_of[e] for e in equations_of[v] if variable_of[e] >= 0])
+    under = _reach(
+        missing, lambda v: [variable_of[e] for e in equations_of[v] if variable_of[e] >= 0]
+    )
     return Singularity(tuple(over), tuple(surplus), tuple(under), tuple(missing))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import jax
 import numpy as np
 
 
@@ -71,8 +72,13 @@ class Log:
         """Add the first ``count`` rows of a chunk's log; returns its divergences."""
         rows = _rows(entry, count)
         new = [
-            Divergence(self.epochs + i, float(self._times[rows.first[i]]), int(rows.diverged[i]), bool(rows.rejected[i]))
-            for i in np.flatnonzero(rows.diverged)
+            Divergence(
+                self.epochs + i,
+                float(self._times[rows.first[i]]),
+                int(rows.diverged[i]),
+                bool(rows.rejected[i]),
+            )
+            for i in np.flatnonzero(rows.diverged).tolist()
         ]
         self._entries.append(rows)
         self._seconds.append(started + (ended - started) * np.arange(1, count + 1) / count)
@@ -108,6 +114,4 @@ class Log:
 
 
 def _rows(entry: Any, count: int) -> Any:
-    import jax
-
     return jax.tree.map(lambda a: np.asarray(a)[:count], entry)

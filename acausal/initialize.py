@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,8 +13,9 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DataError, InitializationError, listing, nearest
-from acausal.generate import Program
-from acausal.lower import ModuleValue, evaluate
+from acausal.flatten import FlatModel
+from acausal.generate import Program, chosen_module
+from acausal.lower import evaluate
 from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import ReducedModel
 from acausal.symbols import time
@@ -26,7 +27,7 @@ MAX_STEPS = 50
 
 @dataclass(frozen=True)
 class Condition:
-    """A variable that is fixed at the initial time although it is no state: ``sign * node = start``."""
+    """A fixed start that no state takes by itself: ``sign * node = start`` of ``variable``."""
 
     node: int
     sign: int
@@ -42,7 +43,8 @@ class Initializer:
 
     Attributes:
         start_of: for every state the variable whose start it takes, and the sign; ``fixed``: whether it is fixed.
-        conditions: fixed starts of variables that are not states.
+        conditions: fixed starts that are not met by that: of variables that are not states, and of further
+            names of a state.
     """
 
     reduced: ReducedModel
@@ -68,7 +70,9 @@ class Initializer:
         if x0 is not None and not isinstance(x0, Mapping):
             x = jnp.asarray(x0, dtype=float)
             if x.shape != (len(self.names),):
-                raise DataError(f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}")
+                raise DataError(
+                    f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
+                )
             return x
         given = dict(x0 or {})
         for name in given:
@@ -76,31 +80,53 @@ class Initializer:
                 raise DataError(f"x0: '{name}' is not a state; {nearest(name, self.names)}")
         u = jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
         starts = self._starts(packed)
-        x = jnp.stack([jnp.asarray(given.get(n, s), dtype=float) for n, s in zip(self.names, starts, strict=True)]) if starts else jnp.zeros(0)
-        free = np.asarray([n not in given for n in self.names]) & ~self.fixed
-        if not self.conditions and not self.reduced.model.initial:
+        x = (
+            jnp.stack(
+                [
+                    jnp.asarray(given.get(n, s), dtype=float)
+                    for n, s in zip(self.names, starts, strict=True)
+                ]
+            )
+            if starts
+            else jnp.zeros(0)
+        )
+        told = np.asarray([n in given for n in self.names], dtype=bool)
+        conditions = [c for c in self.conditions if c.node not in self.reduced.states[told]]
+        free = ~told & ~self.fixed
+        if not conditions and not self.reduced.model.initial:
             return x
         if given and not free.any():
             return x
-        return self._satisfy(packed, x, np.flatnonzero(free), u, t0)
+        return self._satisfy(packed, x, np.flatnonzero(free), conditions, u, t0)
 
     def _starts(self, packed: Packed) -> list[Any]:
         return [sign * self._start(packed, variable) for variable, sign in self.start_of]
 
     def _start(self, packed: Packed, variable: int) -> Any:
         model = self.reduced.model
+        if variable >= model.n_variables:
+            return 0.0
         for binding in model.starts:
             if binding.target == variable:
+                position = self.parameters.position  # -1: folded, or bound to what is folded
                 values = {
-                    s: 0.0 if model.folded[a] else packed.values[self.parameters.position[a]]
+                    s: packed.values[position[a]] if position[a] >= 0 else 0.0
                     for s, a in zip(binding.symbols, binding.arguments, strict=True)
                 }
                 return evaluate(binding.expression, values)
         return float(model.start[variable])
 
-    def _satisfy(self, packed: Packed, x: Any, free: np.ndarray, u: Any, t0: float) -> Any:
+    def _satisfy(
+        self,
+        packed: Packed,
+        x: Any,
+        free: np.ndarray,
+        conditions: Sequence[Condition],
+        u: Any,
+        t0: float,
+    ) -> Any:
         def residual(z: Any, packed: Packed, x: Any) -> Any:
-            return self._residuals(packed, x.at[free].set(z), u, t0)
+            return self._residuals(conditions, packed, x.at[free].set(z), u, t0)
 
         frozen, start = jax.lax.stop_gradient((packed, x))
         z0 = x[free]
@@ -109,33 +135,36 @@ class Initializer:
         inverse = jnp.linalg.pinv(slope)
         moved = z0 - jax.lax.stop_gradient(z0)
         result = z + moved - inverse @ (residual(z, packed, x) + slope @ moved)
-        self._check(residual(z, frozen, start))
+        self._check(conditions, residual(z, frozen, start))
         return x.at[free].set(result)
 
-    def _check(self, rest: Any) -> None:
+    def _check(self, conditions: Sequence[Condition], rest: Any) -> None:
         if isinstance(rest, jax.core.Tracer):
             return
         wrong = np.flatnonzero(~(np.abs(np.asarray(rest)) < 1e-6))
         if len(wrong):
+            names = self._names_of(conditions)
             raise InitializationError(
-                f"the initial conditions cannot all hold; left over: {listing([self._condition_names[i] for i in wrong])}. "
+                f"the initial conditions cannot all hold; left over: {listing([names[i] for i in wrong])}. "
                 "Is a start fixed twice, or in conflict with a connection?"
             )
 
-    @cached_property
-    def _condition_names(self) -> list[str]:
+    def _names_of(self, conditions: Sequence[Condition]) -> list[str]:
         layout = self.reduced.model.layout
-        names = [f"{layout.variable(c.variable)} (fixed start)" for c in self.conditions]
+        names = [f"{layout.variable(c.variable)} (fixed start)" for c in conditions]
         for group in self.reduced.model.initial:
-            names += [f"{layout.paths[c]} ({group.template.origin})" for c in group.components]
+            places = [layout.paths[c] for c in group.components]
+            names += [f"{p} ({group.template.origin})" if p else group.template.origin for p in places]
         return names
 
-    def _residuals(self, packed: Packed, x: Any, u: Any, t0: float) -> Any:
+    def _residuals(
+        self, conditions: Sequence[Condition], packed: Packed, x: Any, u: Any, t0: float
+    ) -> Any:
         parts: list[Any] = []
-        if self.conditions:
-            values = self.program.values([c.node for c in self.conditions], t0, x, u, packed)
-            signs = np.asarray([c.sign for c in self.conditions])
-            starts = jnp.stack([jnp.asarray(self._start(packed, c.variable)) for c in self.conditions])
+        if conditions:
+            values = self.program.values([c.node for c in conditions], t0, x, u, packed)
+            signs = np.asarray([c.sign for c in conditions])
+            starts = jnp.stack([jnp.asarray(self._start(packed, c.variable)) for c in conditions])
             parts.append(signs * values - starts)
         parts += [self._initial(group, packed, x, u, t0) for group in self.reduced.model.initial]
         return jnp.concatenate(parts)
@@ -143,17 +172,25 @@ class Initializer:
     def _initial(self, group: EquationGroup, packed: Packed, x: Any, u: Any, t0: float) -> Any:
         """Residuals of initial equations; derivatives are taken along the vector field."""
         columns: dict[sp.Symbol, Any] = {time: jnp.asarray(t0)}
-        for i, (symbol, order) in enumerate(zip(group.template.variables, group.template.orders, strict=True)):
+        for i, (symbol, order) in enumerate(
+            zip(group.template.variables, group.template.orders, strict=True)
+        ):
             columns[symbol] = self._variables(group.variables[:, i], order, packed, x, u, t0)
         for i, symbol in enumerate(group.template.parameters):
-            kept = ~self.reduced.model.folded[group.parameters[:, i]]
-            read = self.parameters.gather(group.parameters[kept, i]).read([packed.values]) if kept.any() else 0.0
+            kept = self.parameters.position[group.parameters[:, i]] >= 0
+            read = (
+                self.parameters.gather(group.parameters[kept, i]).read([packed.values])
+                if kept.any()
+                else 0.0
+            )
             columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(read)
         for i, symbol in enumerate(group.template.modules):
-            columns[symbol] = ModuleValue(packed.modules[int(group.modules[0, i])])
+            columns[symbol] = chosen_module(packed, self.parameters.chosen(group.modules[:, i]))
         return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
 
-    def _variables(self, variables: Any, order: int, packed: Packed, x: Any, u: Any, t0: float) -> Any:
+    def _variables(
+        self, variables: Any, order: int, packed: Packed, x: Any, u: Any, t0: float
+    ) -> Any:
         resolved = [self.reduced.resolve(int(v)) for v in variables]
         nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
 
@@ -187,36 +224,37 @@ def _least_change(residual: Any, z0: Any) -> Any:
     return jax.lax.while_loop(unfinished, step, (z0, residual(z0), 0))[0]
 
 
-def initializer(reduced: ReducedModel, program: Program, parameters: ParameterLayout) -> Initializer:
+def initializer(
+    reduced: ReducedModel, program: Program, parameters: ParameterLayout
+) -> Initializer:
     """Collect what the model says about the initial time."""
-    model, aliases = reduced.model, reduced.aliases
-    number = {int(s): i for i, s in enumerate(reduced.states)}
-    members: dict[int, list[int]] = {s: [] for s in number}
-    conditions: list[Condition] = []
-    own = np.arange(model.n_variables)
-    states = np.isin(aliases.representative[own], reduced.states)
-    for v in own[states].tolist():
-        members[int(aliases.representative[v])].append(v)
-    for v in own[model.fixed & ~states].tolist():
-        node, sign = reduced.resolve(v)
-        conditions.append(Condition(node, sign, v))
-    start_of: list[tuple[int, int]] = []
-    fixed: list[bool] = []
-    for state in reduced.states.tolist():
-        best = max(
-            members[state],
-            key=lambda v: (model.fixed[v], model.start_given[v], v == state, -v),
-            default=state,
-        )
-        start_of.append((best, reduced.resolve(best)[1]))
-        fixed.append(bool(best < model.n_variables and model.fixed[best]))
+    model = reduced.model
+    members, signs = reduced.start_members
+    start_of = [(int(members[s]), int(signs[s])) for s in reduced.states]
+    fixed = [v < model.n_variables and bool(model.fixed[v]) for v, _ in start_of]
+    met = {v for v, _ in start_of}
+    resolved = [(v, *reduced.resolve(v)) for v in np.flatnonzero(model.fixed).tolist()]
+    conditions = [Condition(node, sign, v) for v, node, sign in resolved if v not in met]
     return Initializer(
-        reduced, program, parameters, tuple(start_of), np.asarray(fixed, dtype=bool), _distinct(conditions)
+        reduced,
+        program,
+        parameters,
+        tuple(start_of),
+        np.asarray(fixed, dtype=bool),
+        _distinct(model, conditions, dict(zip(reduced.states.tolist(), start_of, strict=True))),
     )
 
 
-def _distinct(conditions: list[Condition]) -> tuple[Condition, ...]:
-    found: dict[int, Condition] = {}
-    for condition in conditions:
-        found.setdefault(condition.node, condition)
-    return tuple(found.values())
+def _distinct(
+    model: FlatModel, conditions: list[Condition], start_of: dict[int, tuple[int, int]]
+) -> tuple[Condition, ...]:
+    """The conditions without those that repeat a number that their node is given already."""
+    bound = {b.target for b in model.starts}
+    known = {(s, sign * float(model.start[v])) for s, (v, sign) in start_of.items() if v < len(model.start) and v not in bound and model.fixed[v]}
+    kept: list[Condition] = []
+    for c in conditions:
+        told = c.node, c.sign * float(model.start[c.variable])
+        if c.variable in bound or told not in known:
+            kept.append(c)
+            known.add(told)
+    return tuple(kept)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, cast
 
 import equinox as eqx
 import jax
@@ -15,6 +15,7 @@ from jax.typing import ArrayLike
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest
 from acausal.signals import Signal
+from acausal.tracing import traced
 
 Drive = Callable[[ArrayLike], Array]
 """One input as a function of time: time in seconds -> scalar."""
@@ -43,7 +44,9 @@ class Function(eqx.Module):
         """The function's value as a scalar array."""
         value = jnp.asarray(self.function(t), float)
         if value.shape != ():
-            raise DataError(f"Input '{self.name}' is a function that returns shape {value.shape}, no scalar.")
+            raise DataError(
+                f"Input '{self.name}' is a function that returns shape {value.shape}, no scalar."
+            )
         return value
 
 
@@ -61,7 +64,9 @@ class Samples(eqx.Module):
     functions: tuple[Drive | None, ...] = ()
 
 
-def read(names: tuple[str, ...], given: Mapping[str, Any] | Data | None, grid: np.ndarray | None) -> tuple[Drive, ...]:
+def read(
+    names: tuple[str, ...], given: Mapping[str, Any] | Data | None, grid: np.ndarray | None
+) -> tuple[Drive, ...]:
     """One function of time for each of the model's inputs.
 
     Arguments:
@@ -81,7 +86,9 @@ def read(names: tuple[str, ...], given: Mapping[str, Any] | Data | None, grid: n
         raise DataError(f"The model has no input {listing(unknown)}: {nearest(unknown[0], names)}")
     missing = [n for n in names if n not in given]
     if missing:
-        raise DataError(f"No value for the model's input {listing(missing)}: give inputs={{'{missing[0]}': ...}}.")
+        raise DataError(
+            f"No value for the model's input {listing(missing)}: give inputs={{'{missing[0]}': ...}}."
+        )
     return tuple(_drive(name, given[name], grid) for name in names)
 
 
@@ -89,26 +96,35 @@ def _drive(name: str, value: Any, grid: np.ndarray | None) -> Drive:
     if isinstance(value, Signal | Constant):
         return value
     if callable(value):
-        return Function(value, name)
-    if isinstance(value, tuple) and len(value) == 2:
-        return Signal(value[0], value[1], name=name)
+        return Function(cast(Callable[[ArrayLike], ArrayLike], value), name)
+    if isinstance(value, tuple) and len(cast(tuple[Any, ...], value)) == 2:
+        times, samples = cast(tuple[ArrayLike, ArrayLike], value)
+        return Signal(times, samples, name=name)
     if np.ndim(value) == 0:
-        if not isinstance(value, jax.core.Tracer) and not np.isfinite(value):
+        if not traced(value) and not np.isfinite(value):
             raise DataError(f"Input '{name}' is {value}.")
         return Constant(jnp.asarray(value, float))
     if grid is None:
-        raise DataError(f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps.")
+        raise DataError(
+            f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps."
+        )
     if np.shape(value) != grid.shape:
         raise DataError(
             f"Input '{name}' has samples of shape {np.shape(value)}; "
             f"the {len(grid) - 1} steps from {grid[0]:g} to {grid[-1]:g} s need {len(grid)}."
         )
-    return Signal(grid, value, name=name)
+    return Signal(grid, cast(ArrayLike, value), name=name)
 
 
 def evaluate(drives: tuple[Drive, ...], t: ArrayLike) -> Array:
     """All inputs at one time, shape (number of inputs,)."""
     return jnp.stack([d(t) for d in drives]) if drives else jnp.zeros(0)
+
+
+@eqx.filter_jit
+def evaluate_all(drives: tuple[Drive, ...], t: Array) -> Array:
+    """All inputs at n times, shape (n, number of inputs)."""
+    return jax.vmap(lambda t: evaluate(drives, t))(t)
 
 
 def over_steps(drives: tuple[Drive, ...], grid: np.ndarray) -> Samples:
@@ -132,7 +148,7 @@ def _on_grid(drive: Drive, grid: np.ndarray) -> tuple[Array, Array] | None:
     if isinstance(drive, Constant):
         value = jnp.broadcast_to(drive.value, (len(grid) - 1,))
         return value, value
-    if not isinstance(drive, Signal) or isinstance(drive.ts, jax.core.Tracer):
+    if not isinstance(drive, Signal) or traced(drive.ts):
         return None
     ts = np.asarray(drive.ts)
     if drive.interpolation == "cubic" or drive.extrapolation != "hold" or not _knots_on(grid, ts):
@@ -157,6 +173,6 @@ def _knots_on(grid: np.ndarray, ts: np.ndarray) -> bool:
 def jumps(drives: tuple[Drive, ...], start: float, end: float) -> np.ndarray:
     """Times between ``start`` and ``end`` at which an input is known to jump."""
     held = [d for d in drives if isinstance(d, Signal) and d.interpolation == "previous"]
-    known = [np.asarray(d.ts) for d in held if not isinstance(d.ts, jax.core.Tracer)]
+    known = [np.asarray(d.ts) for d in held if not traced(d.ts)]
     ts = np.unique(np.concatenate(known)) if known else np.zeros(0)
     return ts[(ts > start) & (ts < end)]

@@ -100,7 +100,9 @@ def integrate(
     explicit = isinstance(solver, dfx.AbstractERK)
     advance = _explicit(solver) if explicit else _implicit(solver)
 
-    def field(fraction: ArrayLike, x: Array, args: tuple[Any, tuple[Drive | None, ...], Step]) -> Array:
+    def field(
+        fraction: ArrayLike, x: Array, args: tuple[Any, tuple[Drive | None, ...], Step]
+    ) -> Array:
         packed, functions, step = args
         return system.vector_field(step.time(fraction), x, step.inputs(fraction, functions), packed)
 
@@ -115,7 +117,9 @@ def integrate(
         if substeps == 1:
             return advance(field, x, step.h, (packed, functions, step), slope)
         x = part(x, jnp.zeros(()), step, slope)
-        return jax.lax.scan(lambda x, j: (part(x, j, step, None), None), x, jnp.arange(1.0, substeps))[0]
+        return jax.lax.scan(
+            lambda x, j: (part(x, j, step, None), None), x, jnp.arange(1.0, substeps)
+        )[0]
 
     def observe(x: Array, step: Step) -> tuple[Array | None, Array]:
         if not outputs:
@@ -130,14 +134,19 @@ def integrate(
         slope, y = observe(x, step)
         return whole(x, step, slope), (x, y)
 
-    rows = (steps.t, steps.inputs.start, steps.inputs.end, *(() if equal is not None else (steps.h,)))
+    rows = (
+        steps.t,
+        steps.inputs.start,
+        steps.inputs.end,
+        *(() if equal is not None else (steps.h,)),
+    )
     end, (xs, ys) = jax.lax.scan(body, x0, rows)
     return xs, ys, end
 
 
 def _explicit(solver: dfx.AbstractERK) -> Stepper:
     """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
-    tableau = solver.tableau
+    tableau: Any = solver.tableau
     rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
     fractions = [0.0, *(float(c) for c in tableau.c)]
     weights = [float(b) for b in tableau.b_sol]
@@ -161,7 +170,7 @@ def _sum(x: Array, h: ArrayLike, weights: Sequence[float], slopes: Sequence[Arra
 def _implicit(solver: Solver) -> Stepper:
     """A solver's own `step`, in local time from 0 to h."""
 
-    def step(field: Field, x: Array, h: ArrayLike, args: Any, slope: Array | None) -> Array:
+    def step(field: Field, x: Array, h: Any, args: Any, slope: Array | None) -> Array:
         term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
         start, h, args = _strong((jnp.zeros_like(h), h, args))
         memory = solver.init(term, start, h, x, args)

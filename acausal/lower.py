@@ -6,10 +6,11 @@ subexpressions evaluated once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import sympy as sp
@@ -22,24 +23,48 @@ from acausal.symbols import ModuleCall
 
 @dataclass(frozen=True)
 class ModuleValue:
-    """A callable parameter at run time; ``stacked`` if its leaves carry a leading axis of instances."""
+    """A callable parameter at run time.
+
+    Attributes:
+        module: one module for all instances; or, if ``stacked``, one whose arrays carry a leading axis of
+            instances; or a tuple of modules that are unlike each other, one for each instance.
+    """
 
     module: Any
     stacked: bool = False
 
     def __call__(self, orders: tuple[int, ...], *args: Any) -> Any:
-        function = _derivative(_scalar(self.module), orders) if not self.stacked else None
-        shape = jnp.broadcast_shapes(*(jnp.shape(a) for a in args))
+        if isinstance(self.module, tuple):
+            n = len(self.module)
+            each = zip(self.module, *(jnp.broadcast_to(a, (n,)) for a in args), strict=True)
+            return jnp.stack([_derivative(_scalar(m), orders)(*a) for m, *a in each])
         if self.stacked:
-            batched = [jnp.broadcast_to(a, (*_leading(self.module),)) for a in args]
-            return jax.vmap(lambda m, *a: _derivative(_scalar(m), orders)(*a))(self.module, *batched)
-        if function is None or not shape:
-            return function(*args) if function is not None else None
+            arrays, rest = eqx.partition(self.module, eqx.is_array)
+            n = jax.tree.leaves(arrays)[0].shape[0]
+            batched = [jnp.broadcast_to(a, (n,)) for a in args]
+            call = lambda m, *a: _derivative(_scalar(eqx.combine(m, rest)), orders)(*a)  # noqa: E731
+            return jax.vmap(call)(arrays, *batched)
+        function = _derivative(_scalar(self.module), orders)
+        shape = jnp.broadcast_shapes(*(jnp.shape(a) for a in args))
+        if not shape:
+            return function(*args)
         return jax.vmap(function)(*(jnp.broadcast_to(a, shape) for a in args))
 
 
-def _leading(module: Any) -> tuple[int]:
-    return (jax.tree.leaves(module)[0].shape[0],)
+def collect(modules: Sequence[Any]) -> ModuleValue:
+    """The modules of several instances: stacked if they differ in the values of their arrays only."""
+    parts = [eqx.partition(m, eqx.is_array) for m in modules]
+    (first, rest), *others = parts
+    alike = bool(jax.tree.leaves(first)) and all(
+        jax.tree.structure(arrays) == jax.tree.structure(first)
+        and jax.tree.map(jnp.shape, arrays) == jax.tree.map(jnp.shape, first)
+        and eqx.tree_equal(static, rest) is True
+        for arrays, static in others
+    )
+    if not alike:
+        return ModuleValue(tuple(modules))
+    stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *(arrays for arrays, _ in parts))
+    return ModuleValue(eqx.combine(stacked, rest), stacked=True)
 
 
 def _scalar(module: Any) -> Callable[..., Any]:
@@ -79,7 +104,9 @@ def _rule(node: sp.Basic) -> Rule:
     for cls in type(node).__mro__:
         if cls in RULES:
             return RULES[cls]
-    raise ModelError(f"'{type(node).__name__}' cannot be computed; use the functions that acausal exports")
+    raise ModelError(
+        f"'{type(node).__name__}' cannot be computed; use the functions that acausal exports"
+    )
 
 
 def _number(node: Any, visit: Visit) -> Any:
@@ -126,7 +153,11 @@ def _power(node: sp.Pow, visit: Visit) -> Any:
         return jnp.sqrt(base)
     if exponent.is_Integer:
         n = int(exponent)
-        power = base ** abs(n) if isinstance(base, float) else jax.lax.integer_pow(jnp.asarray(base), abs(n))
+        power = (
+            base ** abs(n)
+            if isinstance(base, float)
+            else jax.lax.integer_pow(jnp.asarray(base), abs(n))
+        )
         return 1.0 / power if n < 0 else power
     if exponent.is_negative and exponent.is_Number:
         return 1.0 / visit(sp.Pow(node.base, -exponent))
@@ -136,7 +167,9 @@ def _power(node: sp.Pow, visit: Visit) -> Any:
 def _piecewise(node: sp.Piecewise, visit: Visit) -> Any:
     result: Any = jnp.nan
     for value, condition in reversed(node.args):
-        result = visit(value) if condition == True else jnp.where(visit(condition), visit(value), result)  # noqa: E712
+        result = (
+            visit(value) if condition == True else jnp.where(visit(condition), visit(value), result)
+        )  # noqa: E712
     return result
 
 

@@ -29,7 +29,9 @@ class Modifiers(eqx.Module):
 
     def relative(self, deltas: Mapping[str, Array]) -> dict[str, Array]:
         """The relative changes ``γ tanh δ`` of the parameters."""
-        return {n: gamma * jnp.tanh(deltas[n]) for n, gamma in zip(self.names, self.gammas, strict=True)}
+        return {
+            n: gamma * jnp.tanh(deltas[n]) for n, gamma in zip(self.names, self.gammas, strict=True)
+        }
 
     def apply(self, params: Mapping[str, Any], deltas: Mapping[str, Array]) -> dict[str, Any]:
         """The parameters with their changes applied."""
@@ -45,13 +47,25 @@ def modifiers(
     Raises:
         TrainingError: for a name that is no numeric parameter, a γ outside (0, 1), or a parameter that is zero.
     """
-    chosen = {} if given is None else dict(given) if isinstance(given, Mapping) else dict.fromkeys(given, gamma)
+    chosen = (
+        {}
+        if given is None
+        else dict(given)
+        if isinstance(given, Mapping)
+        else dict.fromkeys(given, gamma)
+    )
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     for name, limit in chosen.items():
         if name not in numbers:
-            raise TrainingError(f"There is no parameter '{name}' to train: {nearest(name, numbers)}")
+            raise TrainingError(
+                f"There is no parameter '{name}' to train: {nearest(name, numbers)}"
+            )
         if not 0 < limit < 1:
-            raise TrainingError(f"The modifier of '{name}' has gamma={limit}; choose it between 0 and 1.")
+            raise TrainingError(
+                f"The modifier of '{name}' has gamma={limit}; choose it between 0 and 1."
+            )
         if float(params[name]) == 0.0:
-            raise TrainingError(f"Parameter '{name}' is 0, and a modifier multiplies; give it a value to start from.")
+            raise TrainingError(
+                f"Parameter '{name}' is 0, and a modifier multiplies; give it a value to start from."
+            )
     return Modifiers(tuple(chosen), tuple(float(g) for g in chosen.values()))

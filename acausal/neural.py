@@ -12,6 +12,7 @@ from jax import Array
 from jax.typing import ArrayLike
 
 from acausal.errors import DeclarationError, nearest
+from acausal.signals import Signal
 
 ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
     "relu": jax.nn.relu,
@@ -24,6 +25,9 @@ ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
     "identity": lambda x: x,
 }
 """Activations by name."""
+
+SPREAD = 2.0
+"""Bound of the first layer's weights and biases."""
 
 Scale = float | tuple[float, ...]
 Key = Array | int
@@ -41,10 +45,12 @@ class MLP(eqx.Module):
         activation: of the hidden layers, by name (`ACTIVATIONS`); the last layer is linear.
         input_scale: typical magnitude of each input, in its unit (one number for all, or a tuple).
         output_scale: typical magnitude of the output, in its unit.
-        last_layer: factor on the initial weights of the last layer; a small one starts near F = 0.
+        last_layer: factor on the initial weights of the last layer; a small one starts near F = 0, that is with
+            the model as physics alone gives it.
         key: a JAX key, or a seed.
 
-    Weights and biases start uniform in ±1/√(inputs of the layer), Equinox's and PyTorch's default.
+    The first layer's weights and biases start uniform in ±2, so that the kinks of its neurons are spread over inputs
+    of a few input scales; hidden weights in ±√(6/width); other biases at zero.
 
     Raises:
         DeclarationError: for an unknown activation, a size below one or scales that do not fit.
@@ -66,43 +72,59 @@ class MLP(eqx.Module):
         *,
         input_scale: Scale = 1.0,
         output_scale: float = 1.0,
-        last_layer: float = 1.0,
+        last_layer: float = 0.1,
         key: Key,
     ) -> None:
         if activation not in ACTIVATIONS:
-            raise DeclarationError(f"no activation '{activation}': {nearest(activation, ACTIVATIONS)}")
+            raise DeclarationError(
+                f"no activation '{activation}': {nearest(activation, ACTIVATIONS)}"
+            )
         if min(in_size, width) < 1 or depth < 0:
             raise DeclarationError(f"a network of in_size={in_size}, width={width}, depth={depth}")
         if isinstance(input_scale, tuple) and len(input_scale) != in_size:
             raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
         sizes = [in_size, *[width] * depth, 1]
-        keys = jax.random.split(jax.random.key(key) if isinstance(key, int) else key, 2 * (depth + 1))
-        limits = [n**-0.5 for n in sizes[:-1]]
-        limits[-1] *= last_layer
+        keys = jax.random.split(
+            jax.random.key(key) if isinstance(key, int) else key, 2 * (depth + 1)
+        )
+        limits = [
+            SPREAD / in_size**0.5,
+            *[(6 / width) ** 0.5] * (depth - 1),
+            last_layer * width**-0.5,
+        ][-depth - 1 :]
         self.weights = tuple(
             _uniform(k, (rows, columns), limit)
             for k, columns, rows, limit in zip(keys[::2], sizes, sizes[1:], limits, strict=False)
         )
-        self.biases = tuple(
-            _uniform(k, (rows,), limit)
-            for k, rows, limit in zip(keys[1::2], sizes[1:], limits, strict=True)
-        )
+        first, *others = sizes[1:]
+        spread = SPREAD if depth else 0.0
+        self.biases = (_uniform(keys[1], (first,), spread), *(jnp.zeros(n) for n in others))
         self.in_size, self.activation = in_size, activation
         self.input_scale, self.output_scale = input_scale, output_scale
 
     def __call__(self, *inputs: ArrayLike) -> Array:
         """The output for ``in_size`` scalar inputs."""
         if len(inputs) != self.in_size:
-            raise DeclarationError(f"a network of {self.in_size} inputs is called with {len(inputs)}")
+            raise DeclarationError(
+                f"a network of {self.in_size} inputs is called with {len(inputs)}"
+            )
         activation = ACTIVATIONS[self.activation]
         h = jnp.stack([jnp.asarray(x) for x in inputs]) / jnp.asarray(self.input_scale)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
-            h = activation(weight @ h + bias)
-        return self.output_scale * (self.weights[-1][0] @ h + self.biases[-1][0])
+            h = activation(_product(weight, h) + bias)
+        return self.output_scale * (_product(self.weights[-1], h) + self.biases[-1])[0]
 
     def __repr__(self) -> str:
         sizes = [self.in_size, *(len(b) for b in self.biases)]
         return f"MLP({'-'.join(map(str, sizes))}, {self.activation})"
+
+
+def _product(matrix: Array, vector: Array) -> Array:
+    """``matrix @ vector``, spelled so that XLA fuses it into the step around it instead of calling a library.
+
+    On a CPU this halves the time of a step for a few sequences side by side.
+    """
+    return jnp.sum(matrix * vector, axis=-1)
 
 
 def _uniform(key: Array, shape: tuple[int, ...], limit: float) -> Array:
@@ -133,13 +155,13 @@ def networks(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
 
 
 def _trainable(module: eqx.Module) -> bool:
-    from acausal.signals import Signal
-
     arrays = jax.tree.leaves(eqx.filter(module, eqx.is_inexact_array))
     return bool(arrays) and not isinstance(module, Signal)
 
 
-def remove_offset(params: Mapping[str, Any], names: tuple[str, ...] | None = None) -> dict[str, Any]:
+def remove_offset(
+    params: Mapping[str, Any], names: tuple[str, ...] | None = None
+) -> dict[str, Any]:
     """The parameters with networks wrapped in `OffsetCorrected` (all networks, or those named)."""
     chosen = networks(params) if names is None else names
     return {n: OffsetCorrected(leaf) if n in chosen else leaf for n, leaf in params.items()}
@@ -150,5 +172,3 @@ def output_scale(module: Any) -> float:
     if isinstance(module, OffsetCorrected):
         return output_scale(module.net)
     return float(getattr(module, "output_scale", 1.0))
-
-

@@ -93,7 +93,9 @@ class ParameterLayout:
             return value
         module = value(key)
         if not callable(module):
-            raise DeclarationError(f"'{name}': the function gave {type(module).__name__}, not a callable module")
+            raise DeclarationError(
+                f"'{name}': the function gave {type(module).__name__}, not a callable module"
+            )
         return module
 
     def pack(self, params: Mapping[str, Any] | Packed) -> Packed:
@@ -108,22 +110,32 @@ class ParameterLayout:
         own = self.model.value[self.free]
         given = [params.get(name, value) for name, value in zip(self.names, own, strict=True)]
         if any(isinstance(v, jax.Array) for v in given):
-            free = jnp.stack([jnp.asarray(given[i], dtype=float) for i in self.order]) if given else jnp.zeros(0)
+            free = (
+                jnp.stack([jnp.asarray(given[i], dtype=float) for i in self.order])
+                if given
+                else jnp.zeros(0)
+            )
         else:
             free = jnp.asarray(np.asarray(given, dtype=float)[self.order])
         values = free
         for group in self.bound:
             arguments = {symbol: g.read([values]) for symbol, g in group.arguments}
-            computed = jnp.broadcast_to(jnp.asarray(evaluate(group.expression, arguments)), (group.size,))
+            computed = jnp.broadcast_to(
+                jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
+            )
             values = jnp.concatenate([values, computed])
-        modules = {i: params[name] for i, name in zip(self._own_modules, self.module_names, strict=True)}
+        modules = {
+            i: params[name] for i, name in zip(self._own_modules, self.module_names, strict=True)
+        }
         return Packed(values, tuple(modules[int(m)] for m in self.module_of))
 
     def _check_names(self, params: Mapping[str, Any]) -> None:
         missing = [name for name in self.module_names if name not in params]
         if missing:
             raise DataError(f"params lacks {listing(missing)}; start from system.parameters(key)")
-        if len(params) == len(self.names) + len(self.module_names) and all(n in params for n in self.names):
+        if len(params) == len(self.names) + len(self.module_names) and all(
+            n in params for n in self.names
+        ):
             return
         known = {*self.names, *self.module_names}
         for name in params:
@@ -179,14 +191,25 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     filled = len(free)
     waiting = [b for b in model.bindings if target[b.target] == b.target]
     while waiting:
-        ready = [b for b in waiting if all(_is_placed(a, target, position, model) for a in b.arguments)]
+        ready = [
+            b for b in waiting if all(_is_placed(a, target, position, model) for a in b.arguments)
+        ]
         if not ready:
             names = [model.layout.parameter(b.target) for b in waiting]
-            raise DeclarationError(f"parameters are bound in a circle: {listing(names)}; give one a number")
+            raise DeclarationError(
+                f"parameters are bound in a circle: {listing(names)}; give one a number"
+            )
         for expression, members in _by_expression(ready, model, target):
-            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).reshape(len(members), -1)
+            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).reshape(
+                len(members), -1
+            )
             arguments = tuple(
-                (s, gather(np.zeros(len(members), dtype=np.int64), position[columns[:, i]], [filled]))
+                (
+                    s,
+                    gather(
+                        np.zeros(len(members), dtype=np.int64), position[columns[:, i]], [filled]
+                    ),
+                )
                 for i, s in enumerate(members[0].symbols)
                 if s in expression.free_symbols
             )

@@ -60,7 +60,9 @@ def learned(
     ax.legend(frameon=False)
 
 
-def losses(ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None) -> None:
+def losses(
+    ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None
+) -> None:
     """Draw losses over epochs: of the batches (thin) and over the whole record (dots).
 
     Arguments:
@@ -71,8 +73,16 @@ def losses(ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, f
         ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
     for label, level in (levels or {}).items():
         ax.axhline(level, color=GUIDE, lw=1, ls=":")
-        ax.annotate(label, (1, level), xycoords=("axes fraction", "data"), xytext=(-4, 3),
-                    textcoords="offset points", ha="right", fontsize=8, color=GUIDE)
+        ax.annotate(
+            label,
+            (1, level),
+            xycoords=("axes fraction", "data"),
+            xytext=(-4, 3),
+            textcoords="offset points",
+            ha="right",
+            fontsize=8,
+            color=GUIDE,
+        )
     ax.set(xlabel="epoch", ylabel="loss")
     ax.grid(alpha=0.25, which="both")
     ax.legend(frameon=False)

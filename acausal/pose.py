@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
@@ -55,7 +55,9 @@ def pose(
     chosen = _networks(train, params)
     changed = parameter_modifiers.modifiers(modifiers, gamma, params)
     if not chosen and not changed.names:
-        raise TrainingError("There is nothing to train: the model has no network. Give modifiers=[...] to train parameters.")
+        raise TrainingError(
+            "There is nothing to train: the model has no network. Give modifiers=[...] to train parameters."
+        )
     if not targets:
         raise TrainingError("There are no targets: name the variables to fit.")
     if len(data) < 2:
@@ -70,7 +72,9 @@ def pose(
     record = lay_out(data, system.inputs, targets, None if missing else system.states)
     problem = Problem(
         system=system,
-        params={n: leaf if callable(leaf) else jnp.asarray(leaf, float) for n, leaf in params.items()},
+        params={
+            n: leaf if callable(leaf) else jnp.asarray(leaf, float) for n, leaf in params.items()
+        },
         networks=chosen,
         modifiers=changed,
         targets=targets,
@@ -79,13 +83,13 @@ def pose(
         x0=_first_state(system, data, x0, missing),
         loss=losses.named(loss),
         regularizers=_labelled(regularizers),
-        context=None,
+        context=Context((), {}),
         solver=solvers.fixed(solvers.named(solver)),
         substeps=_substeps(data, dt),
     )
     if not regularizers:
         return problem
-    return eqx.tree_at(lambda p: p.context, problem, _context(problem), is_leaf=lambda leaf: leaf is None)
+    return replace(problem, context=_context(problem))
 
 
 def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:
@@ -107,7 +111,9 @@ def _first_state(
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
     for name in given:
         if name not in system.states:
-            raise DataError(f"x0: '{name}' is no state of the model: {nearest(name, system.states)}")
+            raise DataError(
+                f"x0: '{name}' is no state of the model: {nearest(name, system.states)}"
+            )
     unknown = [n for n in missing if n not in given]
     if unknown:
         raise DataError(
@@ -148,6 +154,8 @@ def _context(problem: Problem) -> Context:
     if x is None:
         x = problem.trajectory(trainable)
         if not bool(jnp.isfinite(x).all()):
-            raise TrainingError("The model diverges over the record before training; start from better parameters.")
+            raise TrainingError(
+                "The model diverges over the record before training; start from better parameters."
+            )
     rows = np.unique(np.linspace(0, len(problem.record) - 1, REFERENCE_POINTS).astype(int))
-    return Context(problem.networks, problem.seen(trainable, x, rows))
+    return Context(problem.networks, problem.seen(trainable, x, jnp.asarray(rows)))

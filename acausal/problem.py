@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax import Array
 
 from acausal.arguments import arguments
@@ -63,7 +62,7 @@ class Problem(eqx.Module):
     x0: Array | None
     loss: Loss = eqx.field(static=True)
     regularizers: dict[str, Regularizer] = eqx.field(static=True)
-    context: Context | None
+    context: Context
     solver: Solver = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
 
@@ -74,7 +73,9 @@ class Problem(eqx.Module):
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
         """The model's parameters, with physical values, for some state of the training."""
-        networks = {n: eqx.combine(arrays, self.params[n]) for n, arrays in trainable.networks.items()}
+        networks = {
+            n: eqx.combine(arrays, self.params[n]) for n, arrays in trainable.networks.items()
+        }
         return self.modifiers.apply({**self.params, **networks}, trainable.modifiers)
 
     def draw(self, key: Array) -> Batch:
@@ -117,31 +118,40 @@ class Problem(eqx.Module):
         return self._integrate(packed, self._first_state(packed), self.record.steps)[0]
 
     @eqx.filter_jit
-    def seen(self, trainable: Trainable, x: Array, rows: np.ndarray | slice = slice(None)) -> dict[str, Array]:
+    def seen(self, trainable: Trainable, x: Array, rows: Array | None = None) -> dict[str, Array]:
         """What every network is called with in the states ``x`` of the record, shape (N, number of arguments).
 
         Arguments:
             trainable: some state of the training.
             x: states at every sample, shape (N, number of states).
-            rows: which samples.
+            rows: indices of samples; ``None`` for all.
 
         A network with several places in the model is taken in all of them, one after the other.
         """
         packed = self.system.pack(self.assemble(trainable))
         steps = self.record.steps
+        points = (steps.t, x, steps.inputs.start)
+        if rows is not None:
+            points = jax.tree.map(lambda a: a[rows], points)
 
         def at(name: str) -> Array:
             def one(t: Array, x: Array, u: Array) -> Array:
                 return arguments(self.system, name, t, x, u, packed)
 
-            values = jax.vmap(one)(steps.t[rows], x[rows], steps.inputs.start[rows])
+            values = jax.vmap(one)(*points)
             return values.reshape(-1, values.shape[-1])
 
         return {name: at(name) for name in self.networks}
 
     def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array, Array]:
         return integrate(
-            self.system, packed, x0, steps, self.solver, outputs=self.targets, substeps=self.substeps
+            self.system,
+            packed,
+            x0,
+            steps,
+            self.solver,
+            outputs=self.targets,
+            substeps=self.substeps,
         )
 
     def _measured(self, start: Array) -> Array:
@@ -152,7 +162,8 @@ class Problem(eqx.Module):
         if self.x0 is not None:
             return self.x0
         steps = self.record.steps
-        return self.system.initial_state(packed, None, steps.inputs.start[0], steps.t[0])
+        t0: Any = steps.t[0]
+        return self.system.initial_state(packed, None, steps.inputs.start[0], t0)
 
 
 def modified(problem: Problem, trainable: Trainable) -> Mapping[str, Array]:

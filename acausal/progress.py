@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -38,7 +38,7 @@ Observer = Callable[[Progress], None]
 
 
 @contextmanager
-def display(wanted: bool, epochs: int) -> Iterator[Observer]:
+def display(wanted: bool, epochs: int) -> Generator[Observer]:
     """A live line with epoch, loss, rate and remaining time; nothing where there is no terminal."""
     from rich.console import Console
 
@@ -52,7 +52,9 @@ def display(wanted: bool, epochs: int) -> Iterator[Observer]:
     columns = (
         TextColumn("epoch {task.completed:>5.0f}/{task.total:.0f}"),
         BarColumn(),
-        TextColumn("loss {task.fields[loss]}  whole record {task.fields[best]}  {task.fields[rate]}"),
+        TextColumn(
+            "loss {task.fields[loss]}  whole record {task.fields[best]}  {task.fields[rate]}"
+        ),
         TimeElapsedColumn(),
         TextColumn("left"),
         TimeRemainingColumn(),

@@ -54,7 +54,9 @@ def lay_out(
     sigma = y.std(axis=0)
     for name, deviation in zip(targets, sigma, strict=True):
         if not deviation > 1e-12 * np.max(np.abs(data[name])):
-            raise DataError(f"Target '{name}' is constant in the data; it gives nothing to learn from.")
+            raise DataError(
+                f"Target '{name}' is constant in the data; it gives nothing to learn from."
+            )
     x = None if states is None else jnp.asarray(data.columns(states, "a state of the model"))
     h = np.diff(data.time)
     lengths = jnp.asarray(data.sample_time) if data.uniform else jnp.asarray(np.append(h, h[-1]))
@@ -116,9 +118,11 @@ class Sequences(eqx.Module):
         last = self.record_length - self.length
         start = jax.random.randint(for_start, (self.batch_size,), 0, last + 1)
         points = None
-        if self.points is not None:
+        if (count := self.points) is not None:
             keys = jax.random.split(for_points, self.batch_size)
-            points = jax.vmap(lambda k: jax.random.choice(k, self.length, (self.points,), replace=False))(keys)
+            points = jax.vmap(lambda k: jax.random.choice(k, self.length, (count,), replace=False))(
+                keys
+            )
         return Batch(start, jnp.ones(self.batch_size), points)
 
     def all(self) -> Batch:
@@ -126,10 +130,13 @@ class Sequences(eqx.Module):
         return Batch(jnp.zeros(1, int), jnp.ones(1), None)
 
 
-def sequences(data: Data, seconds: float | None, batch_size: int, fraction: float | None) -> Sequences:
+def sequences(
+    data: Data, seconds: float | None, batch_size: int, fraction: float | None
+) -> Sequences:
     """How to cut a record.
 
     Arguments:
+        data: the record.
         seconds: length of a sequence; ``None`` takes the whole record.
         batch_size: sequences in a batch.
         fraction: part of each sequence's points that counts; ``None`` takes all.
@@ -143,9 +150,13 @@ def sequences(data: Data, seconds: float | None, batch_size: int, fraction: floa
             f"sequence_length={seconds:g} s is {n} samples; the record has {len(data)} at {data.sample_time:g} s."
         )
     if batch_size < 1 or (seconds is None and batch_size != 1):
-        raise DataError(f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record.")
+        raise DataError(
+            f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record."
+        )
     if fraction is None:
         return Sequences(len(data), n, batch_size, None)
     if not 0 < fraction <= 1:
-        raise DataError(f"subsample={fraction:g} is no fraction of the points; give a number in (0, 1].")
+        raise DataError(
+            f"subsample={fraction:g} is no fraction of the points; give a number in (0, 1]."
+        )
     return Sequences(len(data), n, batch_size, max(1, round(fraction * n)))

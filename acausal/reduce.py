@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -108,6 +109,22 @@ class ReducedModel:
             return int(self.aliases.representative[node]), int(self.aliases.sign[node])
         return node, 1
 
+    @cached_property
+    def start_members(self) -> tuple[Integers, Integers]:
+        """For every node the variable whose start it takes (itself if it has no name), and the sign.
+
+        Of a node's names a fixed one counts most, then one whose start somebody gave, then the node's own.
+        """
+        model, n = self.model, self.model.n_variables
+        node, sign = self.aliases.representative[:n], self.aliases.sign[:n]
+        own = node == np.arange(n)
+        order = np.lexsort((-np.arange(n), own, model.start_given, model.fixed))
+        member = np.arange(len(self.derivative))
+        member_sign = np.ones(len(member), dtype=np.int64)
+        member[node[order]] = order
+        member_sign[node[order]] = sign[order]
+        return member, member_sign
+
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""
         if node < self.model.n_variables:
@@ -123,7 +140,9 @@ def reduce(model: FlatModel) -> ReducedModel:
     """
     aliases = eliminate_aliases(model)
     system = _Equations.of(model, aliases)
-    problem = explain_singularity(model, aliases, system.incidence, system.chains(), system.origins())
+    problem = explain_singularity(
+        model, aliases, system.incidence, system.chains(), system.origins()
+    )
     if problem is not None:
         raise StructureError(problem)
     system.reduce_index()
@@ -250,7 +269,9 @@ class _Equations:
             node, sign = (self._derivative(row[column])) if raised else (row[column], 1)
             nodes.append(node)
             codes.append(0 if node == self.aliases.zero else sign * (nodes.index(node) + 1))
-        special, (columns, kept, used) = specialised(template, (*codes, *[0] * len(template.parameters)))
+        special, (columns, kept, used) = specialised(
+            template, (*codes, *[0] * len(template.parameters))
+        )
         self.template.append(special)
         self.variables.append([nodes[c] for c in columns])
         self.parameters.append([self.parameters[equation][c] for c in kept])
@@ -285,11 +306,19 @@ def _select_states(system: _Equations) -> list[int]:
         chosen = graph.choose_variables(rows, candidates, len(derivative))
         if len(chosen) < len(constraints):
             names = [system.template[e].origin for e in constraints]
-            raise StructureError(f"index reduction finds no states; the constraints are: {'; '.join(names[:6])}")
+            raise StructureError(
+                f"index reduction finds no states; the constraints are: {'; '.join(names[:6])}"
+            )
         dummies.update(chosen)
-        constraints = [system.derived_from[e] for e in constraints if system.derived_from[e] in system.derived_from]
+        constraints = [
+            system.derived_from[e]
+            for e in constraints
+            if system.derived_from[e] in system.derived_from
+        ]
         candidates = [antecedent[v] for v in chosen if antecedent[v] in antecedent]
-    return [v for v, d in enumerate(derivative) if d >= 0 and d not in dummies and v not in system.known]
+    return [
+        v for v, d in enumerate(derivative) if d >= 0 and d not in dummies and v not in system.known
+    ]
 
 
 def _preference(system: _Equations) -> Any:
@@ -360,7 +389,10 @@ def _steps(
     for a, b in zip(bounds, bounds[1:], strict=False):
         equations = order[a:b].tolist()
         level = int(blocks.level[blocks.block[equations[0]]])
-        if len(equations) == 1 and (column := _explicit(system, equations[0], variable_of)) is not None:
+        if (
+            len(equations) == 1
+            and (column := _explicit(system, equations[0], variable_of)) is not None
+        ):
             key: Hashable = (level, system.template[equations[0]], column)
             found.setdefault(key, []).append(equations[0])
         else:
@@ -396,7 +428,9 @@ def _step(system: _Equations, key: Any, members: list[Any]) -> Step:
     return Loop(shape, *(_matrix(list(c)) for c in columns))
 
 
-def _loop(system: _Equations, equations: list[int], unknowns: list[int]) -> tuple[tuple[Any, ...], tuple[list[int], ...]]:
+def _loop(
+    system: _Equations, equations: list[int], unknowns: list[int]
+) -> tuple[tuple[Any, ...], tuple[list[int], ...]]:
     """A block in local numbers: its shape (shared by equal blocks) and what fills it."""
     local = {v: i for i, v in enumerate(unknowns)}
     externals: dict[int, int] = {}
@@ -405,14 +439,18 @@ def _loop(system: _Equations, equations: list[int], unknowns: list[int]) -> tupl
     stated: list[BlockEquation] = []
     for e in equations:
         codes = tuple(
-            local[v] if v in local else -1 - externals.setdefault(v, len(externals)) for v in system.variables[e]
+            local[v] if v in local else -1 - externals.setdefault(v, len(externals))
+            for v in system.variables[e]
         )
         first, first_module = len(parameters), len(modules)
         parameters += system.parameters[e]
         modules += system.modules[e]
         stated.append(
             BlockEquation(
-                system.template[e], codes, tuple(range(first, len(parameters))), tuple(range(first_module, len(modules)))
+                system.template[e],
+                codes,
+                tuple(range(first, len(parameters))),
+                tuple(range(first_module, len(modules))),
             )
         )
     return (tuple(stated), len(unknowns)), (unknowns, list(externals), parameters, modules)

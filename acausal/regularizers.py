@@ -56,11 +56,16 @@ class ZeroCrossing:
     def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
         """The penalty."""
         names = _chosen(self.networks, context)
-        return self.weight * sum(self._at_zero(name, params[name], context) for name in names)
+        terms = [self._at_zero(name, params[name], context) for name in names]
+        return self.weight * _sum(terms)
 
     def _at_zero(self, name: str, network: Any, context: Context) -> Array:
         given = (self.secondary or {}).get(name)
-        others = context.arguments[name][:, 1:] if given is None else jnp.asarray(np.atleast_2d(np.asarray(given).T).T)
+        others = (
+            context.arguments[name][:, 1:]
+            if given is None
+            else jnp.asarray(np.atleast_2d(np.asarray(given).T).T)
+        )
         if others.shape[1] == 0:
             others = others[:1]
         force = jax.vmap(lambda row: network(jnp.zeros(()), *row))(others)
@@ -85,7 +90,11 @@ class SmallCorrection:
     def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
         """The penalty."""
         names = _chosen(self.networks, context)
-        return self.weight * sum(_mean_square(params[n], context.arguments[n]) for n in names)
+        return self.weight * _sum([_mean_square(params[n], context.arguments[n]) for n in names])
+
+
+def _sum(terms: list[Array]) -> Array:
+    return jnp.sum(jnp.stack(terms)) if terms else jnp.zeros(())
 
 
 def _mean_square(network: Any, arguments: Array) -> Array:
@@ -96,7 +105,9 @@ def _mean_square(network: Any, arguments: Array) -> Array:
 def _chosen(networks: tuple[str, ...] | None, context: Context) -> tuple[str, ...]:
     for name in networks or ():
         if name not in context.networks:
-            raise TrainingError(f"A regularizer names the network '{name}': {nearest(name, context.networks)}")
+            raise TrainingError(
+                f"A regularizer names the network '{name}': {nearest(name, context.networks)}"
+            )
     return context.networks if networks is None else networks
 
 

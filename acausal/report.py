@@ -58,17 +58,24 @@ class Page:
         self._body.append(f"<p>{html.escape(text)}</p>")
 
     def table(
-        self, header: Sequence[str], rows: Iterable[Sequence[Any]], passed: Sequence[bool | None] | None = None
+        self,
+        header: Sequence[str],
+        rows: Iterable[Sequence[Any]],
+        passed: Sequence[bool | None] | None = None,
     ) -> None:
         """A table; ``passed`` marks rows as a target hit (True) or missed (False)."""
         marks = {True: ' class="hit"', False: ' class="miss"', None: ""}
         lines = [f"<tr>{''.join(f'<th>{html.escape(str(h))}</th>' for h in header)}</tr>"]
         for number, row in enumerate(rows):
             mark = marks[passed[number]] if passed else ""
-            lines.append(f"<tr{mark}>{''.join(f'<td>{html.escape(str(c))}</td>' for c in row)}</tr>")
+            lines.append(
+                f"<tr{mark}>{''.join(f'<td>{html.escape(str(c))}</td>' for c in row)}</tr>"
+            )
         self._body.append(f"<table>{''.join(lines)}</table>")
 
-    def equations(self, equations: Iterable[sp.Equality], names: Mapping[str, str] | None = None) -> None:
+    def equations(
+        self, equations: Iterable[sp.Equality], names: Mapping[str, str] | None = None
+    ) -> None:
         """Equations as MathML; ``names`` gives some symbols a shorter name, such as ``{"body.m": "m_b"}``."""
         written = "".join(_mathml(e, dict(names or {})) for e in equations)
         self._body.append(f'<div class="equations">{written}</div>')
@@ -143,4 +150,6 @@ def _mathml(equation: sp.Equality, names: dict[str, str]) -> str:
     }
     renamed = equation.xreplace(functions).xreplace(symbols)
     printed = _MathML({"mul_symbol": "⁢"})._print(renamed)
-    return f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{printed.toxml()}</math>'
+    return (
+        f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{printed.toxml()}</math>'
+    )

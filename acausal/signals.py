@@ -9,13 +9,13 @@ from __future__ import annotations
 from typing import Any, Literal, get_args
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
 from acausal.errors import DataError
+from acausal.tracing import traced
 
 Interpolation = Literal["linear", "previous", "cubic"]
 Extrapolation = Literal["hold", "linear", "periodic"]
@@ -61,14 +61,14 @@ class Signal(eqx.Module):
     ) -> None:
         _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
         _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))
-        if not isinstance(ts, jax.core.Tracer):
+        if not traced(ts):
             check_time_base(np.asarray(ts), f"'{name}'")
         check_samples(values, np.shape(ts), f"'{name}'")
         self.ts = jnp.asarray(ts, float)
         self.values = jnp.asarray(values, float)
         self.interpolation = interpolation
         self.extrapolation = extrapolation
-        self.uniform = not isinstance(ts, jax.core.Tracer) and is_uniform(np.asarray(ts))
+        self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
 
     def __call__(self, t: ArrayLike) -> Array:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
@@ -146,7 +146,7 @@ def check_samples(values: Any, shape: tuple[int, ...], what: str) -> None:
     """Refuse samples of another length than their time base, or that are not finite numbers."""
     if np.shape(values) != shape:
         raise DataError(f"{what} has {_count(values)} for {shape[0]} times.")
-    if isinstance(values, jax.core.Tracer):
+    if traced(values):
         return
     samples = np.asarray(values)
     if not np.issubdtype(samples.dtype, np.number) and samples.dtype != bool:

@@ -15,6 +15,7 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import DataError, nearest
+from acausal.tracing import traced
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -76,7 +77,9 @@ class Solution:
         try:
             import pandas as pd
         except ImportError:
-            raise DataError("A data frame needs pandas: pip install 'acausal[dataframe]'.") from None
+            raise DataError(
+                "A data frame needs pandas: pip install 'acausal[dataframe]'."
+            ) from None
         return pd.DataFrame(self.to_dict(names)).set_index("time")
 
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
@@ -106,12 +109,16 @@ class Solution:
             groups.setdefault(self._unit(name), []).append(name)
         if axes is None:
             size = (7.0, 1.0 + 2.0 * len(groups))
-            _, grid = plt.subplots(len(groups), 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
+            _, grid = plt.subplots(
+                len(groups), 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
+            )
             axes = list(grid[:, 0])
         for ax, (unit, members) in zip(axes, groups.items(), strict=True):
             for name in members:
                 ax.plot(self.t, self._observed[name], label=name)
-            ax.set_ylabel(f"{members[0]} in {unit or '1'}" if len(members) == 1 else f"in {unit or '1'}")
+            ax.set_ylabel(
+                f"{members[0]} in {unit or '1'}" if len(members) == 1 else f"in {unit or '1'}"
+            )
             if len(members) > 1:
                 ax.legend()
         axes[-1].set_xlabel("time in s")
@@ -134,13 +141,15 @@ class Solution:
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"
-        if not isinstance(self.t, jax.core.Tracer):
+        if not traced(self.t):
             shape += f" from {float(self.t[0]):g} to {float(self.t[-1]):g} s"
         return f"Solution({shape}, {len(self.names)} variables)"
 
 
 @eqx.filter_jit
-def _observe_all(system: System, names: tuple[str, ...], t: Array, x: Array, u: Array, packed: Any) -> list[Array]:
+def _observe_all(
+    system: System, names: tuple[str, ...], t: Array, x: Array, u: Array, packed: Any
+) -> list[Array]:
     def at(t: Array, x: Array, u: Array) -> Array:
         return system.observe(names, t, x, u, packed)
 

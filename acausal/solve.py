@@ -27,7 +27,9 @@ def solve_nonlinear(block: Block, guess: Any) -> Any:
     Gradients follow from the implicit function theorem.
     """
     solver = optx.Newton(rtol=1e-10, atol=1e-10)
-    solution = optx.root_find(lambda tears, _: block(tears)[1], solver, guess, max_steps=100, throw=False)
+    solution = optx.root_find(
+        lambda tears, _: block(tears)[1], solver, guess, max_steps=100, throw=False
+    )
     converged = solution.result == optx.RESULTS.successful
     return jnp.where(converged, block(solution.value)[0], jnp.nan)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import diffrax as dfx
 import equinox as eqx
@@ -20,9 +20,6 @@ STIFF_STEPS = 5000
 STABILITY = 3.3
 """Reach of the stability region of Tsit5 along the negative real axis, in units of 1/step."""
 
-EIGENVALUES = 300
-"""Models with more states are not examined for stiffness: dense implicit steps would not pay."""
-
 IMPLICIT = 1e-9
 """Tolerance of the nonlinear equations in implicit fixed steps, relative and absolute."""
 
@@ -30,13 +27,15 @@ IMPLICIT = 1e-9
 class RK4(dfx.AbstractERK):
     """The classical Runge–Kutta method of order 4, for fixed steps (it has no error estimate)."""
 
-    tableau: ClassVar[dfx.ButcherTableau] = dfx.ButcherTableau(
+    tableau: ClassVar[dfx.ButcherTableau | dfx.MultiButcherTableau] = dfx.ButcherTableau(
         a_lower=(np.array([0.5]), np.array([0.0, 0.5]), np.array([0.0, 0.0, 1.0])),
         b_sol=np.array([1 / 6, 1 / 3, 1 / 3, 1 / 6]),
         b_error=np.zeros(4),
         c=np.array([0.5, 0.5, 1.0]),
     )
-    interpolation_cls: ClassVar[Callable[..., dfx.AbstractLocalInterpolation]] = dfx.LocalLinearInterpolation
+    interpolation_cls: ClassVar[Callable[..., dfx.AbstractLocalInterpolation]] = (
+        dfx.LocalLinearInterpolation
+    )
 
     def order(self, terms: object) -> int:
         """The order of convergence."""
@@ -82,7 +81,9 @@ def adaptive(solver: Solver) -> Solver:
     """
     if isinstance(solver, RK4) or not isinstance(solver, dfx.AbstractAdaptiveSolver):
         name = type(solver).__name__
-        raise SimulationError(f"{name} has no error estimate: give dt for fixed steps, or choose solver='tsit5'.")
+        raise SimulationError(
+            f"{name} has no error estimate: give dt for fixed steps, or choose solver='tsit5'."
+        )
     return solver
 
 
@@ -96,17 +97,22 @@ def fixed(solver: Solver) -> Solver:
         return solver
     if not isinstance(solver, dfx.ImplicitEuler | dfx.AbstractRungeKutta):
         name = type(solver).__name__
-        raise SimulationError(f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.")
+        raise SimulationError(
+            f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
+        )
     newton = optx.Newton(rtol=IMPLICIT, atol=IMPLICIT)
     return eqx.tree_at(lambda s: s.root_finder, solver, newton)
 
 
-def stiff(eigenvalues: np.ndarray, span: float) -> bool:
+def stiff(modes: Any, span: float) -> bool:
     """Whether modes that die out quickly would force an explicit solver to needlessly short steps.
 
-    Only damped modes count (\\|Re λ\\| ≥ \\|Im λ\\|, Re λ < 0): oscillations must be resolved by any solver.
-    Stiff means that the fastest would cost more than `STIFF_STEPS` steps of Tsit5 over the span.
+    Only damped modes count, those with −Re λ at least as large as their |Im λ|: oscillations must be
+    resolved by any solver. Stiff means that the fastest would cost Tsit5 more than `STIFF_STEPS` steps.
+
+    Arguments:
+        modes: eigenvalues of the model's Jacobian, in 1/s.
+        span: of the simulation, in seconds.
     """
-    damped = eigenvalues[(eigenvalues.real < 0) & (np.abs(eigenvalues.real) >= np.abs(eigenvalues.imag))]
-    fastest = float(np.max(-damped.real, initial=0.0))
-    return fastest * span / STABILITY > STIFF_STEPS
+    damped = modes[-modes.real >= np.abs(modes.imag)]
+    return float(np.max(-damped.real, initial=0.0)) * span / STABILITY > STIFF_STEPS

@@ -56,7 +56,9 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
         return True
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
-        raise DeclarationError("der(...) inside der(...) of an expression: give the inner one a variable")
+        raise DeclarationError(
+            "der(...) inside der(...) of an expression: give the inner one a variable"
+        )
 
 
 class ModuleCall(sp.Function):
@@ -225,7 +227,9 @@ class Output(Variable):
 class Option(Declaration):
     """A structural choice, fixed when the component is made: it may change equations and connectors."""
 
-    def __init__(self, default: Any, *, choices: tuple[Any, ...] | None = None, doc: str = "") -> None:
+    def __init__(
+        self, default: Any, *, choices: tuple[Any, ...] | None = None, doc: str = ""
+    ) -> None:
         super().__init__(doc=doc)
         self.default, self.choices = default, choices
 

@@ -41,7 +41,9 @@ def compile(model: Component) -> System:  # noqa: A001 (the field's word; reache
     reduced = reduce(flat)
     parameters = lay_out_parameters(flat)
     program = generate(reduced, parameters)
-    return System(model, flat, reduced, parameters, program, initializer(reduced, program, parameters))
+    return System(
+        model, flat, reduced, parameters, program, initializer(reduced, program, parameters)
+    )
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -74,7 +76,9 @@ class System:
         """Names of the inputs, in the order of ``u``; a ``der(...)`` is the derivative of an input that the
         model differentiates."""
         names = [self.reduced.name(int(i)) for i in self.reduced.inputs]
-        return tuple("der(" * order + names[i] + ")" * order for i, order in self.reduced.input_orders)
+        return tuple(
+            "der(" * order + names[i] + ")" * order for i, order in self.reduced.input_orders
+        )
 
     @cached_property
     def variables(self) -> tuple[str, ...]:
@@ -111,7 +115,11 @@ class System:
         Arguments:
             key: a jax PRNG key (or an integer seed) for fresh weights of networks; 0 by default.
         """
-        key = jax.random.key(0 if key is None else key) if key is None or isinstance(key, int) else key
+        key = (
+            jax.random.key(0 if key is None else key)
+            if key is None or isinstance(key, int)
+            else key
+        )
         return self.layout.defaults(key)
 
     def pack(self, params: Params | None = None) -> Packed:
@@ -165,7 +173,11 @@ class System:
         return dx, y if all(s == 1 for s in signs) else y * jnp.asarray(signs)
 
     def initial_state(
-        self, params: Params | None = None, x0: Mapping[str, Any] | Any = None, u0: Any = None, t0: float = 0.0
+        self,
+        params: Params | None = None,
+        x0: Mapping[str, Any] | Any = None,
+        u0: Any = None,
+        t0: float = 0.0,
     ) -> Any:
         """Consistent initial states, shape (n_states,).
 
@@ -193,7 +205,9 @@ class System:
         if index is None:
             hint = nearest(name, self.variables)
             if "[0]" in name:
-                hint = f"elements are counted from 1, as in Modelica: '{name.replace('[0]', '[1]')}'?"
+                hint = (
+                    f"elements are counted from 1, as in Modelica: '{name.replace('[0]', '[1]')}'?"
+                )
             raise ModelError(f"the model has no variable '{name}'; {hint}")
         return self.reduced.resolve(index)
 
@@ -203,7 +217,9 @@ class System:
         if x.shape != (len(self.reduced.states),):
             raise DataError(f"x has shape {x.shape}; the model has {len(self.states)} states")
         if u.shape != (len(self.reduced.inputs),):
-            raise DataError(f"u has shape {u.shape}; the model has the inputs ({', '.join(self.inputs)})")
+            raise DataError(
+                f"u has shape {u.shape}; the model has the inputs ({', '.join(self.inputs)})"
+            )
         return x, u
 
     def __repr__(self) -> str:

@@ -166,7 +166,9 @@ def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, 
     return State(trainable, optimizer, state.epoch + 1, rejected, state.key), entry
 
 
-def _gradient(problem: Objective, trainer: Trainer, trainable: Any, batch: Any) -> tuple[Any, _Gradient, Array]:
+def _gradient(
+    problem: Objective, trainer: Trainer, trainable: Any, batch: Any
+) -> tuple[Any, _Gradient, Array]:
     """The gradient for the sequences of a batch that do not diverge, and a mask of those that do.
 
     Where some diverge the gradient is computed a second time without them: in a loop, so that the
@@ -203,7 +205,9 @@ def _gradient(problem: Objective, trainer: Trainer, trainable: Any, batch: Any) 
     return batch, result, bad
 
 
-def _total(problem: Objective, trainable: Any, batch: Any) -> tuple[Array, tuple[Array, dict[str, Array]]]:
+def _total(
+    problem: Objective, trainable: Any, batch: Any
+) -> tuple[Array, tuple[Array, dict[str, Array]]]:
     losses = problem.losses(trainable, batch)
     penalties = problem.penalties(trainable)
     return jnp.average(losses, weights=batch.weight) + sum(penalties.values()), (losses, penalties)

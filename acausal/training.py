@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import equinox as eqx
 import jax
@@ -70,7 +70,9 @@ def train(
     """Train until ``epochs`` updates are done, or until the user interrupts.
 
     Arguments:
-        problem: what to minimise. ``trainer``: how. ``state``: where to begin.
+        problem: what to minimise.
+        trainer: how.
+        state: where to begin.
         epochs: updates.
         evaluate_every: updates between two evaluations over the whole record, among which the best is chosen.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
@@ -86,13 +88,15 @@ def train(
     interrupted, evaluated, size = False, 0, 1
     try:
         clock = time.perf_counter()
-        program = advance.lower(problem, trainer, state, jnp.asarray(0)).compile()
+        program = cast(Any, advance).lower(problem, trainer, state, jnp.asarray(0)).compile()
         compiling = time.perf_counter() - clock
         while log.epochs < epochs:
             due = min(evaluated + evaluate_every, epochs)
             count = min(size, due - log.epochs, CHUNK)
             clock = time.perf_counter()
-            state, entry = jax.block_until_ready(program(problem, trainer, state, jnp.asarray(log.epochs + count)))
+            state, entry = jax.block_until_ready(
+                program(problem, trainer, state, jnp.asarray(log.epochs + count))
+            )
             ended = time.perf_counter()
             new = log.add(entry, count, clock - began, ended - began)
             per_epoch = (ended - clock) / count
@@ -102,14 +106,18 @@ def train(
             if log.epochs == due:
                 evaluated = due
                 best = _evaluate(problem, state, log, best)
-            progress = Progress(log.epochs, epochs, log.loss, best.loss, ended - began, per_epoch, tuple(new))
+            progress = Progress(
+                log.epochs, epochs, log.loss, best.loss, ended - began, per_epoch, tuple(new)
+            )
             for observe in observers:
                 observe(progress)
     except KeyboardInterrupt:
         interrupted = True
     if evaluated != log.epochs:
         best = _evaluate(problem, state, log, best)
-    return Trained(best, log.history(), time.perf_counter() - began, compiling, updating, interrupted)
+    return Trained(
+        best, log.history(), time.perf_counter() - began, compiling, updating, interrupted
+    )
 
 
 @eqx.filter_jit
@@ -125,7 +133,11 @@ def _full_loss(problem: Problem, state: State) -> float:
 def _evaluate(problem: Problem, state: State, log: Log, best: Best) -> Best:
     loss = _full_loss(problem, state)
     log.evaluated(loss)
-    return Best(loss, log.epochs, state.trainable) if loss < best.loss or math.isinf(best.loss) else best
+    return (
+        Best(loss, log.epochs, state.trainable)
+        if loss < best.loss or math.isinf(best.loss)
+        else best
+    )
 
 
 def _check_rejections(log: Log, rejected: int) -> None:
@@ -139,4 +151,6 @@ def _check_rejections(log: Log, rejected: int) -> None:
     else:
         what = "the gradient is not finite"
         mend = "Lower the optimizer's rate, or clip the gradient."
-    raise TrainingError(f"{rejected} updates in a row were rejected from epoch {first} on: {what}. {mend}")
+    raise TrainingError(
+        f"{rejected} updates in a row were rejected from epoch {first} on: {what}. {mend}"
+    )

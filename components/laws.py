@@ -1,4 +1,4 @@
-"""Constitutive laws that several domains share: friction, contact and tables of points."""
+"""Constitutive laws that several domains share: friction, contact, brakes and tables of points."""
 
 from collections.abc import Sequence
 from typing import Any, Literal
@@ -60,6 +60,34 @@ def contact(depth: Any, rate: Any, c: Any, d: Any, n: Any = 1) -> tuple[Any, Any
     """
     f_c = c * ac.maximum(depth, 0) ** n
     return f_c, ac.maximum(ac.minimum(d * rate, f_c), -f_c)
+
+
+def inverse(v: Any, v_nominal: Any, v0: Any, *, one_way: bool) -> Any:
+    """``v_nominal/|v|``, constant for ``|v| < v0``.
+
+    Not ``one_way``, with the sign of ``v``: ``v_nominal/v``, and ``v/v0`` for ``|v| < v0``.
+    """
+    bounded = v_nominal / ac.maximum(ac.Abs(v), v0)
+    if one_way:
+        return bounded
+    return ac.where(ac.Abs(v) < v0, v / v0, bounded * ac.where(v < 0, -1, 1))
+
+
+def eddy_current(r: Any) -> Any:
+    """Force of an eddy current brake over its greatest (Kloss): ``2 r/(1 + r**2)``.
+
+    ``r`` is the speed over that of the greatest force.
+    """
+    return 2 * r / (1 + r**2)
+
+
+def temperature_factor(T: Any, T_ref: Any, alpha20: Any) -> Any:
+    """Resistance at ``T`` over that at ``T_ref``: ``1 + alpha (T - T_ref)``.
+
+    ``alpha = alpha20/(1 + alpha20 (T_ref - 293.15))`` follows from the coefficient ``alpha20`` [1/K]
+    at 20 degC.
+    """
+    return 1 + alpha20 / (1 + alpha20 * (T_ref - 293.15)) * (T - T_ref)
 
 
 def lookup(x: Any, points: Sequence[Sequence[Any]], smoothness: Smoothness) -> Any:

@@ -2,12 +2,18 @@
 
 The blocks of a page share one namespace and an empty working directory. A block that cannot run is
 fenced as ```py. A page with the comment ``<!-- slow -->`` runs with the slow tests.
+
+An ```output block that follows a ```python block shows what that one prints, and is compared with it:
+word by word, numbers to within two units of their last digit; a line ``...`` stands for any lines.
 """
 
+import contextlib
+import io
 import re
 import sys
 import textwrap
 from collections.abc import Iterator
+from itertools import groupby
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -18,13 +24,58 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [*ROOT.glob("README.md"), *sorted((ROOT / "docs").rglob("*.md"))]
 BLOCK = re.compile(r"^([ \t]*)```python[ \t]*\n(.*?)^\1```[ \t]*$", re.MULTILINE | re.DOTALL)
+OUTPUT = re.compile(r"\s*^([ \t]*)```output[ \t]*\n(.*?)^\1```[ \t]*$", re.MULTILINE | re.DOTALL)
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?(?!\w)")
 
 
 def blocks(page: Path) -> Iterator[str]:
     """Yield the code of each block, after empty lines that make its line numbers the page's."""
+    for block, _ in blocks_and_outputs(page):
+        yield block
+
+
+def blocks_and_outputs(page: Path) -> Iterator[tuple[str, str | None]]:
+    """Yield the code of each block as `blocks` does, and the output that the page shows below it."""
     text = page.read_text(encoding="utf-8")
     for match in BLOCK.finditer(text):
-        yield "\n" * text.count("\n", 0, match.start(2)) + textwrap.dedent(match[2])
+        code = "\n" * text.count("\n", 0, match.start(2)) + textwrap.dedent(match[2])
+        shown = OUTPUT.match(text, match.end())
+        yield code, shown and textwrap.dedent(shown[2])
+
+
+def agree(shown: str, printed: str) -> bool:
+    """Whether a page shows what was printed, up to the last digit of numbers and omitted lines."""
+    wanted = [line.split() for line in shown.splitlines() if line.strip()]
+    found = [line.split() for line in printed.splitlines() if line.strip()]
+    pieces = [list(group) for dots, group in groupby(wanted, lambda w: w == ["..."]) if not dots]
+    start = 0
+    for number, piece in enumerate(pieces):
+        last = len(found) - len(piece)
+        first_only = number == 0 and wanted[0] != ["..."]
+        if number == len(pieces) - 1 and wanted[-1] != ["..."]:
+            start = max(start, last)
+        places = range(start, (start if first_only else last) + 1)
+        place = next((i for i in places if _alike(piece, found[i : i + len(piece)])), None)
+        if place is None:
+            return False
+        start = place + len(piece)
+    return start == len(found) or bool(wanted and wanted[-1] == ["..."])
+
+
+def _alike(shown: list[list[str]], printed: list[list[str]]) -> bool:
+    one, other = "\n".join(map(" ".join, shown)), "\n".join(map(" ".join, printed))
+    if NUMBER.sub("#", one) != NUMBER.sub("#", other):
+        return False
+    return all(
+        _close(a, b) for a, b in zip(NUMBER.findall(one), NUMBER.findall(other), strict=True)
+    )
+
+
+def _close(shown: str, printed: str) -> bool:
+    digits, _, exponent = shown.partition("e")
+    unit = 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+    exact = "." not in shown and not exponent
+    return abs(float(shown) - float(printed)) <= (0 if exact else 2.001 * unit)
 
 
 def pages() -> list[Any]:
@@ -45,8 +96,14 @@ def test_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setitem(sys.modules, module.__name__, module)
     monkeypatch.chdir(tmp_path)
     try:
-        for block in blocks(page):
-            exec(compile(block, str(page), "exec"), vars(module))
+        for block, shown in blocks_and_outputs(page):
+            with contextlib.redirect_stdout(io.StringIO()) as printed:
+                exec(compile(block, str(page), "exec"), vars(module))
+            if shown is not None:
+                line = block.count("\n") - block.lstrip("\n").count("\n")
+                assert agree(shown, printed.getvalue()), (
+                    f"{page.name}, block at line {line + 1}, prints:\n{printed.getvalue()}"
+                )
     finally:
         plt.close("all")
 
@@ -58,6 +115,13 @@ def test_fences_name_a_language_and_nothing_else() -> None:
     assert not {name: lines for name, lines in found.items() if lines}, "fence it as ```py"
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_output_follows_a_block(page: Path) -> None:
+    """An ```output fence anywhere else would show what no test compares."""
+    compared = [shown for _, shown in blocks_and_outputs(page) if shown is not None]
+    assert page.read_text(encoding="utf-8").count("```output") == len(compared)
+
+
 def test_blocks_are_found_and_numbered(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text(
@@ -67,3 +131,23 @@ def test_blocks_are_found_and_numbered(tmp_path: Path) -> None:
     )
     assert [block.strip() for block in blocks(page)] == ["a = 1", "b = 2\nif b:\n    c = 3"]
     assert [len(block) - len(block.lstrip("\n")) for block in blocks(page)] == [2, 12]
+
+
+@pytest.mark.parametrize(
+    ("shown", "printed", "same"),
+    [
+        ("loss 0.12", "loss  0.1213\n", True),
+        ("loss 0.12", "loss 0.15", False),
+        ("12 states", "13 states", False),
+        ("a\n...\nz", "a\nb\nc\nz\n", True),
+        ("a\n...\nz", "a\nb\nc\n", False),
+        ("...\nz", "b\nz", True),
+        ("a\n...", "a\nb\nc", True),
+        ("a\n...", "b\nc", False),
+        ("a", "a\nb", False),
+        ("1.0e-07", "1.1e-07", True),
+        ("", "a", False),
+    ],
+)
+def test_outputs_are_compared(shown: str, printed: str, same: bool) -> None:
+    assert agree(shown, printed) is same

@@ -2,6 +2,8 @@
 
 import inspect
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 from scipy.special import expit
@@ -232,10 +234,13 @@ def laws():
     params = system.parameters()
     names = [f"{name}.f" for name in elements] + ["eddy.lossPower", "damper.lossPower"]
 
+    @jax.jit
+    def observe(v, s, t):
+        return system.observe(names, t, jnp.stack([s]), jnp.full(len(system.inputs), v), params)
+
     def force(v, s=0.0, t=0.0):
-        x, u = np.full(len(system.states), s), np.full(len(system.inputs), v)
-        values = system.observe(names, t, x, u, params)
-        return dict(zip((n.removesuffix(".f") for n in names), np.asarray(values), strict=True))
+        values = np.asarray(observe(float(v), float(s), float(t)))
+        return dict(zip((n.removesuffix(".f") for n in names), values, strict=True))
 
     assert system.states == ("drive.s",)
     return force
@@ -298,6 +303,25 @@ def test_friction_follows_its_table_with_a_peak_at_rest(laws):
 )
 def test_elastic_gap_pushes_only(laws, s, v, expected):
     assert laws(v, s)["gap"] == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_flange_is_initialized_and_driven_by_signals():
+    class Model(ac.Component):
+        def __init__(self):
+            super().__init__()
+            self.mass = tl.Mass(m=2, L=0.2)
+            self.start = tl.InitializeFlange(use_a_start=False)
+            self.adaptor = tl.GeneralForceToPositionAdaptor()
+            self.connect(self.mass.flange_a, self.start.flange)
+            self.connect(self.mass.flange_b, self.adaptor.flange)
+
+    system = ac.compile(Model())
+    given = {"start.s_start": 1.0, "start.v_start": 2.0, "adaptor.f": 6.0}
+    u = jnp.asarray([given[name] for name in system.inputs])
+    x = system.initial_state(u0=u)
+    signals = [f"adaptor.{name}" for name in ("p", "pder", "pder2")]
+    values = system.observe(["mass.s", *signals], 0.0, x, u, system.parameters())
+    assert np.allclose(values, [1.1, 1.2, 2.0, -3.0])  # f is positive into the adaptor
 
 
 # -- motions -----------------------------------------------------------------------------------------

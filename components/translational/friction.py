@@ -102,8 +102,8 @@ class MassWithStopAndFriction(
     Modelica locks at rest and reinitializes at a stop. Here the friction creeps, and the stops at
     ``smin`` and ``smax`` are stiff: where an end of the mass goes beyond, spring ``c_stop`` and damper
     ``d_stop`` push back but never pull (`acausal.components.laws.contact`). The default ``d_stop``
-    makes the impact nearly inelastic (Modelica: inelastic). ``stopped`` is -1 at ``smin``, 1 at ``smax``, else 0.
-    ``lossPower = f v`` leaves out the impacts.
+    makes the impact nearly inelastic (Modelica: inelastic). ``stopped`` is -1 at ``smin``, 1 at
+    ``smax``, else 0. ``lossPower = f v`` leaves out the impacts.
     """
 
     m = ac.Parameter(unit="kg", min=0, doc="mass")

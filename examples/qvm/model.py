@@ -21,7 +21,7 @@ TYRE_STIFFNESS, TYRE_DAMPING = 300e3, 100.0
 UNCERTAIN = {"body.m": -0.1, "wheel.m": 0.1, "tyre.c": 0.1, "tyre.d": -0.1}
 """Parameters that the noisy experiments start wrong, and the modifiers that would mend them."""
 
-FORCE_SCALE, TRAVEL_SCALE, SPEED_SCALE = 200.0, 0.01, 0.2
+FORCE_SCALE, TRAVEL_SCALE, SPEED_SCALE = 200.0, 0.01, 0.1
 """Magnitudes that the networks are scaled by [N, m, m/s]."""
 
 

@@ -14,7 +14,7 @@ SAMPLE_TIME, DURATION = 1e-3, 42.0
 INPUT = "road.v_ref"
 STATES = ("body.s", "body.v", "wheel.s", "wheel.v", "road.s")
 OUTPUTS = ("body.a", "wheel.a")
-SUBSTEPS = 10
+SUBSTEPS = 2
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def ride(noise: float, *, road_seed: int = 1, noise_seed: int = 0, scale: float 
         dt=SAMPLE_TIME / SUBSTEPS,
         saveat=time,
         inputs={INPUT: road},
-        solver="heun",
+        solver="rk4",
     )
     signals = {name: np.asarray(solution[name]) for name in (*STATES, *OUTPUTS)}
     generator = np.random.default_rng(noise_seed)

@@ -1,0 +1,221 @@
+"""The rotational flange, and the bases that components and users' own elements extend.
+
+Along one axis of rotation: a positive angle, speed or torque points in its direction. A flange's
+torque ``tau`` is positive where it turns the component that way.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+from acausal.components import translational
+
+STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
+
+
+class Flange(ac.Connector):
+    """Angle ``phi`` [rad] and cut torque ``tau`` [N.m], positive into the component."""
+
+    phi = ac.Potential(unit="rad", doc="absolute angle of the flange")
+    tau = ac.Flow(unit="N.m", doc="cut torque in the flange")
+
+    pair = ("flange_a", "flange_b")
+    across = "phi_rel"
+    through = "tau"
+    rate = "w_rel"
+    second_minus_first = True
+
+
+Flange_a = Flange
+Flange_b = Flange
+Support = Flange
+
+
+class PartialTwoFlanges(ac.Component):
+    """Two flanges, and nothing said about them."""
+
+    flange_a = Flange()
+    flange_b = Flange()
+
+
+class PartialOneFlangeAndSupport(ac.Component):
+    """A flange and, with ``useSupport``, a support; for components put together from parts.
+
+    Give the parts the same ``useSupport``, and connect their supports to this one where there is one.
+    """
+
+    useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
+    flange = Flange()
+    support = Support(when="useSupport")
+
+
+class PartialTwoFlangesAndSupport(PartialTwoFlanges):
+    """Two flanges and, with ``useSupport``, a support; for components put together from parts.
+
+    Give the parts the same ``useSupport``, and connect their supports to this one where there is one.
+    """
+
+    useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
+    support = Support(when="useSupport")
+
+
+class PartialCompliant(PartialTwoFlanges):
+    """An element without inertia, with a torque ``tau`` [N.m] over an angle ``phi_rel`` [rad].
+
+    ``phi_rel = flange_b.phi - flange_a.phi``, ``flange_b.tau = tau``, ``flange_a.tau = -tau``.
+    A subclass states ``tau``.
+    """
+
+    phi_rel = ac.Variable(unit="rad", doc="angle from flange_a to flange_b")
+    tau = ac.Variable(unit="N.m", doc="torque between the flanges, = flange_b.tau")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_rel, self.flange_b.phi - self.flange_a.phi)
+        yield ac.Eq(self.flange_b.tau, self.tau)
+        yield ac.Eq(self.flange_a.tau, -self.tau)
+
+
+class PartialCompliantWithRelativeStates(PartialCompliant):
+    """A compliant element that also knows ``w_rel = der(phi_rel)`` and ``a_rel = der(w_rel)``.
+
+    Absolute angles and speeds of inertias are preferred as states, so ``stateSelect`` is
+    ``"default"`` here (Modelica: ``"prefer"``); with ``"prefer"`` an element's ``phi_rel`` and
+    ``w_rel`` become states. ``phi_nominal`` [rad] is the magnitude of ``phi_rel``, for scaling only.
+    """
+
+    stateSelect = ac.Option(
+        "default", choices=STATE_SELECT, doc="priority of phi_rel, w_rel as states"
+    )
+    phi_nominal = ac.Option(1e-4, doc="nominal value of phi_rel")
+    phi_rel = ac.Variable(
+        unit="rad",
+        state="stateSelect",
+        nominal="phi_nominal",
+        doc="angle from flange_a to flange_b",
+    )
+    w_rel = ac.Variable(unit="rad/s", state="stateSelect", doc="relative speed")
+    a_rel = ac.Variable(unit="rad/s2", doc="relative acceleration")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.w_rel, ac.der(self.phi_rel))
+        yield ac.Eq(self.a_rel, ac.der(self.w_rel))
+
+
+class PartialElementaryOneFlangeAndSupport2(ac.Component):
+    """One flange that works against a support, or against the ground without ``useSupport``.
+
+    ``phi = flange.phi - support.phi`` [rad], ``support.tau = -flange.tau``.
+    """
+
+    useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
+    flange = Flange()
+    support = Support(when="useSupport")
+    phi = ac.Variable(unit="rad", doc="angle of the flange relative to the support")
+
+    @property
+    def phi_support(self) -> Any:
+        """Angle of the support."""
+        return self.support.phi if self.useSupport else 0
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi, self.flange.phi - self.phi_support)
+        if self.useSupport:
+            yield ac.Eq(self.support.tau, -self.flange.tau)
+
+
+class PartialElementaryTwoFlangesAndSupport2(PartialTwoFlanges):
+    """Two flanges that work against a support, or against the ground without ``useSupport``.
+
+    ``phi_a = flange_a.phi - support.phi``, ``phi_b = flange_b.phi - support.phi`` [rad],
+    ``support.tau = -flange_a.tau - flange_b.tau``.
+    """
+
+    useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
+    support = Support(when="useSupport")
+    phi_a = ac.Variable(unit="rad", doc="angle of flange_a relative to the support")
+    phi_b = ac.Variable(unit="rad", doc="angle of flange_b relative to the support")
+
+    @property
+    def phi_support(self) -> Any:
+        """Angle of the support."""
+        return self.support.phi if self.useSupport else 0
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_a, self.flange_a.phi - self.phi_support)
+        yield ac.Eq(self.phi_b, self.flange_b.phi - self.phi_support)
+        if self.useSupport:
+            yield ac.Eq(self.support.tau, -self.flange_a.tau - self.flange_b.tau)
+
+
+class PartialElementaryRotationalToTranslational(ac.Component):
+    """A rotational flange ``flangeR`` and a translational one ``flangeT``, each with its support.
+
+    The supports exist with ``useSupportR`` and ``useSupportT``; else that side works against the
+    ground. ``supportR.tau = -flangeR.tau``, ``supportT.f = -flangeT.f``.
+    """
+
+    useSupportR = ac.Option(False, doc="whether there is a rotational support flange")
+    useSupportT = ac.Option(False, doc="whether there is a translational support flange")
+    flangeR = Flange()
+    flangeT = translational.Flange()
+    supportR = Support(when="useSupportR")
+    supportT = translational.Support(when="useSupportT")
+
+    @property
+    def phi(self) -> Any:
+        """Angle of ``flangeR`` relative to its support."""
+        return self.flangeR.phi - self.supportR.phi if self.useSupportR else self.flangeR.phi
+
+    @property
+    def s(self) -> Any:
+        """Position of ``flangeT`` relative to its support."""
+        return self.flangeT.s - self.supportT.s if self.useSupportT else self.flangeT.s
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        if self.useSupportR:
+            yield ac.Eq(self.supportR.tau, -self.flangeR.tau)
+        if self.useSupportT:
+            yield ac.Eq(self.supportT.f, -self.flangeT.f)
+
+
+class PartialTorque(PartialElementaryOneFlangeAndSupport2):
+    """A torque ``tau = -flange.tau`` [N.m] that drives what is connected to the flange."""
+
+    tau = ac.Variable(unit="N.m", doc="driving torque, = -flange.tau")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.tau, -self.flange.tau)
+
+
+class PartialAbsoluteSensor(ac.Component):
+    """One flange that is measured without a torque: ``flange.tau = 0``."""
+
+    flange = Flange()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange.tau, 0)
+
+
+class PartialRelativeSensor(PartialTwoFlanges):
+    """Two flanges between which is measured, without inertia: ``flange_a.tau + flange_b.tau = 0``."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange_a.tau + self.flange_b.tau, 0)
+
+
+class PartialFriction(ac.Component):
+    """What friction elements share: the speed ``w_small`` [rad/s] that smooths the law around rest.
+
+    Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
+    creeps instead, and it is the stiffer the smaller ``w_small`` is.
+    """
+
+    w_small = ac.Parameter(1e-3, unit="rad/s", min=0, doc="speed below which friction is smoothed")

@@ -1,0 +1,120 @@
+"""Sensors: flange quantities as output signals, without a reaction on the flange."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from .interfaces import PartialAbsoluteSensor, PartialRelativeSensor
+
+
+class AngleSensor(PartialAbsoluteSensor):
+    """Absolute angle: ``phi = flange.phi`` [rad]."""
+
+    phi = ac.Output(unit="rad", doc="absolute angle of the flange")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi, self.flange.phi)
+
+
+class SpeedSensor(PartialAbsoluteSensor):
+    """Absolute speed: ``w = der(flange.phi)`` [rad/s]."""
+
+    w = ac.Output(unit="rad/s", doc="absolute speed of the flange")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.w, ac.der(self.flange.phi))
+
+
+class AccSensor(PartialAbsoluteSensor):
+    """Absolute acceleration: ``a = der(w)`` [rad/s2] with ``w = der(flange.phi)``."""
+
+    w = ac.Variable(unit="rad/s", doc="absolute speed of the flange")
+    a = ac.Output(unit="rad/s2", doc="absolute acceleration of the flange")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.w, ac.der(self.flange.phi))
+        yield ac.Eq(self.a, ac.der(self.w))
+
+
+class RelAngleSensor(PartialRelativeSensor):
+    """Relative angle: ``phi_rel = flange_b.phi - flange_a.phi`` [rad]."""
+
+    phi_rel = ac.Output(unit="rad", doc="angle from flange_a to flange_b")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_rel, self.flange_b.phi - self.flange_a.phi)
+        yield ac.Eq(self.flange_a.tau, 0)
+
+
+class RelSpeedSensor(PartialRelativeSensor):
+    """Relative speed: ``w_rel = der(phi_rel)`` [rad/s], ``phi_rel = flange_b.phi - flange_a.phi``."""
+
+    phi_rel = ac.Variable(unit="rad", doc="angle from flange_a to flange_b")
+    w_rel = ac.Output(unit="rad/s", doc="relative speed")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_rel, self.flange_b.phi - self.flange_a.phi)
+        yield ac.Eq(self.w_rel, ac.der(self.phi_rel))
+        yield ac.Eq(self.flange_a.tau, 0)
+
+
+class RelAccSensor(PartialRelativeSensor):
+    """Relative acceleration: ``a_rel = der(w_rel)`` [rad/s2] with ``w_rel = der(phi_rel)``."""
+
+    phi_rel = ac.Variable(unit="rad", doc="angle from flange_a to flange_b")
+    w_rel = ac.Variable(unit="rad/s", doc="relative speed")
+    a_rel = ac.Output(unit="rad/s2", doc="relative acceleration")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_rel, self.flange_b.phi - self.flange_a.phi)
+        yield ac.Eq(self.w_rel, ac.der(self.phi_rel))
+        yield ac.Eq(self.a_rel, ac.der(self.w_rel))
+        yield ac.Eq(self.flange_a.tau, 0)
+
+
+class PartialCutSensor(PartialRelativeSensor):
+    """Base of sensors in a rigid cut: ``flange_a.phi = flange_b.phi``."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange_a.phi, self.flange_b.phi)
+
+
+class TorqueSensor(PartialCutSensor):
+    """Cut torque: ``tau = flange_a.tau`` [N.m]."""
+
+    tau = ac.Output(unit="N.m", doc="torque in flange_a, = -flange_b.tau")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.tau, self.flange_a.tau)
+
+
+class PowerSensor(PartialCutSensor):
+    """Power through the cut: ``power = flange_a.tau der(flange_a.phi)`` [W]."""
+
+    power = ac.Output(unit="W", doc="power into flange_a")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.power, self.flange_a.tau * ac.der(self.flange_a.phi))
+
+
+class MultiSensor(PartialCutSensor):
+    """Speed ``w`` [rad/s], cut torque ``tau`` [N.m] and ``power = tau w`` [W] at once."""
+
+    power = ac.Output(unit="W", doc="power into flange_a")
+    w = ac.Output(unit="rad/s", doc="absolute speed of the flanges")
+    tau = ac.Output(unit="N.m", doc="torque in flange_a, = -flange_b.tau")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.w, ac.der(self.flange_a.phi))
+        yield ac.Eq(self.tau, self.flange_a.tau)
+        yield ac.Eq(self.power, self.tau * self.w)
