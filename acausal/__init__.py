@@ -4,6 +4,10 @@ import jax as _jax
 
 _jax.config.update("jax_enable_x64", True)
 
+from acausal.analyse import (
+    Linearization,
+    linearize,
+)
 from acausal.component import (
     Component,
     Connector,
@@ -92,6 +96,7 @@ from acausal.system import (
 __version__ = "0.1.0"
 
 __all__ = [
+    "MLP",
     "Abs",
     "AcausalError",
     "Component",
@@ -105,7 +110,7 @@ __all__ = [
     "Flow",
     "InitializationError",
     "Input",
-    "MLP",
+    "Linearization",
     "ModelError",
     "Module",
     "OffsetCorrected",
@@ -135,6 +140,7 @@ __all__ = [
     "exp",
     "fit",
     "floor",
+    "linearize",
     "log",
     "maximum",
     "minimum",

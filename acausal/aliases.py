@@ -9,8 +9,8 @@ pattern of merged, negated and vanished slots, which may reveal further aliases.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import lru_cache
+from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -48,8 +48,12 @@ class AliasFree:
 def eliminate_aliases(model: FlatModel) -> AliasFree:
     """Merge aliased variables of a flat model and specialise its equations."""
     classes = _Classes.of(model.n_variables)
-    pending = [classes.with_derivative_nodes(group) for group in model.groups]
     parameters = parameter_aliases(model)
+    pending = [
+        classes.with_derivative_nodes(piece)
+        for group in model.groups
+        for piece in _fold(group, parameters, model.folded)
+    ]
     redundant: list[tuple[str, int]] = []
     changed = True
     while changed:
@@ -262,6 +266,30 @@ def specialise(
     return pieces
 
 
+def _fold(group: EquationGroup, parameters: Integers, folded: np.ndarray) -> list[EquationGroup]:
+    """A group with derivatives rewritten without the folded parameters: some derivatives may vanish with them."""
+    is_zero = folded[parameters[group.parameters]]
+    if not any(group.template.orders) or not is_zero.any():
+        return [group]
+    kinds, which = np.unique(is_zero, axis=0, return_inverse=True)
+    as_it_is = tuple(range(1, len(group.template.variables) + 1))
+    pieces: list[EquationGroup] = []
+    for number, kind in enumerate(kinds):
+        template, columns = specialised(group.template, (*as_it_is, *(int(k) for k in kind)))
+        orders = tuple(group.template.orders[c] for c in columns[0])
+        rows = group.rows(which.ravel() == number)
+        pieces.append(
+            EquationGroup(
+                replace(template, orders=orders),
+                rows.variables[:, columns[0]],
+                rows.parameters[:, columns[1]],
+                rows.modules[:, columns[2]],
+                rows.components,
+            )
+        )
+    return pieces
+
+
 def _first_equal(rows: Integers) -> Integers:
     """For every entry, the first column of its row that holds the same value."""
     n, k = rows.shape
@@ -281,7 +309,7 @@ def _first_equal(rows: Integers) -> Integers:
     return first
 
 
-@lru_cache(maxsize=None)
+@cache
 def specialised(
     template: Template, pattern: tuple[int, ...]
 ) -> tuple[Template, tuple[list[int], ...]]:
@@ -317,7 +345,7 @@ def specialised(
     return special, (variables, parameters, modules)
 
 
-@lru_cache(maxsize=None)
+@cache
 def _alias(template: Template) -> tuple[int, ...] | None:
     """``(s,)`` if the template states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
     if template.parameters or template.modules or not 1 <= len(template.variables) <= 2:
@@ -385,8 +413,10 @@ def _result(
 
 
 def _best_members(model: FlatModel, classes: _Classes) -> Integers:
-    """For every root the member that gives the class its name: an input, else the most wanted state, else
-    the one nearest to the top of the hierarchy, else the first declared."""
+    """For every root the member that gives the class its name.
+
+    An input, else the most wanted state, else the one nearest to the top of the hierarchy, else the first declared.
+    """
     n, total = model.n_variables, len(classes.root)
     order = np.arange(total)
     wanted = np.zeros(total)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
@@ -142,6 +143,7 @@ class Component:
     _connections: list[Connection]
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
+        """An empty component; nothing depends on a subclass calling ``super().__init__``."""
         self = super().__new__(cls)
         self.__dict__.update(
             _parent=None,
@@ -196,7 +198,7 @@ class Component:
         """
         if len(endpoints) < 2:
             raise ConnectionError(f"connect needs at least two connectors, got {len(endpoints)}")
-        for a, b in zip(endpoints, endpoints[1:], strict=False):
+        for a, b in itertools.pairwise(endpoints):
             if isinstance(a, Sequence) and isinstance(b, Sequence):
                 if len(a) != len(b):
                     raise ConnectionError(

@@ -7,7 +7,7 @@ A connector seen from the component that owns it (its *inside*) and from that co
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -184,7 +184,7 @@ def _group(template: Template, variables: Integers) -> EquationGroup:
     return EquationGroup(template, variables, nothing, nothing, -1 - variables[:, -1])
 
 
-@lru_cache(maxsize=None)
+@cache
 def _equality() -> Template:
     a, b = slot("a"), slot("b")
     return Template(a - b, (a, b), (0, 0), (), (), "connected: equal potentials")

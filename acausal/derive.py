@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 
 import sympy as sp
+from sympy.core.relational import Relational
 
 from acausal.symbols import time
 from acausal.template import Template
 
 
-@lru_cache(maxsize=None)
+@cache
 def differentiate(template: Template) -> tuple[Template, tuple[tuple[int, bool], ...]]:
     """The template's total time derivative, and where its slots come from.
 
@@ -18,7 +19,7 @@ def differentiate(template: Template) -> tuple[Template, tuple[tuple[int, bool],
         The new template and, per variable slot, (column of the old template, whether differentiated).
     """
     slots = list(template.variables)
-    rates = [sp.Symbol(f"der({s.name})", real=True) for s in slots]
+    rates = [_fresh(f"der({s.name})", slots) for s in slots]
     terms = [template.residual.diff(time)]
     terms += [template.residual.diff(s) * r for s, r in zip(slots, rates, strict=True)]
     residual = sp.Add(*terms)
@@ -37,17 +38,33 @@ def differentiate(template: Template) -> tuple[Template, tuple[tuple[int, bool],
     return derivative, tuple(kept)
 
 
-@lru_cache(maxsize=None)
+def _fresh(name: str, taken: list[sp.Symbol]) -> sp.Symbol:
+    """A slot of that name, or nearly: the derivative in a slot may stand there with the other sign."""
+    symbol = sp.Symbol(name, real=True)
+    return _fresh(f"{name}'", taken) if symbol in taken else symbol
+
+
+@cache
 def slope(template: Template, column: int) -> sp.Expr:
     """Partial derivative of the residual with respect to a variable slot."""
     return template.residual.diff(template.variables[column])
 
 
-@lru_cache(maxsize=None)
+@cache
+def _decides(template: Template, column: int) -> bool:
+    """Whether the slot decides a case or a step: there the residual jumps without a slope that tells."""
+    symbol = template.variables[column]
+    places = template.residual.atoms(Relational, sp.Function)
+    return any(
+        symbol in place.free_symbols for place in places if not isinstance(place, sp.Piecewise)
+    )
+
+
+@cache
 def solve(template: Template, column: int) -> sp.Expr | None:
     """The slot as an explicit expression of the others; None where it does not stand linearly."""
     symbol, coefficient = template.variables[column], slope(template, column)
-    if coefficient == 0 or symbol in coefficient.free_symbols:
+    if coefficient == 0 or symbol in coefficient.free_symbols or _decides(template, column):
         return None
     rest = template.residual.xreplace({symbol: sp.S.Zero})
     if rest.has(sp.nan, sp.zoo, sp.oo):
@@ -55,7 +72,7 @@ def solve(template: Template, column: int) -> sp.Expr | None:
     return -rest / coefficient
 
 
-@lru_cache(maxsize=None)
+@cache
 def is_safely_solvable(template: Template, column: int) -> bool:
     """Whether the slot stands linearly with a coefficient that cannot vanish while a simulation runs.
 
@@ -68,8 +85,10 @@ def is_safely_solvable(template: Template, column: int) -> bool:
     return not unsafe and not coefficient.has(sp.Piecewise, sp.Function)
 
 
-@lru_cache(maxsize=None)
+@cache
 def is_linear(template: Template, columns: tuple[int, ...]) -> bool:
     """Whether the residual is affine in these slots together."""
     symbols = {template.variables[c] for c in columns}
-    return all(not (slope(template, c).free_symbols & symbols) for c in columns)
+    return not any(
+        slope(template, c).free_symbols & symbols or _decides(template, c) for c in columns
+    )

@@ -40,11 +40,11 @@ def explain_singularity(
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
     if surplus or aliases.redundant:
-        told = [_equation(model, origin) for origin in (*surplus, *aliases.redundant)]
+        told = [equation_name(model, origin) for origin in (*surplus, *aliases.redundant)]
         parts.append(f"too much is said by: {listing(dict.fromkeys(told), 6)}")
     if related:
         parts.append(
-            f"together with: {listing(dict.fromkeys(_equation(model, o) for o in related), 6)}"
+            f"together with: {listing(dict.fromkeys(equation_name(model, o) for o in related), 6)}"
         )
     return "; ".join(parts) + ". " + _mend(bool(missing), bool(surplus or aliases.redundant))
 
@@ -55,7 +55,8 @@ def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
     return f"der({_name(model, aliases, int(aliases.base[node]))})"
 
 
-def _equation(model: FlatModel, origin: tuple[str, int]) -> str:
+def equation_name(model: FlatModel, origin: tuple[str, int]) -> str:
+    """Where an equation, given by its text and the component that states it, belongs."""
     text, component = origin
     if component < 0:
         return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({text})"

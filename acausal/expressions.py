@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 import sympy as sp
+from sympy.printing.str import StrPrinter
 
 from acausal import functions
 from acausal.errors import DeclarationError, nearest
@@ -281,3 +282,21 @@ def _finite(value: Any, text: str) -> Any:
 
 def _short(text: str) -> str:
     return text if len(text) <= 80 else text[:77] + "..."
+
+
+def written(expression: sp.Expr) -> str:
+    """An expression as a text that `parse` reads back."""
+    return _Writer({"order": "none"}).doprint(expression)
+
+
+class _Writer(StrPrinter):
+    """Modelica's spelling: ``^`` for powers."""
+
+    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
+        if expr.exp == sp.S.Half:
+            return f"sqrt({self._print(expr.base)})"
+        base, exponent = (self.parenthesize(part, 1000, strict=False) for part in expr.as_base_exp())
+        return f"{base}^{exponent}" if not exponent.startswith("-") else f"{base}^({exponent})"
+
+    def _print_Abs(self, expr: sp.Abs) -> str:
+        return f"abs({self._print(expr.args[0])})"

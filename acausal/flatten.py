@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from typing import Any, cast
 
@@ -49,14 +50,17 @@ class Form:
 
     @cached_property
     def variable_index(self) -> dict[str, int]:
+        """Local path of a variable -> its local index."""
         return {path: i for i, (path, _) in enumerate(self.variables)}
 
     @cached_property
     def parameter_index(self) -> dict[str, int]:
+        """Local path of a parameter -> its local index."""
         return {path: i for i, (path, _) in enumerate(self.parameters)}
 
     @cached_property
     def module_index(self) -> dict[str, int]:
+        """Local path of a module -> its local index."""
         return {path: i for i, (path, _) in enumerate(self.modules)}
 
 
@@ -86,28 +90,34 @@ class Layout:
         return {path: i for i, path in enumerate(self.paths)}
 
     def form(self, component: int) -> Form:
+        """Form of a component."""
         return self.forms[self.form_of[component]]
 
     def variable(self, index: int) -> str:
+        """Dotted name of a variable."""
         return self._name(index, self.variable_base, "variables")
 
     def parameter(self, index: int) -> str:
+        """Dotted name of a parameter."""
         return self._name(index, self.parameter_base, "parameters")
 
     def module(self, index: int) -> str:
+        """Dotted name of a module."""
         return self._name(index, self.module_base, "modules")
 
     def variable_declaration(self, index: int) -> Variable:
+        """Declaration of a variable."""
         component = int(np.searchsorted(self.variable_base, index, side="right")) - 1
         return self.form(component).variables[index - int(self.variable_base[component])][1]
 
     def parameter_declaration(self, index: int) -> Parameter:
+        """Declaration of a parameter."""
         component = int(np.searchsorted(self.parameter_base, index, side="right")) - 1
         return self.form(component).parameters[index - int(self.parameter_base[component])][1]
 
     def find_variable(self, name: str) -> int | None:
         """Index of the variable of that dotted name, or None."""
-        for cut in [i for i, c in enumerate(name) if c == "."][::-1] + [-1]:
+        for cut in [*[i for i, c in enumerate(name) if c == "."][::-1], -1]:
             component = self.number.get(name[: max(cut, 0)])
             if component is not None:
                 local = self.form(component).variable_index.get(name[cut + 1 :])
@@ -158,10 +168,12 @@ class FlatModel:
 
     @property
     def n_variables(self) -> int:
+        """Number of variables."""
         return int(self.layout.variable_base[-1])
 
     @property
     def n_equations(self) -> int:
+        """Number of equations, those of connections among them."""
         return sum(len(g) for g in self.groups)
 
 
@@ -270,6 +282,8 @@ def _frozen(value: Any) -> Hashable:
         return value.shape, value.dtype.str, value.tobytes()
     if isinstance(value, list | tuple):
         return tuple(_frozen(v) for v in cast(Sequence[Any], value))
+    if is_dataclass(value) and not isinstance(value, type):
+        return type(value), *(_frozen(getattr(value, f.name)) for f in fields(value))
     return id(value)
 
 
@@ -340,7 +354,7 @@ def _members(layout: Layout) -> list[Integers]:
     """For every form, the components that have it."""
     order = np.argsort(layout.form_of, kind="stable")
     bounds = np.searchsorted(layout.form_of[order], np.arange(len(layout.forms) + 1))
-    return [order[a:b] for a, b in zip(bounds, bounds[1:], strict=False)]
+    return [order[a:b] for a, b in itertools.pairwise(bounds)]
 
 
 def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slots]:
@@ -592,6 +606,8 @@ def _parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], 
                 cast(Declaration, component._declared.get(name) or component._dynamic[name]),
             )
             for path, element in zip(paths, elements, strict=True):
+                if path not in form.parameter_index:
+                    continue  # the options left no use for it
                 index = int(base[number]) + form.parameter_index[path]
                 folded[index] = False
                 if isinstance(element, sp.Expr) and not element.is_number:

@@ -23,10 +23,10 @@ from sympy import (
     tan,
     tanh,
 )
-from sympy import Max as maximum
-from sympy import Min as minimum
 
 from acausal.symbols import time
+
+maximum, minimum = sp.Max, sp.Min
 
 __all__ = [
     "Abs",

@@ -23,11 +23,13 @@ class One:
     index: int
 
     def read(self, arrays: Arrays) -> Any:
+        """The argument's value, read from the arrays."""
         array = arrays[self.source]
         return array if jnp.ndim(array) == 0 else array[self.index]
 
     @property
     def sources(self) -> tuple[int, ...]:
+        """The arrays that are read."""
         return (self.source,)
 
 
@@ -38,6 +40,7 @@ class Runs:
     runs: tuple[tuple[int, int, int, int], ...]
 
     def read(self, arrays: Arrays) -> Any:
+        """The argument's value, read from the arrays."""
         pieces = [
             _slice(arrays[source], start, step, length) for source, start, step, length in self.runs
         ]
@@ -45,6 +48,7 @@ class Runs:
 
     @property
     def sources(self) -> tuple[int, ...]:
+        """The arrays that are read."""
         return tuple(dict.fromkeys(source for source, *_ in self.runs))
 
 
@@ -56,6 +60,7 @@ class Take:
     index: Integers
 
     def read(self, arrays: Arrays) -> Any:
+        """The argument's value, read from the arrays."""
         pieces = [jnp.atleast_1d(arrays[s]) for s in self.sources]
         whole = pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
         return jnp.take(

@@ -38,9 +38,11 @@ class Arguments:
 
     @property
     def sources(self) -> set[int]:
+        """The arrays that are read."""
         return {s for _, g in self.variables for s in g.sources}
 
     def read(self, t: Any, arrays: Sequence[Any], packed: Packed) -> dict[sp.Symbol, Any]:
+        """Values of the slots."""
         values: dict[sp.Symbol, Any] = {time: t}
         values |= {symbol: g.read(arrays) for symbol, g in self.variables}
         values |= {symbol: g.read([packed.values]) for symbol, g in self.parameters}
@@ -59,6 +61,7 @@ class Evaluate:
     outputs = 1
 
     def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
+        """The step's results, one array each."""
         value = jnp.asarray(evaluate(self.expression, self.arguments.read(t, arrays, packed)))
         return [value if self.size == 1 else jnp.broadcast_to(value, (self.size,))]
 
@@ -74,9 +77,11 @@ class SolveLoop:
 
     @property
     def outputs(self) -> int:
+        """How many arrays the step fills."""
         return self.shape.n_unknowns
 
     def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
+        """The step's results, one array each."""
         values = self.arguments.read(t, arrays, packed)
         values.pop(time)
         solve = solve_linear if self.shape.is_linear else solve_nonlinear
@@ -104,7 +109,9 @@ class SolveLoop:
         }
 
         def each(guess: Any, arrays: dict[str, Any]) -> Any:
-            return one(guess, {**shared, **{k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}})
+            return one(
+                guess, {**shared, **{k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}}
+            )
 
         return list(jax.vmap(each)(guess, batched).T)
 
@@ -164,7 +171,7 @@ def chosen_module(packed: Packed, chosen: Sequence[int]) -> ModuleValue:
     """The module of one instance or of all; those of several instances side by side."""
     if len(set(chosen)) == 1:
         return ModuleValue(packed.modules[chosen[0]])
-    return ModuleValue.side_by_side([packed.modules[i] for i in chosen])
+    return collect([packed.modules[i] for i in chosen])
 
 
 Instruction = Evaluate | SolveLoop
@@ -309,6 +316,5 @@ def _solve_loop(
         tuple((_callable(i), layout.chosen(m)) for i, m in enumerate(loop.modules.T)),
     )
     tears = loop.unknowns[:, list(loop.shape.torn.tears)]
-    named = np.minimum(tears, reduced.model.n_variables - 1)
-    guess = np.where(tears < reduced.model.n_variables, reduced.model.start[named], 0.0)
+    guess = reduced.start_guess(tears)
     return SolveLoop(loop.shape, arguments, guess, len(loop.unknowns))

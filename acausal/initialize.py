@@ -56,6 +56,7 @@ class Initializer:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
+        """Names of the states."""
         return tuple(self.reduced.name(int(s)) for s in self.reduced.states)
 
     def __call__(
@@ -154,7 +155,9 @@ class Initializer:
         names = [f"{layout.variable(c.variable)} (fixed start)" for c in conditions]
         for group in self.reduced.model.initial:
             places = [layout.paths[c] for c in group.components]
-            names += [f"{p} ({group.template.origin})" if p else group.template.origin for p in places]
+            names += [
+                f"{p} ({group.template.origin})" if p else group.template.origin for p in places
+            ]
         return names
 
     def _residuals(
@@ -250,7 +253,11 @@ def _distinct(
 ) -> tuple[Condition, ...]:
     """The conditions without those that repeat a number that their node is given already."""
     bound = {b.target for b in model.starts}
-    known = {(s, sign * float(model.start[v])) for s, (v, sign) in start_of.items() if v < len(model.start) and v not in bound and model.fixed[v]}
+    known = {
+        (s, sign * float(model.start[v]))
+        for s, (v, sign) in start_of.items()
+        if v < len(model.start) and v not in bound and model.fixed[v]
+    }
     kept: list[Condition] = []
     for c in conditions:
         told = c.node, c.sign * float(model.start[c.variable])

@@ -34,6 +34,7 @@ class ModuleValue:
     stacked: bool = False
 
     def __call__(self, orders: tuple[int, ...], *args: Any) -> Any:
+        """The module, or a partial derivative of it, for scalars or for arrays over instances."""
         if isinstance(self.module, tuple):
             n = len(self.module)
             each = zip(self.module, *(jnp.broadcast_to(a, (n,)) for a in args), strict=True)
@@ -168,8 +169,8 @@ def _piecewise(node: sp.Piecewise, visit: Visit) -> Any:
     result: Any = jnp.nan
     for value, condition in reversed(node.args):
         result = (
-            visit(value) if condition == True else jnp.where(visit(condition), visit(value), result)
-        )  # noqa: E712
+            visit(value) if condition is sp.S.true else jnp.where(visit(condition), visit(value), result)
+        )
     return result
 
 

@@ -22,8 +22,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from types import ModuleType
 from typing import Any, cast
@@ -32,13 +30,11 @@ import numpy as np
 import sympy as sp
 
 from acausal.component import Component, Connector
-from acausal.errors import DeclarationError, ModelError, listing, nearest
-from acausal.expressions import parse, parse_equation
-from acausal.library import Library, library_of
+from acausal.errors import DeclarationError, ModelError, nearest
+from acausal.expressions import parse, parse_equation, written
+from acausal.library import Library, installed
 from acausal.symbols import (
-    Declaration,
     Eq,
-    Module,
     Option,
     Parameter,
     Reference,
@@ -78,6 +74,7 @@ class Netlist(Component):
         self._initial: list[tuple[str, Eq]] = []
         self._steady: list[str] = []
         self._texts: dict[tuple[str, str], tuple[Any, Any]] = {}
+        """(part, modifier) -> what the file says and the value it gave."""
 
     def equations(self) -> Iterator[Eq]:
         """Parameters that are found at the initial time stay as they are."""
@@ -101,17 +98,25 @@ def load(path: str | Path, libraries: Sequence[ModuleType] = ()) -> Netlist:
     """
     path = Path(path)
     document = _read(path)
-    known = tuple(library_of(module) for module in (*_installed(), *libraries))
-    return _Builder(known).model(document, path.name)
+    return _Builder(_libraries(libraries)).model(document, path.name)
 
 
-@cache
-def _installed() -> tuple[ModuleType, ...]:
-    """Libraries that installed packages announce as entry points of the group ``acausal.libraries``."""
-    return tuple(
-        point.load()
-        for point in sorted(entry_points(group="acausal.libraries"), key=lambda p: p.name)
-    )
+def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = ()) -> None:
+    """Write a model as a JSON netlist; `load` gives the same model back.
+
+    Parts whose class is in a library are written by its name; other composites as subsystems. What was read from
+    a file and not changed is written as it stood there.
+
+    Raises:
+        ModelError: for a leaf component of no library, or a value that JSON cannot hold (a user's network).
+    """
+    document = _Writer(_libraries(libraries)).model(model)
+    text = json.dumps(document, indent=1, ensure_ascii=False)
+    Path(path).write_text(text + "\n", encoding="utf-8")
+
+
+def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
+    return (*installed(), *(Library(module) for module in modules))
 
 
 # -- reading -----------------------------------------------------------------------------------------
@@ -348,7 +353,7 @@ class _Builder:
             found = library.find(name)
             if found is not None:
                 return found
-        known = [n for library in self.libraries for n in library.names]
+        known = [n for library in self.libraries for n in library.modelica_names]
         raise NetlistError(
             f"{where}: there is no class '{name}'; {nearest(name, known)}"
             if known
@@ -442,3 +447,118 @@ def _kind(value: Any) -> str:
         type(None): "nothing",
     }
     return names.get(type(value), f"{value!r:.40}")
+
+
+# -- writing -----------------------------------------------------------------------------------------
+
+
+class _Writer:
+    """Writes a component tree as a document."""
+
+    def __init__(self, libraries: tuple[Library, ...]) -> None:
+        self.libraries = libraries
+
+    def model(self, model: Component) -> dict[str, Any]:
+        """The document of a composite."""
+        if type(model).equations not in (Component.equations, Netlist.equations):
+            raise NetlistError(f"{model._label()} states equations of its own; put its class into a library")
+        title = model._title if isinstance(model, Netlist) else type(model).__name__
+        document: dict[str, Any] = {"model": title}
+        if isinstance(model, Netlist):
+            document |= {k: v for k, v in model.document.items() if k in ("start_time", "stop_time", "compare")}
+        sections = {
+            "parameters": self._parameters(model),
+            "connectors": self._connectors(model),
+            "components": {name: self._part(model, name, part) for name, part in model._children.items()},
+            "connections": [[_path(model, end) for end in pair] for pair in model._connections],
+            "initial_equations": self._initial(model),
+        }
+        document |= {key: section for key, section in sections.items() if section}
+        if isinstance(model, Netlist):
+            document |= {k: v for k, v in model.document.items() if k not in document}
+        return document
+
+    def _parameters(self, model: Component) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for name, declared in model._declarations():
+            if isinstance(declared, Parameter):
+                value = model._modifiers.get(name, declared.default)
+                found[name] = self._text(model, "", name, value, value)
+            elif isinstance(model, Netlist) and name in model._steady:
+                found[name] = model._texts["", name][0]
+        constants = model._texts.items() if isinstance(model, Netlist) else ()
+        found |= {n: raw for (part, n), (raw, _) in constants if not part and n not in found}
+        return found
+
+    def _connectors(self, model: Component) -> dict[str, str]:
+        return {
+            name: self._class(type(declared), f"{model._label()}.{name}")
+            for name, declared in model._declarations()
+            if isinstance(declared, Connector)
+        }
+
+    def _part(self, model: Component, name: str, part: Component) -> dict[str, Any]:
+        known = any(library.name_of(type(part)) for library in self.libraries)
+        if isinstance(part, Netlist) or (not known and part._children):
+            return self.model(part)
+        entry: dict[str, Any] = {"class": self._class(type(part), part._label())}
+        given = {**part._options, **part._modifiers}
+        texts = model._texts if isinstance(model, Netlist) else {}
+        order = [key for owner, key in texts if owner == name]
+        modifiers: dict[str, Any] = {}
+        for key in dict.fromkeys((*order, *given)):
+            modifiers[key] = self._text(model, name, key, given.get(key), given.get(key))
+        if modifiers:
+            entry["with"] = modifiers
+        return entry
+
+    def _text(self, model: Component, part: str, key: str, value: Any, current: Any) -> Any:
+        """A modifier as JSON: as it stood in the file where it is unchanged."""
+        texts = model._texts if isinstance(model, Netlist) else {}
+        if (part, key) in texts and texts[part, key][1] is current:
+            return texts[part, key][0]
+        return self._json(model, value, f"{part}.{key}".lstrip("."))
+
+    def _json(self, model: Component, value: Any, where: str) -> Any:
+        match value:
+            case Start():
+                pairs = ((k, getattr(value, v)) for k, v in START_KEYS.items())
+                return {k: self._json(model, v, where) for k, v in pairs if v is not None}
+            case np.ndarray():
+                return self._json(model, value.tolist(), where)
+            case list() | tuple():
+                return [self._json(model, v, where) for v in cast(Sequence[Any], value)]
+            case sp.Expr() if value.is_number:
+                return float(value)
+            case sp.Expr():
+                names = {r: sp.Symbol(_path(model, r)) for r in references(value)}
+                return written(value.xreplace(names))
+            case None | bool() | int() | float() | str():
+                return value
+            case _:
+                raise NetlistError(f"{model._label()}: {where} = {value!r:.60} cannot be written to a file")
+
+    def _initial(self, model: Component) -> list[str]:
+        if isinstance(model, Netlist):
+            return [text for text, _ in model._initial]
+        stated = list(model.initial_equations())
+        if stated:
+            raise NetlistError(f"{model._label()} states initial equations of its own; put its class into a library")
+        return []
+
+    def _class(self, cls: type, where: str) -> str:
+        for library in self.libraries:
+            name = library.name_of(cls)
+            if name is not None:
+                return name
+        raise NetlistError(f"{where}: class {cls.__name__} is in no library; pass libraries=[...]")
+
+
+def _path(model: Component, end: Any) -> str:
+    """Dotted name of an endpoint or reference, seen from a model."""
+    owner, local = (end.owner, end.path) if isinstance(end, Reference) else (end._owner, end._name)
+    names = [local]
+    while owner is not model and owner is not None:
+        names.append(owner._name)
+        owner = owner._parent
+    return ".".join(reversed(names))

@@ -155,7 +155,7 @@ class ParameterLayout:
 
     def _find(self, name: str) -> int | None:
         layout = self.model.layout
-        for cut in [i for i, c in enumerate(name) if c == "."][::-1] + [-1]:
+        for cut in [*[i for i, c in enumerate(name) if c == "."][::-1], -1]:
             component = layout.number.get(name[: max(cut, 0)])
             if component is not None:
                 local = layout.form(component).parameter_index.get(name[cut + 1 :])

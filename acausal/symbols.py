@@ -36,6 +36,7 @@ class Reference(sp.Symbol):
     _serial = count()
 
     def __new__(cls, owner: Component, path: str, declaration: Declaration) -> Reference:
+        """A new symbol, unlike any other."""
         symbol = super().__new__(cls, f"{path}#{next(cls._serial)}", real=True)
         symbol.owner, symbol.path, symbol.declaration = owner, path, declaration
         return symbol
@@ -56,6 +57,7 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
         return True
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Refused: total derivatives are taken when equations become templates."""
         raise DeclarationError(
             "der(...) inside der(...) of an expression: give the inner one a variable"
         )
@@ -69,6 +71,7 @@ class ModuleCall(sp.Function):
     """
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """The partial derivative by an argument (counted from 3), again a call."""
         module, orders, *args = self.args
         raised = [n + (i == argindex - 3) for i, n in enumerate(orders)]
         return ModuleCall(module, sp.Tuple(*raised), *args)
@@ -189,7 +192,7 @@ class Variable(Declaration):
     """An unknown of time. ``start``, ``fixed``, ``nominal``, ``state`` as in `Start`.
 
     Each may name another attribute of the component instead: ``start="y_start"`` a parameter,
-    ``state="stateSelect"`` or ``nominal="s_nominal"`` an option.
+    ``state="stateSelect"``, ``fixed="T0fixed"`` or ``nominal="s_nominal"`` an option.
     """
 
     def __init__(
@@ -197,7 +200,7 @@ class Variable(Declaration):
         *,
         unit: str = "",
         start: Any = 0.0,
-        fixed: bool = False,
+        fixed: bool | str = False,
         nominal: float | str = 1.0,
         state: StateSelect | str = "default",
         shape: Shape = None,
@@ -254,6 +257,7 @@ class ModuleReference:
     symbol: Reference
 
     def __call__(self, *args: Any) -> ModuleCall:
+        """The module applied to expressions."""
         expressions = [_expression(a, f"an argument of {self.symbol.path}") for a in args]
         return ModuleCall(self.symbol, sp.Tuple(*[0] * len(args)), *expressions)
 

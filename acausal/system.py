@@ -73,8 +73,10 @@ class System:
 
     @cached_property
     def inputs(self) -> tuple[str, ...]:
-        """Names of the inputs, in the order of ``u``; a ``der(...)`` is the derivative of an input that the
-        model differentiates."""
+        """Names of the inputs, in the order of ``u``.
+
+        A ``der(...)`` is the derivative of an input that the model differentiates.
+        """
         names = [self.reduced.name(int(i)) for i in self.reduced.inputs]
         return tuple(
             "der(" * order + names[i] + ")" * order for i, order in self.reduced.input_orders
@@ -189,6 +191,23 @@ class System:
             DataError: if ``x0`` does not fit. InitializationError: if the conditions contradict each other.
         """
         return self.initializer(self.pack(params), x0, u0, t0)
+
+    def input_values(self, u: Mapping[str, Any] | Any = None) -> Any:
+        """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or nothing.
+
+        Raises:
+            DataError: for a name that is no input, or an array of another length.
+        """
+        if u is None or isinstance(u, Mapping):
+            given = dict(u or {})
+            for name in given:
+                if name not in self.inputs:
+                    raise DataError(f"u: '{name}' is not an input; {nearest(name, self.inputs)}")
+            return jnp.asarray([given.get(name, 0.0) for name in self.inputs], dtype=float)
+        values = jnp.asarray(u, dtype=float)
+        if values.shape != (len(self.inputs),):
+            raise DataError(f"u has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})")
+        return values
 
     # -- inside --------------------------------------------------------------------------------------
 

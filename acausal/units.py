@@ -16,7 +16,9 @@ def registry() -> Any:
     """The unit registry (pint is slow to import, so only where a unit is read)."""
     import pint
 
-    return pint.UnitRegistry(cache_folder=None)
+    known = pint.UnitRegistry(cache_folder=None)
+    known.define("@alias turn = rev")
+    return known
 
 
 @cache

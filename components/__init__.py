@@ -3,6 +3,7 @@
 | package | Modelica |
 |---|---|
 | `translational` | `Modelica.Mechanics.Translational` |
+| `rotational` | `Modelica.Mechanics.Rotational` |
 | `blocks` | `Modelica.Blocks` |
 | `thermal` | `Modelica.Thermal.HeatTransfer` |
 | `neural` | none: two-ports of any domain whose law is a network |

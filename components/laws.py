@@ -59,7 +59,12 @@ def contact(depth: Any, rate: Any, c: Any, d: Any, n: Any = 1) -> tuple[Any, Any
         n: exponent of the stiffness.
     """
     f_c = c * ac.maximum(depth, 0) ** n
-    return f_c, ac.maximum(ac.minimum(d * rate, f_c), -f_c)
+    return f_c, bounded(d * rate, f_c)
+
+
+def bounded(value: Any, limit: Any) -> Any:
+    """``value`` between ``-limit`` and ``limit``."""
+    return ac.maximum(ac.minimum(value, limit), -limit)
 
 
 def inverse(v: Any, v_nominal: Any, v0: Any, *, one_way: bool) -> Any:

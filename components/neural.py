@@ -10,7 +10,7 @@ ICINCO 2023, doi 10.5220/0012160100003543.
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
-from typing import Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 import acausal as ac
 
@@ -46,6 +46,10 @@ class PartialNeural(ac.Component):
     input_scale = ac.Option(1.0, doc="magnitude of the inputs")
     output_scale = ac.Option(1.0, doc="magnitude of the output")
     net = ac.Module("_net", doc="the law")
+
+    if TYPE_CHECKING:  # connectors and variables bear the domain's names
+
+        def __getattr__(self, name: str) -> Any: ...
 
     def __new__(
         cls,

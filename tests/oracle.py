@@ -82,7 +82,8 @@ def _residual(
 def _parameters(system: ac.System, indices: Integers, packed: Packed) -> Array:
     layout = system.layout
     kept = [
-        jnp.zeros(()) if system.flat.folded[i] else packed.values[layout.position[i]]
+        # -1: folded to zero, or bound to what is
+        jnp.zeros(()) if layout.position[i] < 0 else packed.values[layout.position[i]]
         for i in indices
     ]
     return jnp.stack(kept)

@@ -1,22 +1,25 @@
 """Signal blocks: MSL's names and defaults, sources over time, functions at points, responses."""
 
 import inspect
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from scipy import signal
+from scipy import signal as scipy_signal
 
 import acausal as ac
 from acausal.components import blocks
 from acausal.flatten import flatten
 
+signal: Any = scipy_signal  # its types are partly unknown
+
 BASES = ("MIMO", "MISO", "MO", "SI", "SI2SO", "SISO", "SO", "SVcontrol", "SignalSource")
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default,
 # `float` a default that follows from other parameters).
-DEFAULTS = {
+DEFAULTS: dict[str, dict[str, Any]] = {
     "Constant": {"k": ...},
     "ContinuousClock": {"offset": 0, "startTime": 0},
     "Step": {"height": 1, "offset": 0, "startTime": 0},
@@ -87,7 +90,7 @@ DEFAULTS = {
     "DeadZone": {"uMax": ..., "uMin": float},
 }  # fmt: skip
 
-NEEDED = {
+NEEDED: dict[str, dict[str, Any]] = {
     "CombiTimeTable": {"table": [[0, 1], [1, 2]]},
     "TimeTable": {"table": [[0, 1], [1, 2]]},
     "SampledSignal": {"values": [0, 1], "dt": 0.1},
@@ -368,6 +371,7 @@ def test_functions_of_signals():
                 Leg=blocks.Pythagoras(u1IsHypotenuse=True),
                 Dependency=blocks.LinearDependency(y0=1, k1=2, k2=3),
             )
+            self.minus_two = blocks.Gain(k=-2)
             self.tenth, self.positive = blocks.Gain(k=0.1), blocks.Abs()
             for n in small:
                 setattr(self, n, getattr(blocks, n)())
@@ -385,9 +389,16 @@ def test_functions_of_signals():
             for part in (self.matrix, self.sum, self.multi_sum, self.product, self.extremes):
                 self.connect(self.u1, part.u[0])
                 self.connect(self.u2, part.u[1])
-            self.connect(self.u1, self.tenth.u, self.positive.u, self.variable.u, self.add3.u1)
+            signals = (
+                self.tenth.u,
+                self.positive.u,
+                self.variable.u,
+                self.add3.u1,
+                self.minus_two.u,
+            )
+            self.connect(self.u1, *signals)
             self.connect(self.u2, self.add3.u2, self.add3.u3, self.variable.limit1)
-            self.connect(self.Gain.y, self.variable.limit2)
+            self.connect(self.minus_two.y, self.variable.limit2)
 
     points = np.random.default_rng(0).uniform(-4, 4, (50, 3))
     u, v = points[:, 1], points[:, 2]
@@ -571,7 +582,7 @@ def controllers():
     parts = {
         kind: blocks.LimPID(controllerType=kind, **shared) for kind in ("P", "PI", "PD", "PID")
     }
-    model = Panel(**parts)
+    model: Any = Panel(**parts)
     model.forward = blocks.LimPID(controllerType="P", withFeedForward=True, kFF=0.5, yMax=100)
     model.connect(model.u1, model.forward.u_s, model.forward.u_ff)
     model.connect(model.u2, model.forward.u_m)

@@ -1,6 +1,7 @@
 """Translational mechanics: MSL's names and defaults, laws at points, and a bench of motions."""
 
 import inspect
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -14,7 +15,7 @@ from acausal.components.thermal import HeatPort
 from acausal.flatten import flatten
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default).
-DEFAULTS = {
+DEFAULTS: dict[str, dict[str, Any]] = {
     "Fixed": {"s0": 0},
     "Mass": {"m": ..., "L": 0},
     "Rod": {"L": 0},
@@ -227,7 +228,7 @@ def laws():
         "damper": tl.Damper(d=4),
         "gap": tl.ElastoGap(c=100, d=30, s_rel0=0.5, n=2),
     }
-    model = Laws(**elements)
+    model: Any = Laws(**elements)
     model.ground = tl.Fixed()
     model.connect(model.damper.flange_b, model.gap.flange_b, model.ground.flange)
     system = ac.compile(model)

@@ -149,19 +149,19 @@ class EddyCurrentTorque(
 ):
     """Eddy current brake (Kloss): ``tau = 2 tau_max r/(1 + r**2)``, always against the motion.
 
-    ``tau = flange.tau``, unlike the other torques. ``tau_max = excitation tau_nominal`` with the
+    ``tau = flange.tau``, unlike the other torques. ``tau_max = excitation**2 tau_nominal`` with the
     input ``excitation`` where there is one (``useExcitationInput``), else ``constantExcitation``.
     ``r = w_normalized = w/(w_nominal (1 + alpha (TheatPort - TRef)))`` with the temperature
     coefficient ``alpha`` of `acausal.components.laws.temperature_factor`; ``lossPower = tau w``.
     """
 
     useExcitationInput = ac.Option(False, doc="whether excitation is an input")
-    constantExcitation = ac.Parameter(1.0, doc="excitation without input; 1 for tau_nominal")
+    constantExcitation = ac.Parameter(1.0, doc="relative excitation without input")
     tau_nominal = ac.Parameter(unit="N.m", doc="greatest torque at full excitation")
     w_nominal = ac.Parameter(unit="rad/s", min=0, doc="speed of the greatest torque at TRef")
     TRef = ac.Parameter(unit="K", min=0, doc="reference temperature")
     alpha20 = ac.Parameter(unit="1/K", doc="temperature coefficient of the material at 20 degC")
-    excitation = ac.Input(when="useExcitationInput", doc="excitation; 1 for tau_nominal")
+    excitation = ac.Input(when="useExcitationInput", doc="relative excitation; 1 for tau_nominal")
     tau = ac.Variable(unit="N.m", doc="braking torque, = flange.tau")
     w = ac.Variable(unit="rad/s", doc="speed of the flange relative to the support")
     w_normalized = ac.Variable(doc="speed over that of the greatest torque")
@@ -173,5 +173,6 @@ class EddyCurrentTorque(
         yield ac.Eq(self.tau, self.flange.tau)
         yield ac.Eq(self.w, ac.der(self.phi))
         yield ac.Eq(self.w_normalized, self.w / (self.w_nominal * warmed))
-        yield ac.Eq(self.tau, excitation * self.tau_nominal * eddy_current(self.w_normalized))
+        tau_max = excitation**2 * self.tau_nominal
+        yield ac.Eq(self.tau, tau_max * eddy_current(self.w_normalized))
         yield ac.Eq(self.lossPower, self.tau * self.w)

@@ -1,4 +1,4 @@
-"""The heat port, and the base of components of other domains that may have one."""
+"""The heat port, and the bases of components that conduct, store or dissipate heat."""
 
 from collections.abc import Iterator
 
@@ -18,6 +18,25 @@ class HeatPort(ac.Connector):
 
 HeatPort_a = HeatPort
 HeatPort_b = HeatPort
+
+
+class Element1D(ac.Component):
+    """Two heat ports with a heat flow between them, and no storage.
+
+    ``dT = port_a.T - port_b.T`` [K]; ``Q_flow`` [W] enters at ``port_a`` and leaves at ``port_b``.
+    A subclass states how the two depend on each other.
+    """
+
+    port_a = HeatPort()
+    port_b = HeatPort()
+    Q_flow = ac.Variable(unit="W", doc="heat flow rate from port_a to port_b")
+    dT = ac.Variable(unit="K", doc="port_a.T - port_b.T")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.dT, self.port_a.T - self.port_b.T)
+        yield ac.Eq(self.port_a.Q_flow, self.Q_flow)
+        yield ac.Eq(self.port_b.Q_flow, -self.Q_flow)
 
 
 class PartialElementaryConditionalHeatPortWithoutT(ac.Component):

@@ -1,0 +1,120 @@
+"""Ideal elements; switches and operational amplifiers come from their own modules."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+
+from .ideal_amplifiers import IdealizedOpAmpLimited, IdealOpAmp, IdealOpAmp3Pin, IdealOpAmpLimited
+from .interfaces import IdealSemiconductor, OnePort, TwoPort
+from .switches import (
+    TRUE,
+    ControlledIdealClosingSwitch,
+    ControlledIdealIntermediateSwitch,
+    ControlledIdealOpeningSwitch,
+    ControlledIdealTwoWaySwitch,
+    IdealClosingSwitch,
+    IdealIntermediateSwitch,
+    IdealOpeningSwitch,
+    IdealTwoWaySwitch,
+)
+
+__all__ = [
+    "ControlledIdealClosingSwitch",
+    "ControlledIdealIntermediateSwitch",
+    "ControlledIdealOpeningSwitch",
+    "ControlledIdealTwoWaySwitch",
+    "IdealClosingSwitch",
+    "IdealDiode",
+    "IdealGTOThyristor",
+    "IdealIntermediateSwitch",
+    "IdealOpAmp",
+    "IdealOpAmp3Pin",
+    "IdealOpAmpLimited",
+    "IdealOpeningSwitch",
+    "IdealThyristor",
+    "IdealTransformer",
+    "IdealTriac",
+    "IdealTwoWaySwitch",
+    "IdealizedOpAmpLimited",
+    "Idle",
+    "Short",
+]
+
+
+class IdealDiode(IdealSemiconductor):
+    """Ideal diode: it blocks where ``s < 0``, that is below ``Vknee``. See `IdealSemiconductor`."""
+
+    @property
+    def _blocks(self) -> Any:
+        return self.s < 0
+
+
+class IdealGTOThyristor(IdealSemiconductor):
+    """Ideal switching transistor: it conducts above ``Vknee`` while the signal ``fire > 0.5``."""
+
+    fire = ac.Input(doc="may conduct above 0.5 (Modelica: true)")
+
+    @property
+    def _blocks(self) -> Any:
+        return (self.s < 0) | (self.fire <= TRUE)
+
+
+class IdealThyristor(IdealSemiconductor):
+    """Not available: a thyristor remembers that it was fired."""
+
+    def __init__(self, **modifiers: Any) -> None:
+        raise ac.DeclarationError(
+            "IdealThyristor needs discrete states, which acausal does not have yet"
+        )
+
+
+class IdealTriac(ac.Component):
+    """Not available: a triac remembers that it was fired."""
+
+    def __init__(self, **modifiers: Any) -> None:
+        raise ac.DeclarationError(
+            "IdealTriac needs discrete states, which acausal does not have yet"
+        )
+
+
+class IdealTransformer(TwoPort):
+    """Ideal transformer: ``v1 = n v2``, and ``i1 + i2/n = im1``, the magnetizing current.
+
+    Without ``considerMagnetization`` ``im1 = 0``; with it ``v1 = der(psim1)``, ``psim1 = Lm1 im1``.
+    """
+
+    n = ac.Parameter(doc="turns ratio, primary to secondary voltage")
+    considerMagnetization = ac.Option(False, doc="whether there is a magnetizing current")
+    Lm1 = ac.Parameter(
+        unit="H", when="considerMagnetization", doc="magnetizing inductance, primary side"
+    )
+    im1 = ac.Variable(unit="A", doc="magnetizing current, primary side")
+    psim1 = ac.Variable(unit="Wb", doc="flux linkage, primary side")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.im1, self.i1 + self.i2 / self.n)
+        if self.considerMagnetization:
+            yield ac.Eq(self.psim1, self.Lm1 * self.im1)
+            yield ac.Eq(self.v1, ac.der(self.psim1))
+        else:
+            yield ac.Eq(self.psim1, 0)
+            yield ac.Eq(self.im1, 0)
+        yield ac.Eq(self.v1, self.n * self.v2)
+
+
+class Idle(OnePort):
+    """An interruption: ``i = 0``."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.i, 0)
+
+
+class Short(OnePort):
+    """A short cut: ``v = 0``."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.v, 0)

@@ -1,0 +1,122 @@
+"""Voltage sources. Time counts from ``startTime``, and ``offset`` is added to the signal."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+
+from . import waveforms
+from .interfaces import NegativePin, OnePort, PositivePin, VoltageSource
+from .waveforms import VariableVoltage, Voltage
+
+
+class SignalVoltage(ac.Component):
+    """A voltage given by a signal ``v`` [V]: ``v = p.v - n.v``, ``i = p.i`` [A]."""
+
+    p = PositivePin()
+    n = NegativePin()
+    v = ac.Input(unit="V", doc="voltage from p to n")
+    i = ac.Variable(unit="A", doc="current from p to n")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.v, self.p.v - self.n.v)
+        yield ac.Eq(0, self.p.i + self.n.i)
+        yield ac.Eq(self.i, self.p.i)
+
+
+class ConstantVoltage(OnePort):
+    """``v = V``."""
+
+    V = ac.Parameter(unit="V", doc="constant voltage")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.v, self.V)
+
+
+class StepVoltage(waveforms.Step, Voltage):
+    """``v = offset``, from ``startTime`` on ``v = offset + V``."""
+
+
+class RampVoltage(waveforms.Ramp, Voltage):
+    """``v`` rises by ``V`` during ``duration`` [s] and stays there."""
+
+
+class SineVoltage(waveforms.Sine, Voltage):
+    """``v = offset + V sin(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
+
+
+class CosineVoltage(waveforms.Cosine, Voltage):
+    """``v = offset + V cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
+
+
+class SineVoltageVariableFrequencyAndAmplitude(VariableVoltage):
+    """``v = offset + V sin(phi)``, ``der(phi) = 2 pi f``, with inputs ``V`` [V] and ``f`` [Hz].
+
+    ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
+    """
+
+    def _wave(self) -> Any:
+        return ac.sin(self.phi)
+
+
+class CosineVoltageVariableFrequencyAndAmplitude(VariableVoltage):
+    """``v = offset + V cos(phi)``, ``der(phi) = 2 pi f``, with inputs ``V`` [V] and ``f`` [Hz].
+
+    ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
+    """
+
+    def _wave(self) -> Any:
+        return ac.cos(self.phi)
+
+
+class ExpSineVoltage(waveforms.ExpSine, Voltage):
+    """``v = offset + V exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
+
+
+class ExponentialsVoltage(waveforms.Exponentials, VoltageSource):
+    """Rises towards ``vMax`` for ``riseTime`` [s], then falls, both exponentially.
+
+    ``v = offset + vMax (1 - exp(-t/riseTimeConst))``; after ``riseTime`` the value reached decays with
+    ``fallTimeConst``.
+    """
+
+    vMax = ac.Parameter(unit="V", doc="voltage after an infinite rise")
+
+    @property
+    def _amplitude(self) -> Any:
+        return self.vMax
+
+
+class PulseVoltage(waveforms.Pulse, Voltage):
+    """``v = offset + V`` for the first ``width`` per cent of each ``period``, else ``offset``."""
+
+
+class SawToothVoltage(waveforms.SawTooth, Voltage):
+    """``v`` rises from ``offset`` by ``V`` in each ``period``."""
+
+
+class TrapezoidVoltage(waveforms.Trapezoid, Voltage):
+    """In each ``period``: ``rising``, at ``offset + V`` for ``width``, ``falling`` [s], then ``offset``."""
+
+
+class TableVoltage(waveforms.Table, VoltageSource):
+    """``v`` by linear interpolation in the rows of ``table``: time [s], voltage [V]."""
+
+
+class SupplyVoltage(ac.Component):
+    """Two constant voltages: ``Vps`` from ``ground`` to ``pin_p``, ``Vns`` from ``ground`` to ``pin_n``."""
+
+    Vps = ac.Parameter(15.0, unit="V", doc="positive supply")
+    Vns = ac.Parameter(-15.0, unit="V", doc="negative supply")
+    pin_p = PositivePin()
+    pin_n = NegativePin()
+    ground = NegativePin()
+
+    def __init__(self, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        self.positiveSupply = ConstantVoltage(V=self.Vps)
+        self.negativeSupply = ConstantVoltage(V=-self.Vns)
+        self.connect(self.pin_p, self.positiveSupply.p)
+        self.connect(self.positiveSupply.n, self.ground, self.negativeSupply.p)
+        self.connect(self.negativeSupply.n, self.pin_n)

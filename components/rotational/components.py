@@ -1,0 +1,99 @@
+"""What is fixed or rigid; compliances, gears, friction and adaptors come from their own modules."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from .adaptors import (
+    AngleToTorqueAdaptor,
+    GeneralAngleToTorqueAdaptor,
+    GeneralTorqueToAngleAdaptor,
+    InitializeFlange,
+    RelativeStates,
+    TorqueToAngleAdaptor,
+)
+from .compliances import Damper, ElastoBacklash, ElastoBacklash2, Spring, SpringDamper
+from .friction import BearingFriction, Brake, Clutch, OneWayClutch
+from .gears import (
+    Gearbox,
+    IdealGear,
+    IdealGearR2T,
+    IdealPlanetary,
+    IdealRollingWheel,
+    LossyGear,
+)
+from .interfaces import STATE_SELECT, Flange, PartialTwoFlanges
+
+__all__ = [
+    "AngleToTorqueAdaptor",
+    "BearingFriction",
+    "Brake",
+    "Clutch",
+    "Damper",
+    "Disc",
+    "ElastoBacklash",
+    "ElastoBacklash2",
+    "Fixed",
+    "Gearbox",
+    "GeneralAngleToTorqueAdaptor",
+    "GeneralTorqueToAngleAdaptor",
+    "IdealGear",
+    "IdealGearR2T",
+    "IdealPlanetary",
+    "IdealRollingWheel",
+    "Inertia",
+    "InitializeFlange",
+    "LossyGear",
+    "OneWayClutch",
+    "RelativeStates",
+    "Spring",
+    "SpringDamper",
+    "TorqueToAngleAdaptor",
+]
+
+
+class Fixed(ac.Component):
+    """A flange fixed in the housing: ``flange.phi = phi0`` [rad]."""
+
+    phi0 = ac.Parameter(0.0, unit="rad", doc="fixed angle")
+    flange = Flange()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.flange.phi, self.phi0)
+
+
+class Inertia(PartialTwoFlanges):
+    """A rotating inertia: ``J a = flange_a.tau + flange_b.tau`` with ``w = der(phi)``, ``a = der(w)``.
+
+    Both flanges have its angle ``phi`` [rad]. ``phi`` and the speed ``w`` [rad/s] are preferred as
+    states (Modelica: ``default``).
+    """
+
+    J = ac.Parameter(unit="kg.m2", min=0, doc="moment of inertia")
+    stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of phi and w as states")
+    phi = ac.Variable(unit="rad", state="stateSelect", doc="angle")
+    w = ac.Variable(unit="rad/s", state="stateSelect", doc="speed")
+    a = ac.Variable(unit="rad/s2", doc="acceleration")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.phi, self.flange_a.phi)
+        yield ac.Eq(self.phi, self.flange_b.phi)
+        yield ac.Eq(self.w, ac.der(self.phi))
+        yield ac.Eq(self.a, ac.der(self.w))
+        yield ac.Eq(self.J * self.a, self.flange_a.tau + self.flange_b.tau)
+
+
+class Disc(PartialTwoFlanges):
+    """Two flanges, rigid and without inertia, turned by ``deltaPhi`` against each other.
+
+    ``flange_a.phi = phi - deltaPhi/2``, ``flange_b.phi = phi + deltaPhi/2``,
+    ``0 = flange_a.tau + flange_b.tau``.
+    """
+
+    deltaPhi = ac.Parameter(0.0, unit="rad", doc="fixed angle, = flange_b.phi - flange_a.phi")
+    phi = ac.Variable(unit="rad", doc="angle of the centre")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.flange_a.phi, self.phi - self.deltaPhi / 2)
+        yield ac.Eq(self.flange_b.phi, self.phi + self.deltaPhi / 2)
+        yield ac.Eq(0, self.flange_a.tau + self.flange_b.tau)

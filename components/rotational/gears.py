@@ -1,0 +1,211 @@
+"""Gears: ideal, with losses, planetary, and from rotation to translation."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+from acausal.components.laws import SMOOTHNESS, lookup
+from acausal.components.thermal import HeatPort
+from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
+
+from .compliances import ElastoBacklash
+from .interfaces import (
+    STATE_SELECT,
+    Flange,
+    PartialElementaryRotationalToTranslational,
+    PartialElementaryTwoFlangesAndSupport2,
+    PartialFriction,
+    PartialTwoFlangesAndSupport,
+)
+
+LOSSLESS = (0.0, 1.0, 1.0, 0.0, 0.0)
+"""The only row of a loss table without losses."""
+
+
+class IdealGear(PartialElementaryTwoFlangesAndSupport2):
+    """Ideal gear: ``phi_a = ratio phi_b``, ``0 = ratio flange_a.tau + flange_b.tau``."""
+
+    ratio = ac.Parameter(doc="transmission ratio phi_a / phi_b")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_a, self.ratio * self.phi_b)
+        yield ac.Eq(0, self.ratio * self.flange_a.tau + self.flange_b.tau)
+
+
+class IdealPlanetary(ac.Component):
+    """Ideal planetary gear of sun, carrier and ring.
+
+    ``(1 + ratio) carrier.phi = sun.phi + ratio ring.phi``, ``ring.tau = ratio sun.tau``,
+    ``carrier.tau = -(1 + ratio) sun.tau``.
+    """
+
+    ratio = ac.Parameter(doc="teeth of the ring over teeth of the sun")
+    sun = Flange()
+    carrier = Flange()
+    ring = Flange()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq((1 + self.ratio) * self.carrier.phi, self.sun.phi + self.ratio * self.ring.phi)
+        yield ac.Eq(self.ring.tau, self.ratio * self.sun.tau)
+        yield ac.Eq(self.carrier.tau, -(1 + self.ratio) * self.sun.tau)
+
+
+class IdealGearR2T(PartialElementaryRotationalToTranslational):
+    """Ideal gear from rotation to translation, such as a rack and pinion.
+
+    ``phi = ratio s``, ``0 = ratio flangeR.tau + flangeT.f``; angle and position count from the supports.
+    """
+
+    ratio = ac.Parameter(unit="rad/m", doc="transmission ratio flangeR.phi / flangeT.s")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi, self.ratio * self.s)
+        yield ac.Eq(0, self.ratio * self.flangeR.tau + self.flangeT.f)
+
+
+class IdealRollingWheel(PartialElementaryRotationalToTranslational):
+    """A wheel without inertia that rolls without slip.
+
+    ``phi radius = s``, ``0 = radius flangeT.f + flangeR.tau``; angle and position count from the supports.
+    """
+
+    radius = ac.Parameter(unit="m", doc="radius of the wheel")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi * self.radius, self.s)
+        yield ac.Eq(0, self.radius * self.flangeT.f + self.flangeR.tau)
+
+
+class _Lossy(ac.Component):
+    """A gear with a table of losses: rows of ``|w_a|, eta_mf1, eta_mf2, |tau_bf1|, |tau_bf2|``."""
+
+    ratio = ac.Parameter(doc="transmission ratio flange_a.phi / flange_b.phi")
+    lossTable = ac.Parameter(
+        [LOSSLESS], shape=(":", ":"), doc="rows of speed, two efficiencies, two bearing torques"
+    )
+    ideal = ac.Option(True, doc="whether there are no losses: no lossTable, or one without")
+
+    def modify(self, **modifiers: Any) -> None:
+        """Set parameters, options and starts by name; a ``lossTable`` decides on ``ideal``."""
+        if "lossTable" in modifiers:
+            rows = [tuple(row) for row in modifiers["lossTable"]]
+            if any(len(row) != len(LOSSLESS) for row in rows):
+                raise ac.DeclarationError(
+                    f"{type(self).__name__}.lossTable needs rows of 5 numbers: |w_a|, eta_mf1, "
+                    f"eta_mf2, |tau_bf1|, |tau_bf2|; got {[len(row) for row in rows]}"
+                )
+            modifiers = {"ideal": rows == [LOSSLESS], **modifiers}
+        super().modify(**modifiers)
+
+
+class LossyGear(
+    PartialElementaryTwoFlangesAndSupport2,
+    PartialFriction,
+    PartialElementaryConditionalHeatPortWithoutT,
+    _Lossy,
+):
+    """Gear with friction between the teeth and in the bearings.
+
+    ``phi_a = ratio phi_b``, ``0 = flange_b.tau + ratio (flange_a.tau - tauLoss)``, ``w_a = der(phi_a)``,
+    ``lossPower = tauLoss w_a``. The table gives, by ``|w_a|``, the efficiencies of the teeth
+    ``eta_mf1`` (``flange_a`` drives) and ``eta_mf2`` (``flange_b`` drives) and the bearings' torques
+    ``tau_bf1``, ``tau_bf2`` [N.m] in these two cases. With ``tau = flange_a.tau``, while it rolls
+
+    - forward ``tauLoss = tauLossMax``, the greater of ``(1 - eta_mf1) tau + tau_bf1`` and
+      ``(1 - 1/eta_mf2) tau + tau_bf2``;
+    - backward ``tauLoss = tauLossMin``, the smaller of ``(1 - eta_mf1) tau - tau_bf1`` and
+      ``(1 - 1/eta_mf2) tau - tau_bf2``.
+
+    The greater and the smaller are those of the side that drives. Modelica locks at rest; here the
+    loss is multiplied by ``|tanh(w_a/w_small)|``, so the gear creeps, and never gives power.
+    ``eta_mf1`` to ``tauLossMin`` exist only where there are losses.
+    """
+
+    smoothness = ac.Option("LinearSegments", choices=SMOOTHNESS, doc="interpolation of the table")
+    w_a = ac.Variable(unit="rad/s", doc="speed of flange_a relative to the support")
+    a_a = ac.Variable(unit="rad/s2", doc="acceleration of flange_a relative to the support")
+    eta_mf1 = ac.Variable(when="not ideal", doc="efficiency of the teeth, flange_a drives")
+    eta_mf2 = ac.Variable(when="not ideal", doc="efficiency of the teeth, flange_b drives")
+    tau_bf1 = ac.Variable(unit="N.m", when="not ideal", doc="bearing torque, flange_a drives")
+    tau_bf2 = ac.Variable(unit="N.m", when="not ideal", doc="bearing torque, flange_b drives")
+    tauLossMax = ac.Variable(unit="N.m", when="not ideal", doc="loss while rolling forward")
+    tauLossMin = ac.Variable(unit="N.m", when="not ideal", doc="loss while rolling backward")
+    tauLoss = ac.Variable(unit="N.m", doc="torque lost, at flange_a")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.phi_a, self.ratio * self.phi_b)
+        yield ac.Eq(0, self.flange_b.tau + self.ratio * (self.flange_a.tau - self.tauLoss))
+        yield ac.Eq(self.w_a, ac.der(self.phi_a))
+        yield ac.Eq(self.a_a, ac.der(self.w_a))
+        yield ac.Eq(self.lossPower, self.tauLoss * self.w_a)
+        if self.ideal:
+            yield ac.Eq(self.tauLoss, 0)
+        else:
+            yield from self._losses()
+
+    def _losses(self) -> Iterator[ac.Eq]:
+        found = (self.eta_mf1, self.eta_mf2, self.tau_bf1, self.tau_bf2)
+        for column, variable in enumerate(found, start=1):
+            points = [(row[0], row[column]) for row in self.lossTable]
+            value = lookup(ac.Abs(self.w_a), points, self.smoothness)
+            yield ac.Eq(variable, value if column < 3 else ac.Abs(value))
+        teeth_a = (1 - self.eta_mf1) * self.flange_a.tau
+        teeth_b = (1 - 1 / self.eta_mf2) * self.flange_a.tau
+        yield ac.Eq(self.tauLossMax, ac.maximum(teeth_a + self.tau_bf1, teeth_b + self.tau_bf2))
+        yield ac.Eq(self.tauLossMin, ac.minimum(teeth_a - self.tau_bf1, teeth_b - self.tau_bf2))
+        rolling = ac.tanh(self.w_a / self.w_small)
+        forward, backward = rolling * self.tauLossMax, -rolling * self.tauLossMin
+        yield ac.Eq(self.tauLoss, ac.where(self.w_a < 0, backward, forward))
+
+
+class Gearbox(PartialTwoFlangesAndSupport, _Lossy):
+    """A gear with losses (`LossyGear`), then elasticity and backlash (`ElastoBacklash`).
+
+    The parts are ``lossyGear`` at ``flange_a`` and ``elastoBacklash`` at ``flange_b``. ``phi_rel``
+    [rad], ``w_rel = der(phi_rel)`` and ``a_rel = der(w_rel)`` are those of the elasticity;
+    ``stateSelect`` is ``"default"`` here (Modelica: ``"prefer"``). The heat port, with
+    ``useHeatPort``, takes the losses of both. Choose options where the gearbox is made.
+    """
+
+    c = ac.Parameter(unit="N.m/rad", min=0, doc="elasticity of the gear")
+    d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping of the gear")
+    b = ac.Parameter(0.0, unit="rad", min=0, doc="total backlash")
+    stateSelect = ac.Option(
+        "default", choices=STATE_SELECT, doc="priority of phi_rel, w_rel as states"
+    )
+    useHeatPort = ac.Option(False, doc="whether there is a heat port")
+    heatPort = HeatPort(when="useHeatPort")
+    phi_rel = ac.Variable(
+        unit="rad", state="stateSelect", nominal=1e-4, doc="angle over the elasticity"
+    )
+    w_rel = ac.Variable(unit="rad/s", state="stateSelect", doc="speed over the elasticity")
+    a_rel = ac.Variable(unit="rad/s2", doc="acceleration over the elasticity")
+
+    def __init__(self, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        self.lossyGear = LossyGear(
+            ratio=self.ratio,
+            lossTable=self.lossTable,
+            ideal=self.ideal,
+            useSupport=self.useSupport,
+            useHeatPort=self.useHeatPort,
+        )
+        self.elastoBacklash = ElastoBacklash(
+            c=self.c, d=self.d, b=self.b, useHeatPort=self.useHeatPort
+        )
+        self.connect(self.flange_a, self.lossyGear.flange_a)
+        self.connect(self.lossyGear.flange_b, self.elastoBacklash.flange_a)
+        self.connect(self.elastoBacklash.flange_b, self.flange_b)
+        if self.useSupport:
+            self.connect(self.support, self.lossyGear.support)
+        if self.useHeatPort:
+            self.connect(self.heatPort, self.lossyGear.heatPort, self.elastoBacklash.heatPort)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.phi_rel, self.flange_b.phi - self.lossyGear.flange_b.phi)
+        yield ac.Eq(self.w_rel, ac.der(self.phi_rel))
+        yield ac.Eq(self.a_rel, ac.der(self.w_rel))

@@ -1,0 +1,53 @@
+"""Sources, sensors and conversions with temperatures in degrees Celsius (`Modelica.Thermal.HeatTransfer.Celsius`)."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from . import scales, sensors, sources
+
+__all__ = [
+    "FixedTemperature",
+    "FromKelvin",
+    "PrescribedTemperature",
+    "TemperatureSensor",
+    "ToKelvin",
+]
+
+
+class FixedTemperature(scales.Celsius, sources.FixedTemperature):
+    """A constant temperature ``T`` [degC], whatever the heat flow: ``port.T = T + 273.15``."""
+
+    T = ac.Parameter(unit="degC", doc="temperature at the port")
+
+
+class PrescribedTemperature(scales.Celsius, sources.PrescribedTemperature):
+    """A temperature signal ``T`` [degC], whatever the heat flow: ``port.T = T + 273.15``."""
+
+    T = ac.Input(unit="degC", doc="temperature at the port")
+
+
+class TemperatureSensor(scales.Celsius, sensors.TemperatureSensor):
+    """Absolute temperature ``T = port.T - 273.15`` [degC]."""
+
+    T = ac.Output(unit="degC", doc="absolute temperature of the port")
+
+
+class ToKelvin(scales.Celsius):
+    """A temperature signal in degrees Celsius as one in kelvin: ``Kelvin = Celsius + 273.15``."""
+
+    Celsius = ac.Input(unit="degC", doc="temperature")
+    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.Kelvin, self.to_kelvin(self.Celsius))
+
+
+class FromKelvin(scales.Celsius):
+    """A temperature signal in kelvin as one in degrees Celsius: ``Celsius = Kelvin - 273.15``."""
+
+    Kelvin = ac.Input(unit="K", doc="temperature")
+    Celsius = ac.Output(unit="degC", doc="the same in degrees Celsius")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.Celsius, self.from_kelvin(self.Kelvin))

@@ -1,0 +1,53 @@
+"""Sources, sensors and conversions with temperatures in degrees Fahrenheit (`Modelica.Thermal.HeatTransfer.Fahrenheit`)."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from . import scales, sensors, sources
+
+__all__ = [
+    "FixedTemperature",
+    "FromKelvin",
+    "PrescribedTemperature",
+    "TemperatureSensor",
+    "ToKelvin",
+]
+
+
+class FixedTemperature(scales.Fahrenheit, sources.FixedTemperature):
+    """A constant temperature ``T`` [degF], whatever the heat flow: ``port.T = (T + 459.67) 5/9``."""
+
+    T = ac.Parameter(unit="degF", doc="temperature at the port")
+
+
+class PrescribedTemperature(scales.Fahrenheit, sources.PrescribedTemperature):
+    """A temperature signal ``T`` [degF], whatever the heat flow: ``port.T = (T + 459.67) 5/9``."""
+
+    T = ac.Input(unit="degF", doc="temperature at the port")
+
+
+class TemperatureSensor(scales.Fahrenheit, sensors.TemperatureSensor):
+    """Absolute temperature ``T = 9/5 port.T - 459.67`` [degF]."""
+
+    T = ac.Output(unit="degF", doc="absolute temperature of the port")
+
+
+class ToKelvin(scales.Fahrenheit):
+    """A temperature signal in degrees Fahrenheit as one in kelvin: ``Kelvin = (Fahrenheit + 459.67) 5/9``."""
+
+    Fahrenheit = ac.Input(unit="degF", doc="temperature")
+    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.Kelvin, self.to_kelvin(self.Fahrenheit))
+
+
+class FromKelvin(scales.Fahrenheit):
+    """A temperature signal in kelvin as one in degrees Fahrenheit: ``Fahrenheit = 9/5 Kelvin - 459.67``."""
+
+    Kelvin = ac.Input(unit="K", doc="temperature")
+    Fahrenheit = ac.Output(unit="degF", doc="the same in degrees Fahrenheit")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.Fahrenheit, self.from_kelvin(self.Kelvin))

@@ -1,0 +1,53 @@
+"""Sources, sensors and conversions with temperatures in degrees Rankine (`Modelica.Thermal.HeatTransfer.Rankine`)."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from . import scales, sensors, sources
+
+__all__ = [
+    "FixedTemperature",
+    "FromKelvin",
+    "PrescribedTemperature",
+    "TemperatureSensor",
+    "ToKelvin",
+]
+
+
+class FixedTemperature(scales.Rankine, sources.FixedTemperature):
+    """A constant temperature ``T`` [degR], whatever the heat flow: ``port.T = 5/9 T``."""
+
+    T = ac.Parameter(unit="degR", doc="temperature at the port")
+
+
+class PrescribedTemperature(scales.Rankine, sources.PrescribedTemperature):
+    """A temperature signal ``T`` [degR], whatever the heat flow: ``port.T = 5/9 T``."""
+
+    T = ac.Input(unit="degR", doc="temperature at the port")
+
+
+class TemperatureSensor(scales.Rankine, sensors.TemperatureSensor):
+    """Absolute temperature ``T = 9/5 port.T`` [degR]."""
+
+    T = ac.Output(unit="degR", doc="absolute temperature of the port")
+
+
+class ToKelvin(scales.Rankine):
+    """A temperature signal in degrees Rankine as one in kelvin: ``Kelvin = 5/9 Rankine``."""
+
+    Rankine = ac.Input(unit="degR", doc="temperature")
+    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.Kelvin, self.to_kelvin(self.Rankine))
+
+
+class FromKelvin(scales.Rankine):
+    """A temperature signal in kelvin as one in degrees Rankine: ``Rankine = 9/5 Kelvin``."""
+
+    Kelvin = ac.Input(unit="K", doc="temperature")
+    Rankine = ac.Output(unit="degR", doc="the same in degrees Rankine")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.Rankine, self.from_kelvin(self.Kelvin))

@@ -1,0 +1,62 @@
+"""Given temperatures and heat flows."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from .interfaces import HeatPort
+from .scales import Kelvin
+
+
+class FixedTemperature(Kelvin):
+    """A constant temperature, whatever the heat flow: ``port.T = T`` [K]."""
+
+    T = ac.Parameter(unit="K", doc="temperature at the port")
+    port = HeatPort()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.port.T, self.to_kelvin(self.T))
+
+
+class PrescribedTemperature(Kelvin):
+    """A temperature signal ``T`` [K], whatever the heat flow: ``port.T = T``."""
+
+    T = ac.Input(unit="K", doc="temperature at the port")
+    port = HeatPort()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.port.T, self.to_kelvin(self.T))
+
+
+class PartialHeatFlow(ac.Component):
+    """Base of heat sources: ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``.
+
+    A positive ``Q_flow`` [W] heats what is connected. A subclass says where it comes from.
+    """
+
+    T_ref = ac.Parameter(293.15, unit="K", doc="reference temperature")
+    alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the heat flow rate")
+    port = HeatPort()
+
+    def equations(self) -> Iterator[ac.Eq]:
+        warm = 1 + self.alpha * (self.port.T - self.T_ref)
+        yield ac.Eq(self.port.Q_flow, -self.Q_flow * warm)
+
+
+class FixedHeatFlow(PartialHeatFlow):
+    """A constant heat flow rate into what is connected.
+
+    ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, say, that grow
+    with its temperature.
+    """
+
+    Q_flow = ac.Parameter(unit="W", doc="heat flow rate at the reference temperature")
+
+
+class PrescribedHeatFlow(PartialHeatFlow):
+    """A heat flow signal ``Q_flow`` [W] into what is connected.
+
+    ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``.
+    """
+
+    Q_flow = ac.Input(unit="W", doc="heat flow rate at the reference temperature")

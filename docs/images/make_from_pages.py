@@ -1,0 +1,32 @@
+"""Make the pictures that the code of the pages saves: python docs/images/make_from_pages.py [page.md ...]."""
+
+import os
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT))
+
+from tests.test_docs import blocks  # noqa: E402
+
+PAGES = ("getting-started.md", "how-it-works.md")
+
+
+def main() -> None:
+    """Run the pages here, so that every ``savefig`` of theirs lands among the images."""
+    os.chdir(HERE)
+    for name in sys.argv[1:] or PAGES:
+        page = ModuleType(name.partition(".")[0])
+        sys.modules[page.__name__] = page
+        for block in blocks(HERE.parent / name):
+            exec(compile(block, name, "exec"), vars(page))
+
+
+if __name__ == "__main__":
+    main()
