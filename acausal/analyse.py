@@ -53,7 +53,9 @@ class Linearization:
         """``C (jw - A)^-1 B + D`` at angular frequencies [rad/s], shape (len(omega), p, m)."""
         A, B, C, D = (np.asarray(m) for m in (self.A, self.B, self.C, self.D))
         identity = np.eye(len(A))
-        return np.stack([C @ np.linalg.solve(1j * w * identity - A, B) + D for w in np.atleast_1d(omega)])
+        return np.stack(
+            [C @ np.linalg.solve(1j * w * identity - A, B) + D for w in np.atleast_1d(omega)]
+        )
 
     def __repr__(self) -> str:
         shape = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"

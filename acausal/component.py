@@ -61,11 +61,30 @@ class Connector:
         self._when = when
         self._name = ""
         self._owner: Component | None = None
-        self._references: dict[str, Reference] = {}
+        self._references: dict[str, Any] = {}
+        if not self.declarations:
+            raise DeclarationError(f"connector class {type(self).__name__} declares no variables")
 
     def __init_subclass__(cls) -> None:
-        own = {k: v for k, v in vars(cls).items() if isinstance(v, Variable)}
-        cls.declarations = {**cls.declarations, **own}
+        declarations = dict(cls.declarations)
+        for name, value in vars(cls).items():
+            if isinstance(value, Input | Output) or (
+                isinstance(value, Declaration | Connector) and not isinstance(value, Variable)
+            ):
+                raise DeclarationError(
+                    f"{cls.__name__}.{name}: a connector is made of Potential, Flow and Variable; "
+                    f"declare the {type(value).__name__} in the component"
+                )
+            if isinstance(value, Variable):
+                sizes = value.shape or ()
+                if not all(isinstance(n, int) for n in sizes):
+                    raise DeclarationError(
+                        f"{cls.__name__}.{name}: the sizes of a connector's variables are integers"
+                    )
+                _check_name(cls, name, value.name)
+                names = element_names(name, cast(tuple[int, ...] | None, value.shape))
+                declarations |= dict.fromkeys(names, value)
+        cls.declarations = declarations
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
@@ -78,14 +97,16 @@ class Connector:
         bound._owner, bound._name = owner, name
         return bound
 
-    def _read(self, declaration: Declaration) -> Reference:
+    def _read(self, declaration: Declaration) -> Any:
         if self._owner is None:
             raise DeclarationError(
                 f"connector class {type(self).__name__} is used outside of a component"
             )
         name = declaration.name
         if name not in self._references:
-            self._references[name] = Reference(self._owner, f"{self._name}.{name}", declaration)
+            shape = cast(tuple[int, ...] | None, declaration.shape)
+            path = f"{self._name}.{name}"
+            self._references[name] = _elements(self._owner, path, declaration, shape)
         return self._references[name]
 
     @classmethod
@@ -103,6 +124,11 @@ class Connector:
         """Name of the (only or first) flow."""
         return next(n for n, d in cls.declarations.items() if isinstance(d, Flow))
 
+    @classmethod
+    def carried(cls, enters: Self, leaves: Self) -> Iterable[Eq]:
+        """How a two-port passes on what its flow carries: equations, in domains with further potentials and flows."""
+        return ()
+
     def __repr__(self) -> str:
         where = f"{self._owner._path()}." if self._owner is not None and self._owner._path() else ""
         return f"{where}{self._name} ({type(self).__name__})"
@@ -111,6 +137,11 @@ class Connector:
 def _role(declaration: Variable) -> type:
     return next(r for r in (Potential, Flow, Input, Output, Variable) if isinstance(declaration, r))
 
+
+_OWN = frozenset(
+    "_parent _name _modifiers _options _children _dynamic _constants _pending _connections".split()
+)
+"""What the framework keeps in a component; all other attributes are the author's."""
 
 Endpoint = Connector | Signal
 Connection = tuple[Endpoint, Endpoint]
@@ -171,6 +202,9 @@ class Component:
                         "so that every model gets its own"
                     )
                 if isinstance(value, Declaration | Connector):
+                    _check_name(
+                        base, name, value._name if isinstance(value, Connector) else value.name
+                    )
                     declared[name] = value
                 elif name in declared:
                     del declared[name]
@@ -201,11 +235,12 @@ class Component:
         for a, b in itertools.pairwise(endpoints):
             if isinstance(a, Sequence) and isinstance(b, Sequence):
                 if len(a) != len(b):
+                    names = [_label(s[0]) if s else "an empty vector" for s in (a, b)]
                     raise ConnectionError(
-                        f"{_label(a[0])} and its fellows are {len(a)} signals, {_label(b[0])} and its {len(b)}"
+                        f"{names[0]} and its fellows are {len(a)} signals, {names[1]} and its {len(b)}"
                     )
                 for x, y in zip(a, b, strict=True):
-                    self._join(x, y)
+                    self.connect(x, y)
             else:
                 self._join(a, b)
 
@@ -272,7 +307,7 @@ class Component:
     # -- attributes --------------------------------------------------------------------------------
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name.startswith("_"):
+        if name in _OWN:
             object.__setattr__(self, name, value)
         elif name in self._declared:
             self.modify(**{name: value})
@@ -281,23 +316,35 @@ class Component:
             object.__setattr__(self, name, self._add(name, value))
         elif _is_list_of_parts(value):
             self._claim(name)
-            parts = [self._add(f"{name}[{i}]", part) for i, part in enumerate(value, start=1)]
-            object.__setattr__(self, name, parts)
+            object.__setattr__(self, name, self._add_all(name, value))
         else:
+            if name not in self._constants:
+                self._claim(name, anew=hasattr(Component, name))
             self._constants[name] = value
             object.__setattr__(self, name, value)
 
-    def _claim(self, name: str) -> None:
+    def _claim(self, name: str, anew: bool = True) -> None:
+        """Make sure that a name is free; one that is not ``anew`` may stand for a default of the class."""
         if not name.isidentifier():
             raise DeclarationError(
                 f"'{name}' is no name for a part: letters, digits and underscores only"
             )
         if name in self.__dict__:
             raise DeclarationError(f"{self._label()} has a '{name}' already; choose another name")
-        if hasattr(type(self), name):
+        if anew and hasattr(type(self), name):
             raise DeclarationError(
-                f"'{name}' is a method of {type(self).__name__}; choose another name"
+                f"'{name}' is an attribute of class {type(self).__name__}; choose another name"
             )
+
+    def _add_all(self, name: str, parts: Sequence[Any], *index: int) -> list[Any]:
+        """Parts of a list, and of lists in it, named as Modelica does: ``parts[1]``, ``parts[2,1]``."""
+        added: list[Any] = []
+        for i, part in enumerate(parts, start=1):
+            if isinstance(part, list | tuple):
+                added.append(self._add_all(name, cast(Sequence[Any], part), *index, i))
+            else:
+                added.append(self._add(f"{name}[{','.join(map(str, (*index, i)))}]", part))
+        return added
 
     def _add(self, name: str, part: Component | Connector | Declaration) -> Any:
         if isinstance(part, Component):
@@ -409,29 +456,46 @@ class Component:
         self._connections.append((a, b))
 
 
+def element_names(name: str, shape: tuple[int, ...] | None) -> list[str]:
+    """Names of a variable's elements as in Modelica, ``y[1]``, ``A[1,2]``; of a scalar its own name."""
+    if shape is None:
+        return [name]
+    return [f"{name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
+
+
 def _elements(
     owner: Component, name: str, declaration: Declaration, shape: tuple[int, ...] | None
 ) -> Any:
-    """A reference, or nested tuples of references named as Modelica does: ``y[1]``, ``A[1,2]``."""
-    if shape is None:
-        return Reference(owner, name, declaration)
-    if len(shape) == 1:
-        return tuple(Reference(owner, f"{name}[{i}]", declaration) for i in range(1, shape[0] + 1))
-    rows, columns = shape
-    return tuple(
-        tuple(Reference(owner, f"{name}[{i},{j}]", declaration) for j in range(1, columns + 1))
-        for i in range(1, rows + 1)
-    )
+    """A reference, or nested tuples of references."""
+    references = iter([Reference(owner, path, declaration) for path in element_names(name, shape)])
+
+    def nested(sizes: tuple[int, ...]) -> Any:
+        return tuple(nested(sizes[1:]) for _ in range(sizes[0])) if sizes else next(references)
+
+    return nested(shape or ())
 
 
 def _is_list_of_parts(value: Any) -> bool:
-    return (
-        isinstance(value, list | tuple)
-        and len(cast(Sequence[Any], value)) > 0
-        and all(
-            isinstance(v, Component | Connector | Declaration) for v in cast(Sequence[Any], value)
-        )
+    if not isinstance(value, list | tuple) or not value:
+        return False
+    parts = cast(Sequence[Any], value)
+    return all(
+        isinstance(v, Component | Connector | Declaration) or _is_list_of_parts(v) for v in parts
     )
+
+
+def _check_name(cls: type, name: str, declared: str) -> None:
+    """A declaration's name must be its own, and may not hide what the framework needs."""
+    if declared != name:
+        raise DeclarationError(
+            f"{cls.__name__}: '{name}' and '{declared}' are one declaration; make a second one"
+        )
+    if name == "time":
+        raise DeclarationError(f"{cls.__name__}: 'time' is the time; choose another name")
+    if name in _OWN or hasattr(Component, name):
+        raise DeclarationError(
+            f"{cls.__name__}: '{name}' is an attribute of every component; choose another name"
+        )
 
 
 def _is_signal(value: Any) -> bool:
@@ -440,10 +504,12 @@ def _is_signal(value: Any) -> bool:
 
 def _start(where: str, value: Any) -> Start:
     if isinstance(value, Start):
+        for element in np.ravel(np.asarray(value.value, dtype=object)):
+            _check_start(where, element)
         return value
     if isinstance(value, Mapping):
         try:
-            return Start(**value)
+            return _start(where, Start(**value))
         except TypeError:
             raise DeclarationError(
                 f"{where}: a start has value, fixed, nominal and state"
@@ -451,9 +517,44 @@ def _start(where: str, value: Any) -> Start:
     raise DeclarationError(f"{where} is a variable; give its start as ac.Start({value!r})")
 
 
+def _check_start(where: str, value: Any) -> None:
+    """A start is a finite number or an expression of parameters."""
+    if value is None:
+        return
+    if isinstance(value, sp.Expr) and not value.is_number:
+        if all(
+            isinstance(r, Reference) and isinstance(r.declaration, Parameter)
+            for r in value.free_symbols
+        ):
+            return
+        raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
+    if isinstance(value, str) or not _is_finite(value):
+        raise DeclarationError(f"{where}: a start is a finite number, got {value!r}")
+
+
+def _is_finite(value: Any) -> bool:
+    try:
+        return math.isfinite(float(value))
+    except (TypeError, ValueError):
+        return False
+
+
 def _value(where: str, declaration: Parameter, value: Any) -> Any:
     if declaration.shape is not None:
-        return np.asarray(value, dtype=object)
+        return _values(where, declaration, value)
+    return _number(where, declaration, value)
+
+
+def _values(where: str, declaration: Parameter, value: Any) -> np.ndarray:
+    """A vector or matrix of values; its size is checked when the sizes are settled."""
+    values = np.asarray(value, dtype=object)
+    checked = [_number(f"{where}[{i}]", declaration, v) for i, v in enumerate(values.flat, start=1)]
+    result = np.empty(values.shape, dtype=object)
+    result.flat = checked
+    return result
+
+
+def _number(where: str, declaration: Parameter, value: Any) -> Any:
     if isinstance(value, sp.Expr) and not value.is_number:
         foreign = [r for r in value.free_symbols if not isinstance(r, Reference)]
         unsteady = [
@@ -467,7 +568,7 @@ def _value(where: str, declaration: Parameter, value: Any) -> Any:
             )
         return value
     try:
-        number = float(value)
+        number = float("" if isinstance(value, str) else value)
     except (TypeError, ValueError):
         raise DeclarationError(
             f"{where}={value!r}: a number or an expression of parameters is needed"

@@ -35,6 +35,7 @@ class Equations:
 
     @staticmethod
     def of(model: FlatModel, aliases: AliasFree) -> Equations:
+        """Number the equations of a model without aliases."""
         template: list[Template] = []
         variables: list[list[int]] = []
         parameters: list[list[int]] = []
@@ -75,6 +76,7 @@ class Equations:
 
     @property
     def incidence(self) -> list[list[int]]:
+        """The unknowns of every equation."""
         return self.structure.incidence
 
     def unknowns(self) -> list[int]:
@@ -104,10 +106,13 @@ class Equations:
         return bottom
 
     def origins(self) -> list[tuple[str, int]]:
+        """Text and component of every equation."""
         return [(t.origin, c) for t, c in zip(self.template, self.component, strict=True)]
 
     def describe(self, equation: int) -> str:
-        """Where an equation is stated, and how it reads."""
+        """Where an equation is stated, and how it reads (of a derivative, what was differentiated)."""
+        while equation in self.derived_from:
+            equation = self.derived_from[equation]
         origin = self.template[equation].origin, self.component[equation]
         return equation_name(self.model, origin)
 
@@ -142,6 +147,13 @@ class Equations:
                     zero = np.flatnonzero(slopes(template, column, nowhere, own, at) == 0)
                     found.update((members[i], column) for i in zero.tolist())
         return found
+
+    def divisors(self, equation: int, column: int) -> list[int]:
+        """The parameters in the slope of a slot."""
+        template = self.template[equation]
+        symbols = derive.slope(template, column).free_symbols
+        slots = zip(template.parameters, self.parameters[equation], strict=True)
+        return [p for s, p in slots if s in symbols]
 
     def _by_template(self, chosen: Sequence[int]) -> list[tuple[Template, list[int]]]:
         """Positions in ``chosen`` of the equations that share a template."""

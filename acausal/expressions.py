@@ -1,56 +1,100 @@
-"""A small, safe parser for expressions in files: numbers, names, arithmetic and a few functions, as in Modelica.
+"""A small, safe parser for expressions in files, in Modelica's syntax.
 
-Nothing is evaluated as Python. Names are looked up by the caller, so that an expression reaches only what the
-caller hands out.
+Numbers, names, arithmetic, comparisons, ``if`` ... ``then`` ... ``else``, vectors, matrices, texts and a few functions.
+Nothing is evaluated as Python. Names are looked up by the caller, so that an expression reaches only what the caller
+hands out. `written` is the way back.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
+import operator
 import re
 from collections.abc import Callable
 from typing import Any
 
 import sympy as sp
-from sympy.printing.str import StrPrinter
 
 from acausal import functions
-from acausal.errors import DeclarationError, nearest
+from acausal.errors import DeclarationError, listing, nearest, shortened
 from acausal.symbols import der
 
 MAX_LENGTH = 10_000
 MAX_DEPTH = 60
+MAX_INTEGER = 2**53
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
     r"|(?P<name>[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?(?:\.[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?)*)"
-    r"|(?P<op>[-+*/^(){},=]))"
+    r'|(?P<text>"[^"\\]*")'
+    r"|(?P<op><=|>=|==|<>|[-+*/^(){}\[\],;=<>]))"
 )
+KEYWORDS = ("if", "then", "elseif", "else", "and", "or", "not")
+RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "==": sp.Eq,
+    "<>": sp.Ne,
+}
 
 CONSTANTS: dict[str, float] = {
     "pi": math.pi,
     "e": math.e,
+    "D2R": math.pi / 180,
+    "R2D": 180 / math.pi,
     "g_n": 9.80665,
-    "sigma": 5.670374419e-8,
+    "sigma": 5.670374419184429e-8,
     "mu_0": 4e-7 * math.pi,
-    "eps_0": 8.8541878128e-12,
+    "epsilon_0": 8.8541878128e-12,
     "T_zero": -273.15,
     "R": 8.31446261815324,
     "k": 1.380649e-23,
     "q": 1.602176634e-19,
+    "F": 96485.33212331001,
+    "N_A": 6.02214076e23,
+    "h": 6.62607015e-34,
     "c": 299792458.0,
+    "G": 6.6743e-11,
     "inf": 1e60,
     "eps": 2.220446049250313e-16,
     "small": 1e-60,
 }
-"""Of `Modelica.Constants`; the bare names ``pi`` and ``e`` are known too."""
+"""Of `Modelica.Constants`; ``inf`` and ``small`` are what can be reckoned with."""
+
+BARE_CONSTANTS = ("pi", "e", "D2R", "R2D", "g_n", "mu_0", "T_zero", "inf", "eps", "small")
+"""Those that are known without ``Modelica.Constants.``, as after an import."""
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "log10": lambda x: sp.log(x) / sp.log(10),
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh,
-    "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "floor": functions.floor, "der": der,
+    "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "der": der,
+    "floor": functions.floor, "integer": functions.floor, "ceil": lambda x: -functions.floor(-x),
+    "div": lambda x, y: sp.sign(x / y) * functions.floor(sp.Abs(x / y)),
+    "mod": lambda x, y: x - functions.floor(x / y) * y,
 }  # fmt: skip
+
+CONVERSIONS: dict[str, tuple[float, float]] = {
+    "deg": (math.pi / 180, 0.0),
+    "degC": (1.0, 273.15),
+    "degF": (5 / 9, 273.15 - 32 * 5 / 9),
+    "degRk": (5 / 9, 0.0),
+    "rpm": (math.pi / 30, 0.0),
+    "kmh": (1 / 3.6, 0.0),
+    "Hz": (2 * math.pi, 0.0),
+    "bar": (1e5, 0.0),
+    "day": (86400.0, 0.0),
+    "hour": (3600.0, 0.0),
+    "minute": (60.0, 0.0),
+    "litre": (1e-3, 0.0),
+    "kWh": (3.6e6, 0.0),
+}
+"""Of `Modelica.Units.Conversions`: the SI value is ``factor * x + offset``; ``from_deg(x)``, ``to_deg(x)``."""
+
+PREFIXES = re.compile(r"(Modelica\.)?(Math|(Units\.|SIunits\.)?Conversions|Cv)\.")
 
 Lookup = Callable[[str], Any]
 
@@ -60,16 +104,17 @@ class ExpressionError(DeclarationError):
 
 
 def parse(text: str, lookup: Lookup) -> Any:
-    """The value of an expression: a number, a sympy expression, whatever `lookup` gave, or a list of these.
+    """The value of an expression: a number, truth value, text, sympy expression, list, or whatever `lookup` gave.
 
     Arguments:
-        lookup: from a dotted name to its value; it raises KeyError for a name it does not know.
+        lookup: from a dotted name to its value; ``name()`` for a name that is called. It raises KeyError for a
+            name it does not know.
 
     Raises:
         ExpressionError: one sentence that says where the expression is wrong.
     """
     reader = _Reader(text, lookup)
-    value = reader.sum()
+    value = reader.expression()
     reader.expect_end()
     return value
 
@@ -81,9 +126,9 @@ def parse_equation(text: str, lookup: Lookup) -> tuple[Any, Any]:
         ExpressionError: one sentence that says where the equation is wrong.
     """
     reader = _Reader(text, lookup)
-    left = reader.sum()
+    left = reader.expression()
     reader.take("=")
-    right = reader.sum()
+    right = reader.expression()
     reader.expect_end()
     return left, right
 
@@ -107,49 +152,109 @@ class _Reader:
         while at < len(text):
             match = TOKEN.match(text, at)
             if match is None:
-                raise ExpressionError(
-                    f"'{_short(self.text)}': '{text[at:].strip()[:1]}' is not allowed; "
-                    "numbers, names, + - * / ^ and parentheses are"
+                raise self.wrong(
+                    f"'{text[at:].strip()[:1]}' is not allowed; numbers, names, + - * / ^ and parentheses are"
                 )
-            found.append((str(match.lastgroup), match[str(match.lastgroup)]))
+            kind = str(match.lastgroup)
+            found.append(("op" if match[kind] in KEYWORDS else kind, match[kind]))
             at = match.end()
         return found
 
-    def sum(self) -> Any:
+    def wrong(self, reason: str) -> ExpressionError:
+        """The error that says so."""
+        return ExpressionError(f"'{shortened(self.text)}': {reason}")
+
+    # -- logic ---------------------------------------------------------------------------------------
+
+    def expression(self) -> Any:
+        """The lowest level: ``if`` or a disjunction."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise ExpressionError(f"'{_short(self.text)}' is nested more than {MAX_DEPTH} deep")
-        value = self._signed_product()
-        while self._peek() in ("+", "-"):
-            operator = self._next()
-            other = self._product()
-            value = self._arithmetic(operator, value, other)
+            raise self.wrong(f"nested more than {MAX_DEPTH} deep")
+        value = self._choice() if self._peek() == "if" else self._any()
         self.depth -= 1
         return value
 
-    def take(self, operator: str) -> None:
-        """Read one operator."""
-        if self._peek() != operator:
-            found = f"'{self._peek()}'" if self._peek() else "the end"
-            raise ExpressionError(f"'{_short(self.text)}': '{operator}' expected, {found} found")
-        self.position += 1
+    def _choice(self) -> Any:
+        self._next()
+        condition = self._truth(self.expression())
+        self.take("then")
+        value = self.expression()
+        if self._peek() == "elseif":
+            self.depth += 1
+            if self.depth > MAX_DEPTH:
+                raise self.wrong(f"nested more than {MAX_DEPTH} deep")
+            otherwise = self._choice()
+            self.depth -= 1
+        else:
+            self.take("else")
+            otherwise = self.expression()
+        if isinstance(condition, bool):
+            return value if condition else otherwise
+        return functions.where(condition, self._number(value), self._number(otherwise))
 
-    def expect_end(self) -> None:
-        """Nothing may follow."""
-        if self._peek():
-            raise ExpressionError(f"'{_short(self.text)}': '{self._peek()}' is not expected there")
+    def _any(self) -> Any:
+        value = self._all()
+        while self._peek() == "or":
+            self._next()
+            value = self._logical(sp.Or, value, self._all())
+        return value
+
+    def _all(self) -> Any:
+        value = self._negation()
+        while self._peek() == "and":
+            self._next()
+            value = self._logical(sp.And, value, self._negation())
+        return value
+
+    def _negation(self) -> Any:
+        if self._peek() == "not":
+            self._next()
+            return self._logical(sp.Not, self._relation())
+        return self._relation()
+
+    def _relation(self) -> Any:
+        left = self._sum()
+        if self._peek() not in RELATIONS:
+            return left
+        relation = RELATIONS[self._next()]
+        right = self._sum()
+        if isinstance(left, str | bool) and isinstance(right, type(left)):
+            if relation not in (sp.Eq, sp.Ne):
+                raise self.wrong("texts and truth values are equal or not, neither is less")
+            return (left == right) is (relation is sp.Eq)
+        return self._plain(relation(self._number(left), self._number(right)))
+
+    def _logical(self, function: Any, *values: Any) -> Any:
+        return self._plain(function(*(self._truth(v) for v in values)))
+
+    def _truth(self, value: Any) -> Any:
+        if not isinstance(value, bool | sp.logic.boolalg.Boolean):
+            raise self.wrong(f"{shortened(repr(value))} is neither true nor false")
+        return value
+
+    @staticmethod
+    def _plain(value: Any) -> Any:
+        """sympy's true and false as Python's."""
+        return bool(value) if value in (sp.true, sp.false) else value
+
+    # -- arithmetic ----------------------------------------------------------------------------------
+
+    def _sum(self) -> Any:
+        value = self._signed_product()
+        while self._peek() in ("+", "-"):
+            value = self._arithmetic(self._next(), value, self._product())
+        return value
 
     def _signed_product(self) -> Any:
         if self._peek() in ("+", "-"):
-            operator = self._next()
-            return self._arithmetic(operator, 0, self._product())
+            return self._arithmetic(self._next(), 0, self._product())
         return self._product()
 
     def _product(self) -> Any:
         value = self._power()
         while self._peek() in ("*", "/"):
-            operator = self._next()
-            value = self._arithmetic(operator, value, self._power())
+            value = self._arithmetic(self._next(), value, self._power())
         return value
 
     def _power(self) -> Any:
@@ -168,88 +273,158 @@ class _Reader:
         kind, token = self.tokens[self.position] if self.position < len(self.tokens) else ("", "")
         self.position += 1
         if kind == "number":
-            return _number(token, self.text)
+            return self._literal(token)
+        if kind == "text":
+            return token[1:-1]
         if kind == "name":
             return self._call(token) if self._peek() == "(" else self._name(token)
         if token == "(":
-            value = self.sum()
+            value = self.expression()
             self.take(")")
             return value
         if token == "{":
-            return self._until("}")
-        raise ExpressionError(
-            f"'{_short(self.text)}': a number or a name expected, {repr(token) if token else 'the end'} found"
+            return self._list("}")
+        if token == "[":
+            return self._matrix()
+        raise self.wrong(
+            f"a number or a name expected, {f'{token!r}' if token else 'the end'} found"
         )
+
+    def _literal(self, token: str) -> int | float:
+        value = float(token)
+        if not math.isfinite(value):
+            raise self.wrong("not a finite number")
+        return int(value) if token.isdigit() and value < MAX_INTEGER else value
+
+    def _arithmetic(self, operator: str, a: Any, b: Any) -> Any:
+        a, b = self._number(a), self._number(b)
+        try:
+            match operator:
+                case "+":
+                    result = a + b
+                case "-":
+                    result = -b if isinstance(a, int | float) and a == 0 else a - b
+                case "*":
+                    result = a * b
+                case "/":
+                    result = a / b
+                case _:
+                    plain = isinstance(a, int | float) and isinstance(b, int | float)
+                    result = math.pow(a, b) if plain else a**b
+        except ZeroDivisionError:
+            raise self.wrong("divides by zero") from None
+        except (OverflowError, ValueError):
+            raise self.wrong("not a finite number") from None
+        return self._finite(result)
+
+    def _number(self, value: Any) -> Any:
+        if not isinstance(value, int | float | sp.Expr) or isinstance(value, bool):
+            raise self.wrong(f"{shortened(repr(value))} is no number to reckon with")
+        return value
+
+    def _finite(self, value: Any) -> Any:
+        if isinstance(value, sp.Expr) and value.is_number:
+            value = float(value) if value.is_real else math.nan
+        if isinstance(value, int) and abs(value) > MAX_INTEGER:
+            value = float(value) if value.bit_length() < 1000 else math.inf
+        if isinstance(value, float) and not math.isfinite(value):
+            raise self.wrong("not a finite number")
+        return value
+
+    # -- names, calls, vectors -----------------------------------------------------------------------
 
     def _name(self, name: str) -> Any:
         try:
             return self.lookup(name)
         except KeyError:
             pass
-        constant = name.removeprefix("Modelica.Constants.")
-        if constant in CONSTANTS and (constant != name or name in ("pi", "e")):
+        constant = name.removeprefix("Modelica.").removeprefix("Constants.")
+        if constant in CONSTANTS and (constant != name or name in BARE_CONSTANTS):
             return CONSTANTS[constant]
         if name in ("true", "false"):
             return name == "true"
-        raise ExpressionError(f"'{_short(self.text)}': '{name}' is not known here")
+        raise self.wrong(f"'{shortened(name)}' is not known here")
 
     def _call(self, name: str) -> Any:
         self.take("(")
-        arguments = self._until(")")
-        bare = name.removeprefix("Modelica.Math.")
-        if bare not in FUNCTIONS:
-            try:
-                return self.lookup(name + "()")
-            except KeyError:
-                raise ExpressionError(
-                    f"'{_short(self.text)}': '{name}' cannot be called; {nearest(name, FUNCTIONS)}"
-                ) from None
-        try:
-            return _finite(FUNCTIONS[bare](*(_expression(a) for a in arguments)), self.text)
-        except (TypeError, ValueError):
-            raise ExpressionError(
-                f"'{_short(self.text)}': {name} does not take these arguments"
-            ) from None
-
-    def _until(self, closing: str) -> list[Any]:
-        values: list[Any] = []
-        if self._peek() != closing:
-            values.append(self.sum())
+        given: list[tuple[str, Any]] = []
+        if self._peek() != ")":
+            given.append(self._argument())
             while self._peek() == ",":
                 self._next()
-                values.append(self.sum())
+                given.append(self._argument())
+        self.take(")")
+        function = _function(PREFIXES.sub("", name, count=1))
+        if function is None:
+            return self._record(name, given)
+        try:
+            return self._finite(function(*(sp.sympify(self._number(value)) for _, value in given)))
+        except (TypeError, ValueError):
+            raise self.wrong(f"{name} does not take these arguments") from None
+
+    def _argument(self) -> tuple[str, Any]:
+        """Name ("" where there is none) and value of an argument."""
+        here = self.tokens[self.position : self.position + 2]
+        if len(here) == 2 and here[0][0] == "name" and here[1][1] == "=":
+            self.position += 2
+            return here[0][1], self.expression()
+        return "", self.expression()
+
+    def _record(self, name: str, given: list[tuple[str, Any]]) -> Any:
+        """A record, perhaps with some of its fields changed."""
+        try:
+            record = self.lookup(name + "()")
+        except KeyError:
+            known = [*FUNCTIONS, *(f"from_{unit}" for unit in CONVERSIONS)]
+            raise self.wrong(
+                f"'{shortened(name)}' cannot be called; {nearest(name, known)}"
+            ) from None
+        if not given:
+            return record
+        fields = [f.name for f in dataclasses.fields(record)] if _is_record(record) else []
+        changes = {f"{key}_" if f"{key}_" in fields else key: value for key, value in given}
+        for key in changes:
+            if key not in fields:
+                raise self.wrong(f"{name} has no '{key}'; it has {listing(fields) or 'no fields'}")
+        return dataclasses.replace(record, **changes)
+
+    def _list(self, closing: str) -> list[Any]:
+        values: list[Any] = []
+        if self._peek() != closing:
+            values.append(self.expression())
+            while self._peek() == ",":
+                self._next()
+                values.append(self.expression())
         self.take(closing)
         return values
 
-    def _arithmetic(self, operator: str, a: Any, b: Any) -> Any:
-        for value in (a, b):
-            if not isinstance(value, int | float | sp.Expr) or isinstance(value, bool):
-                raise ExpressionError(
-                    f"'{_short(self.text)}': {value!r} is no number to reckon with"
-                )
-        try:
-            match operator:
-                case "+":
-                    result = a + b
-                case "-":
-                    result = a - b if a != 0 else -b
-                case "*":
-                    result = a * b
-                case "/":
-                    result = a / b
-                case _:
-                    result = (
-                        math.pow(a, b)
-                        if isinstance(a, int | float) and isinstance(b, int | float)
-                        else a**b
-                    )
-        except ZeroDivisionError:
-            raise ExpressionError(f"'{_short(self.text)}' divides by zero") from None
-        except (OverflowError, ValueError):
-            raise ExpressionError(f"'{_short(self.text)}' is not a finite number") from None
-        return _finite(result, self.text)
+    def _matrix(self) -> list[list[Any]]:
+        rows: list[list[Any]] = [[self.expression()]]
+        while self._peek() in (",", ";"):
+            if self._next() == ";":
+                rows.append([])
+            rows[-1].append(self.expression())
+        self.take("]")
+        if len({len(row) for row in rows}) > 1:
+            raise self.wrong("the rows of the matrix differ in length")
+        return rows
+
+    # -- tokens --------------------------------------------------------------------------------------
+
+    def take(self, expected: str) -> None:
+        """Read one operator."""
+        if self._peek() != expected:
+            found = f"'{self._peek()}'" if self._peek() else "the end"
+            raise self.wrong(f"'{expected}' expected, {found} found")
+        self.position += 1
+
+    def expect_end(self) -> None:
+        """Nothing may follow."""
+        if self.position < len(self.tokens):
+            raise self.wrong(f"'{shortened(self._peek())}' is not expected there")
 
     def _peek(self) -> str:
+        """The next operator or keyword; of other tokens the text, which is none of these."""
         return self.tokens[self.position][1] if self.position < len(self.tokens) else ""
 
     def _next(self) -> str:
@@ -257,46 +432,15 @@ class _Reader:
         return self.tokens[self.position - 1][1]
 
 
-def _expression(value: Any) -> sp.Expr:
-    if isinstance(value, sp.Expr):
-        return value
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise TypeError
-    return sp.Float(value)
+def _function(name: str) -> Callable[..., Any] | None:
+    direction, _, unit = name.partition("_")
+    if direction in ("from", "to") and unit in CONVERSIONS:
+        factor, offset = CONVERSIONS[unit]
+        if direction == "from":
+            return lambda x: factor * x + offset
+        return lambda x: (x - offset) / factor
+    return FUNCTIONS.get(name)
 
 
-def _number(token: str, text: str) -> int | float:
-    value = float(token)
-    if not math.isfinite(value):
-        raise ExpressionError(f"'{_short(text)}' is not a finite number")
-    return int(value) if token.isdigit() and value < 2**53 else value
-
-
-def _finite(value: Any, text: str) -> Any:
-    if isinstance(value, sp.Expr) and value.is_number:
-        value = float(value) if value.is_real else math.nan
-    if isinstance(value, float | int) and not math.isfinite(value):
-        raise ExpressionError(f"'{_short(text)}' is not a finite number")
-    return value
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 80 else text[:77] + "..."
-
-
-def written(expression: sp.Expr) -> str:
-    """An expression as a text that `parse` reads back."""
-    return _Writer({"order": "none"}).doprint(expression)
-
-
-class _Writer(StrPrinter):
-    """Modelica's spelling: ``^`` for powers."""
-
-    def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        if expr.exp == sp.S.Half:
-            return f"sqrt({self._print(expr.base)})"
-        base, exponent = (self.parenthesize(part, 1000, strict=False) for part in expr.as_base_exp())
-        return f"{base}^{exponent}" if not exponent.startswith("-") else f"{base}^({exponent})"
-
-    def _print_Abs(self, expr: sp.Abs) -> str:
-        return f"abs({self._print(expr.args[0])})"
+def _is_record(value: Any) -> bool:
+    return dataclasses.is_dataclass(value) and not isinstance(value, type)

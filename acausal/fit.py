@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import jax
 import numpy as np
 import optax
-from jax.typing import ArrayLike
+from numpy.typing import ArrayLike
 
 from acausal.data import Data
 from acausal.errors import TrainingError
@@ -201,10 +201,9 @@ class Fit:
 
 def _result(problem: Problem, trained: Trained) -> Fit:
     best, history = trained.best, trained.history
-    x = problem.trajectory(best.trainable)
-    seen = {
-        n: Seen(np.mean(a, axis=0), np.std(a, axis=0))
-        for n, a in problem.seen(best.trainable, x).items()
+    seen = problem.seen(best.trainable, best.x)
+    statistics = {
+        n: Seen(np.mean(seen[n], axis=0), np.std(seen[n], axis=0)) for n in problem.networks
     }
     return Fit(
         system=problem.system,
@@ -213,7 +212,7 @@ def _result(problem: Problem, trained: Trained) -> Fit:
         loss_before=float(history.full_loss[0, 1]),
         best_epoch=best.epoch,
         modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},
-        seen=seen,
+        seen=statistics,
         history=history,
         seconds=trained.seconds,
         compile_seconds=trained.compiling,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -11,7 +11,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.component import Component, Connector
+from acausal.component import Component, Connector, element_names
 from acausal.connections import connection_groups, connection_sets, model_inputs
 from acausal.errors import DeclarationError, nearest
 from acausal.symbols import (
@@ -259,6 +259,12 @@ def _lay_out(model: Component) -> Layout:
 def _structure(component: Component) -> Hashable:
     """What decides a component's declarations and equations, besides its parts."""
     cls = type(component)
+    for name, value in component._constants.items():
+        if _holds_parts(value):
+            raise DeclarationError(
+                f"{component._label()}.{name} holds components that are not part of the model; "
+                "assign them as attributes, or as one list that is complete"
+            )
     options = tuple((k, _frozen(v)) for k, v in sorted(component._options.items()))
     constants = tuple((k, _frozen(v)) for k, v in sorted(component._constants.items()))
     dynamic = tuple((k, type(v), *_attributes(v)) for k, v in component._dynamic.items())
@@ -273,6 +279,16 @@ def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:
     if isinstance(declared, Connector):
         return (declared._when,)
     return tuple((k, _frozen(v)) for k, v in sorted(vars(declared).items()))
+
+
+def _holds_parts(value: Any) -> bool:
+    if isinstance(value, Mapping):
+        return _holds_parts(list(value.values()))
+    if isinstance(value, list | tuple | set | frozenset):
+        return any(
+            (isinstance(v, Component) and v._parent is None) or _holds_parts(v) for v in value
+        )
+    return False
 
 
 def _frozen(value: Any) -> Hashable:
@@ -313,10 +329,7 @@ def _form(component: Component) -> Form:
 
 
 def _paths(component: Component, name: str, declaration: Declaration) -> list[str]:
-    shape = component._shape(name, declaration)
-    if shape is None:
-        return [name]
-    return [f"{name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
+    return element_names(name, component._shape(name, declaration))
 
 
 # -- equations ----------------------------------------------------------------------------------------
@@ -343,11 +356,21 @@ def _instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[Equat
             (equations, form.prototype.equations),
             (initial, form.prototype.initial_equations),
         ):
-            for equation in stated():
+            for equation in _stated(form.prototype, stated):
                 template, slots = _template(layout, form, equation)
                 found.append(_fill(layout, template, slots, members[number]))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
     return tuple(equations[i] for i in order), tuple(initial)
+
+
+def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list[Eq]:
+    try:
+        return list(equations())
+    except (TypeError, ValueError) as error:
+        raise DeclarationError(
+            f"{component._label()}: its equations cannot be read ({error}). Yield ac.Eq(left, right) from the "
+            "method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
+        ) from error
 
 
 def _members(layout: Layout) -> list[Integers]:
@@ -365,6 +388,8 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
         )
     where = f"{type(owner).__name__}: {equation}"
     residual = _without_der(equation.lhs - equation.rhs, where)
+    if residual.has(sp.nan, sp.oo, -sp.oo, sp.zoo, sp.I):
+        raise DeclarationError(f"{where}: all numbers in an equation must be real and finite")
     names: dict[sp.Symbol, sp.Symbol] = {}
     variables: dict[sp.Symbol, tuple[int, tuple[tuple[str, ...], int]]] = {}
     parameters: dict[sp.Symbol, tuple[tuple[str, ...], int]] = {}
@@ -581,10 +606,12 @@ def _indices(form: Form, name: str) -> Iterator[int]:
 def _start_element(value: Any, path: str, name: str) -> Any:
     if path == name or not isinstance(value, list | tuple | np.ndarray):
         return value
-    index = [int(i) - 1 for i in path[len(name) + 1 : -1].split(",")]
     element: Any = value
-    for i in index:
-        element = element[i]
+    try:
+        for i in path[len(name) + 1 : -1].split(","):
+            element = element[int(i) - 1]
+    except (IndexError, TypeError):
+        raise DeclarationError(f"the start of '{name}' has no element for {path}") from None
     return element
 
 
@@ -605,6 +632,10 @@ def _parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], 
                 name,
                 cast(Declaration, component._declared.get(name) or component._dynamic[name]),
             )
+            if len(paths) != len(elements):
+                raise DeclarationError(
+                    f"{component._label()}.{name} needs {len(paths)} values, got {len(elements)}"
+                )
             for path, element in zip(paths, elements, strict=True):
                 if path not in form.parameter_index:
                     continue  # the options left no use for it

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -60,8 +61,10 @@ class History:
 class Log:
     """Collects a `History` while training runs."""
 
-    def __init__(self, times: np.ndarray) -> None:
-        self._times = times
+    def __init__(
+        self, times: np.ndarray, penalties: tuple[str, ...], modifiers: tuple[str, ...]
+    ) -> None:
+        self._times, self._penalties, self._modifiers = times, penalties, modifiers
         self._entries: list[Any] = []
         self._seconds: list[np.ndarray] = []
         self._full: list[tuple[int, float]] = []
@@ -99,14 +102,14 @@ class Log:
         """What was collected."""
         entries = self._entries
 
-        def join(read: Any) -> dict[str, np.ndarray]:
-            names = read(entries[0]) if entries else ()
-            return {n: np.concatenate([read(e)[n] for e in entries]) for n in names}
+        def join(names: tuple[str, ...], read: Callable[[Any], Mapping[str, np.ndarray]]) -> Any:
+            none = np.zeros(0)
+            return {n: np.concatenate([none, *(read(e)[n] for e in entries)]) for n in names}
 
         return History(
             np.concatenate([e.loss for e in entries]) if entries else np.zeros(0),
-            join(lambda e: e.penalties),
-            join(lambda e: e.logged),
+            join(self._penalties, lambda e: e.penalties),
+            join(self._modifiers, lambda e: e.logged),
             np.concatenate(self._seconds) if entries else np.zeros(0),
             np.asarray(self._full).reshape(-1, 2),
             tuple(self.divergences),

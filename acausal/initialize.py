@@ -254,9 +254,9 @@ def _distinct(
     """The conditions without those that repeat a number that their node is given already."""
     bound = {b.target for b in model.starts}
     known = {
-        (s, sign * float(model.start[v]))
-        for s, (v, sign) in start_of.items()
-        if v < len(model.start) and v not in bound and model.fixed[v]
+        (state, sign * float(model.start[v]))
+        for state, (v, sign) in start_of.items()
+        if v < model.n_variables and model.fixed[v] and v not in bound
     }
     kept: list[Condition] = []
     for c in conditions:

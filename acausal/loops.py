@@ -121,12 +121,24 @@ def loop_of(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) 
     )
     wrong = _singular(loop, parameters)
     if wrong is not None:
-        told = listing([system.describe(e) for e in blocks[wrong].stated], 6)
-        names = listing([system.name(v) for v in blocks[wrong].unknowns])
-        raise StructureError(
-            f"equations of a loop repeat or contradict each other: {told}; they do not determine {names}"
-        )
+        raise StructureError(_explain(system, blocks[wrong]))
     return loop
+
+
+def _explain(system: Equations, block: Block) -> str:
+    told = listing(dict.fromkeys(system.describe(e) for e in block.stated), 6)
+    unknowns = listing([system.name(v) for v in block.unknowns])
+    zeros = [
+        system.model.layout.parameter(p)
+        for e, stated in zip(block.stated, block.equations, strict=True)
+        for column in stated.vanishing
+        for p in system.divisors(e, column)
+    ]
+    hint = f"; {listing(dict.fromkeys(zeros))} being zero may be why" if zeros else ""
+    return (
+        f"the equations of a loop repeat or contradict each other, so that they do not determine {unknowns}: "
+        f"{told}{hint}"
+    )
 
 
 def _singular(loop: Loop, parameters: np.ndarray) -> int | None:
@@ -134,18 +146,24 @@ def _singular(loop: Loop, parameters: np.ndarray) -> int | None:
     shape, n = loop.shape, len(loop.unknowns)
     if not shape.is_linear:
         return None
-    slope = np.zeros((n, shape.n_unknowns, shape.n_unknowns))
+    nowhere = Point(np.ones(1), parameters)
+    rows: list[int] = []
+    columns: list[int] = []
+    values: list[np.ndarray] = []
     for i, e in enumerate(shape.equations):
         for column, code in enumerate(e.variables):
             if code < 0:
                 continue
             if not constant(e.template, column):
                 return None
-            nowhere = np.zeros((n, len(e.variables)), dtype=np.int64)
-            at = Point(np.ones(1), parameters)
+            variables = np.zeros((n, len(e.variables)), dtype=np.int64)
             own = loop.parameters[:, list(e.parameters)]
-            slope[:, i, code] = slopes(e.template, column, nowhere, own, at)
-    return next((i for i, matrix in enumerate(slope) if singular(matrix)), None)
+            rows.append(i)
+            columns.append(code)
+            values.append(slopes(e.template, column, variables, own, nowhere))
+    each = np.stack(values, axis=1).tolist()
+    size = shape.n_unknowns
+    return next((i for i, own in enumerate(each) if singular(rows, columns, own, size)), None)
 
 
 def matrix(rows: list[list[int]]) -> Integers:

@@ -73,16 +73,11 @@ def losses(
         ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
     for label, level in (levels or {}).items():
         ax.axhline(level, color=GUIDE, lw=1, ls=":")
+        place = (1.0, level)
         ax.annotate(
-            label,
-            (1, level),
-            xycoords=("axes fraction", "data"),
-            xytext=(-4, 3),
-            textcoords="offset points",
-            ha="right",
-            fontsize=8,
-            color=GUIDE,
-        )
+            label, place, xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
+            va="center", fontsize=8, color=GUIDE, annotation_clip=False,
+        )  # fmt: skip
     ax.set(xlabel="epoch", ylabel="loss")
     ax.grid(alpha=0.25, which="both")
     ax.legend(frameon=False)

@@ -152,7 +152,7 @@ def _context(problem: Problem) -> Context:
     trainable = problem.start()
     x = problem.record.x
     if x is None:
-        x = problem.trajectory(trainable)
+        _, x = problem.simulate(trainable)
         if not bool(jnp.isfinite(x).all()):
             raise TrainingError(
                 "The model diverges over the record before training; start from better parameters."

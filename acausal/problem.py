@@ -105,17 +105,15 @@ class Problem(eqx.Module):
         params = self.assemble(trainable)
         return {name: jnp.asarray(r(params, self.context)) for name, r in self.regularizers.items()}
 
-    def full_loss(self, trainable: Trainable) -> Array:
-        """The loss of one simulation of the whole record, every point of it."""
-        packed = self.system.pack(self.assemble(trainable))
-        _, predicted, _ = self._integrate(packed, self._first_state(packed), self.record.steps)
-        return self.loss(predicted, self.record.y, self.record.sigma)
-
     @eqx.filter_jit
-    def trajectory(self, trainable: Trainable) -> Array:
-        """The states at every sample in one simulation of the whole record, shape (N, number of states)."""
+    def simulate(self, trainable: Trainable) -> tuple[Array, Array]:
+        """One simulation of the whole record: its loss over every point, and the states at every sample.
+
+        The states have shape (N, number of states).
+        """
         packed = self.system.pack(self.assemble(trainable))
-        return self._integrate(packed, self._first_state(packed), self.record.steps)[0]
+        x, predicted, _ = self._integrate(packed, self._first_state(packed), self.record.steps)
+        return self.loss(predicted, self.record.y, self.record.sigma), x
 
     @eqx.filter_jit
     def seen(self, trainable: Trainable, x: Array, rows: Array | None = None) -> dict[str, Array]:

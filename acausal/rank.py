@@ -71,14 +71,16 @@ def independent(columns: Iterable[tuple[int, Column]]) -> tuple[list[int], set[i
     return kept, set(basis_of)
 
 
-def singular(matrix: np.ndarray) -> bool:
-    """Whether a square matrix is singular, whatever the units of its rows and columns."""
-    scaled = np.array(matrix)
-    for axis in (1, 0):
-        largest = np.abs(scaled).max(axis=axis, keepdims=True)
-        scaled = scaled / np.where(largest > 0, largest, 1.0)
-    columns = ({int(i): float(c[i]) for i in np.flatnonzero(c)} for c in scaled.T)
-    return len(independent(enumerate(columns))[0]) < len(matrix)
+def singular(rows: Sequence[int], columns: Sequence[int], values: Sequence[float], n: int) -> bool:
+    """Whether an n by n matrix, given by its entries, is singular, whatever the units of its rows."""
+    largest = [0.0] * n
+    for row, value in zip(rows, values, strict=True):
+        largest[row] = max(largest[row], abs(value))
+    scaled: list[Column] = [{} for _ in range(n)]
+    for row, column, value in zip(rows, columns, values, strict=True):
+        if value:
+            scaled[column][row] = value / largest[row]
+    return len(independent(enumerate(scaled))[0]) < n
 
 
 def _columns(matrix: csr_array, candidates: Sequence[int]) -> dict[int, Column]:

@@ -216,14 +216,11 @@ def _explicit(system: Equations, equation: int, unknown: int) -> int | None:
 
 
 def _no_divisor(system: Equations, equation: int, column: int) -> str:
-    template, layout = system.template[equation], system.model.layout
-    symbols = derive.slope(template, column).free_symbols
-    slots = zip(template.parameters, system.parameters[equation], strict=True)
-    names = [layout.parameter(p) for s, p in slots if s in symbols]
+    names = [system.model.layout.parameter(p) for p in system.divisors(equation, column)]
     unknown = system.name(system.variables[equation][column])
     return (
-        f"'{unknown}' cannot be computed from {system.describe(equation)}: its factor there is zero, "
-        f"as {listing(names)} {'is' if len(names) == 1 else 'are'}; give another value"
+        f"'{unknown}' cannot be computed from {system.describe(equation)}: its factor there is zero "
+        f"because of {listing(names)}; give another value"
     )
 
 

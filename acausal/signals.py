@@ -12,7 +12,8 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
-from jax.typing import ArrayLike
+from jax.typing import ArrayLike as Scalar
+from numpy.typing import ArrayLike
 
 from acausal.errors import DataError
 from acausal.tracing import traced
@@ -70,7 +71,7 @@ class Signal(eqx.Module):
         self.extrapolation = extrapolation
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
 
-    def __call__(self, t: ArrayLike) -> Array:
+    def __call__(self, t: Scalar) -> Array:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
         t = jnp.asarray(t, self.ts.dtype)
         first, last = self.ts[0], self.ts[-1]
@@ -103,7 +104,7 @@ class Signal(eqx.Module):
             i = jnp.searchsorted(self.ts, t, side="right") - 1
         return jnp.clip(i, 0, n - 2)
 
-    def _secant(self, i: ArrayLike) -> Array:
+    def _secant(self, i: Scalar) -> Array:
         return (self.values[i + 1] - self.values[i]) / (self.ts[i + 1] - self.ts[i])
 
     def _slope(self, i: Array) -> Array:

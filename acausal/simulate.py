@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import diffrax as dfx
 import numpy as np
-from jax.typing import ArrayLike
+from numpy.typing import ArrayLike
 
 from acausal import inputs as drives
 from acausal import solvers

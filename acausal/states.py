@@ -64,7 +64,7 @@ def _independent(
 
 def _points(system: Equations) -> tuple[Point, Point]:
     """Where slopes are looked at: the given starts, else random values; and random values alone."""
-    model, n = system.model, system.model.n_variables
+    model = system.model
     anywhere = random_values(len(system.structure.derivative))
     start = np.array(anywhere)
     given = np.flatnonzero(model.start_given)

@@ -6,6 +6,7 @@ knows its owner, so that one expression may mix names of several components.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import count
@@ -113,6 +114,8 @@ def _expression(value: Any, where: str) -> sp.Expr:
         raise DeclarationError(
             f"{where} is {type(value).__name__} {value!r}; an expression or a number is needed"
         ) from None
+    if not math.isfinite(number):
+        raise DeclarationError(f"{where} is {number}; a finite number is needed")
     return sp.Integer(int(number)) if number.is_integer() else sp.Float(number)
 
 

@@ -118,8 +118,7 @@ def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple
         The new state, and a log with room for `CHUNK` entries of which the first are filled.
     """
     first = state.epoch
-    shapes = jax.eval_shape(lambda s: _update(problem, trainer, s)[1], state)
-    log = jax.tree.map(lambda s: jnp.zeros((CHUNK, *s.shape), s.dtype), shapes)
+    log = _empty_log(problem, trainer, state.trainable)
 
     def body(carry: tuple[State, Entry]) -> tuple[State, Entry]:
         state, log = carry
@@ -128,6 +127,15 @@ def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple
         return state, jax.tree.map(lambda rows, new: rows.at[row].set(new), log, entry)
 
     return jax.lax.while_loop(lambda carry: carry[0].epoch < until, body, (state, log))
+
+
+def _empty_log(problem: Objective, trainer: Trainer, trainable: Any) -> Entry:
+    number, count = jnp.zeros(CHUNK), jnp.zeros(CHUNK, int)
+    said = jax.eval_shape(
+        lambda tree: (problem.penalties(tree), trainer.log(problem, tree)), trainable
+    )
+    penalties, logged = jax.tree.map(lambda s: jnp.zeros((CHUNK, *s.shape), s.dtype), said)
+    return Entry(number, penalties, logged, count, count, jnp.zeros(CHUNK, bool))
 
 
 class _Gradient(eqx.Module):
@@ -199,8 +207,10 @@ def _gradient(
         bad = jnp.where(count == 0, _diverged(result.losses, trainer), bad)
         return batch, result, bad, count + 1
 
-    empty = jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), jax.eval_shape(evaluate, batch))
-    none = jnp.zeros(batch.start.shape, bool)
+    zeros = jnp.zeros(batch.start.shape)
+    penalties = jax.tree.map(jnp.zeros_like, jax.eval_shape(problem.penalties, trainable))
+    empty = _Gradient(zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable))
+    none = zeros > 0
     batch, result, bad, _ = jax.lax.while_loop(again, body, (batch, empty, none, jnp.asarray(0)))
     return batch, result, bad
 

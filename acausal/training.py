@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, cast
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
 from acausal.errors import TrainingError
 from acausal.history import History, Log
@@ -33,11 +33,13 @@ class Best(NamedTuple):
         loss: over the whole record; infinite if the model diverges there.
         epoch: updates done.
         trainable: what was trained.
+        x: the states at every sample of the record, in one simulation of it.
     """
 
     loss: float
     epoch: int
     trainable: Trainable
+    x: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +83,9 @@ def train(
         TrainingError: if `PATIENCE` updates in a row had to be rejected.
     """
     began = time.perf_counter()
-    log = Log(np.asarray(problem.record.steps.t))
-    best = Best(_full_loss(problem, state), 0, state.trainable)
-    log.evaluated(best.loss)
+    times = np.asarray(problem.record.steps.t)
+    log = Log(times, tuple(problem.regularizers), problem.modifiers.names)
+    best = _evaluate(problem, state, log, None)
     compiling = updating = 0.0
     interrupted, evaluated, size = False, 0, 1
     try:
@@ -120,24 +122,14 @@ def train(
     )
 
 
-@eqx.filter_jit
-def _loss_of(problem: Problem, trainable: Trainable) -> Any:
-    return problem.full_loss(trainable)
-
-
-def _full_loss(problem: Problem, state: State) -> float:
-    loss = float(_loss_of(problem, state.trainable))
-    return loss if math.isfinite(loss) else math.inf
-
-
-def _evaluate(problem: Problem, state: State, log: Log, best: Best) -> Best:
-    loss = _full_loss(problem, state)
+def _evaluate(problem: Problem, state: State, log: Log, best: Best | None) -> Best:
+    """Simulate the whole record, and keep the better of the state and the best so far."""
+    value, x = problem.simulate(state.trainable)
+    loss = float(value) if math.isfinite(float(value)) else math.inf
     log.evaluated(loss)
-    return (
-        Best(loss, log.epochs, state.trainable)
-        if loss < best.loss or math.isinf(best.loss)
-        else best
-    )
+    if best is None or loss < best.loss or math.isinf(best.loss):
+        return Best(loss, log.epochs, state.trainable, x)
+    return best
 
 
 def _check_rejections(log: Log, rejected: int) -> None:

@@ -6,6 +6,7 @@
 | `rotational` | `Modelica.Mechanics.Rotational` |
 | `blocks` | `Modelica.Blocks` |
 | `thermal` | `Modelica.Thermal.HeatTransfer` |
+| `fluid` | `Modelica.Thermal.FluidHeatFlow` |
 | `neural` | none: two-ports of any domain whose law is a network |
 
 The library is written as a user writes one: it knows the rest of the package only as

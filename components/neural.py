@@ -119,6 +119,7 @@ class PartialNeural(ac.Component):
         yield ac.Eq(self._across, difference)
         yield ac.Eq(getattr(enters, kind.flow()), self._through)
         yield ac.Eq(getattr(leaves, kind.flow()), -self._through)
+        yield from kind.carried(enters, leaves)
 
 
 class Compliance(PartialNeural):

@@ -24,9 +24,7 @@ Signal = Callable[[Any, Array, Array], Array]
 """Values from time, states and inputs."""
 
 
-def residuals(
-    system: ac.System, t: float, x: Any, u: Any, params: Any = None
-) -> dict[str, float]:
+def residuals(system: ac.System, t: float, x: Any, u: Any, params: Any = None) -> dict[str, float]:
     """Largest absolute residual of the flat equations, by ``component: equation`` as written."""
     packed = system.pack(params)
     t, x, u = jnp.asarray(float(t)), jnp.asarray(x, dtype=float), jnp.asarray(u, dtype=float)

@@ -27,7 +27,10 @@ def test_a_record():
 def test_a_mapping_is_a_record():
     data = ac.Data.of({"time": TIME, "mass.s": TIME})
     assert tuple(data.signals) == ("mass.s",)
-    assert refused(lambda: ac.Data.of({"Time": TIME})) == "The record has no 'time': did you mean 'Time'?"
+    assert (
+        refused(lambda: ac.Data.of({"Time": TIME}))
+        == "The record has no 'time': did you mean 'Time'?"
+    )
 
 
 def test_units_are_converted():
@@ -97,7 +100,9 @@ def test_bad_records_are_refused_in_one_sentence(make, sentence):
 
 
 def test_a_unit_that_is_none():
-    message = refused(lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "meterz"}).for_system(plain()))
+    message = refused(
+        lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "meterz"}).for_system(plain())
+    )
     assert message.startswith("'mass.v': 'meterz' is no unit")
 
 
@@ -119,9 +124,15 @@ def test_csv(tmp_path):
         ("time,x\n0,1\n1,abc\n", ", line 3: 'abc' in column 'x' is no number."),
         ("time,x\n0,1\n1,nan\n", ": 'x' is nan at sample 1."),
         ("time,x,x\n0,1,1\n", ", line 1: two columns are called 'x'."),
-        ("time,x [m\n0,1\n", ", line 1: 'x [m' is no column header; write 'name' or 'name [unit]'."),
+        (
+            "time,x [m\n0,1\n",
+            ", line 1: 'x [m' is no column header; write 'name' or 'name [unit]'.",
+        ),
         ("t,x\n0,1\n1,1\n", " has no column 'time': known are 't', 'x'."),
-        ("time,x [m],y\n0,1,1\n1,1,1\n", ": 'y' have no unit while other signals have one; give units to all."),
+        (
+            "time,x [m],y\n0,1,1\n1,1,1\n",
+            ": 'y' have no unit while other signals have one; give units to all.",
+        ),
     ],
 )
 def test_bad_files_are_refused_with_the_line(tmp_path, text, sentence):

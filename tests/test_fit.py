@@ -1,3 +1,5 @@
+from typing import Any
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -21,7 +23,7 @@ CUBIC = 80.0
 
 def problem(system=None, data=None, targets=("mass.a",), **wishes):
     system = learned() if system is None else system
-    defaults = {
+    defaults: dict[str, Any] = {
         "train": None, "modifiers": None, "gamma": 0.2, "loss": "nrmse", "regularizers": (),
         "sequence_length": 0.5, "batch_size": 4, "subsample": None, "dt": None, "solver": "heun",
         "x0": "data",
@@ -37,7 +39,9 @@ def test_nrmse_is_the_papers():
     rng = np.random.default_rng(0)
     q, p, sigma = rng.normal(size=(50, 2)), rng.normal(size=(50, 2)), np.array([2.0, 3.0])
     expected = np.sqrt(np.sum(((q - p) / sigma) ** 2) / 50)
-    assert float(losses.nrmse(jnp.asarray(p), jnp.asarray(q), jnp.asarray(sigma))) == pytest.approx(expected)
+    assert float(losses.nrmse(jnp.asarray(p), jnp.asarray(q), jnp.asarray(sigma))) == pytest.approx(
+        expected
+    )
 
 
 def test_nrmse_of_a_perfect_prediction_has_a_gradient():
@@ -64,10 +68,16 @@ def test_the_gradient_of_the_loss_is_that_of_differences(wishes):
 
     total = eqx.filter_jit(total)
     gradient = jax.grad(total)(start)
-    directions = [jax.tree.map(lambda a, k=k: jax.random.normal(jax.random.key(k), a.shape), start) for k in (0, 1)]
+    directions = [
+        jax.tree.map(lambda a, k=k: jax.random.normal(jax.random.key(k), a.shape), start)
+        for k in (0, 1)
+    ]
     for direction in directions:
         slope = sum(jax.tree.leaves(jax.tree.map(lambda g, d: jnp.sum(g * d), gradient, direction)))
-        ends = [total(jax.tree.map(lambda a, d, e=e: a + e * d, start, direction)) for e in (1e-6, -1e-6)]
+        ends = [
+            total(jax.tree.map(lambda a, d, e=e: a + e * d, start, direction))
+            for e in (1e-6, -1e-6)
+        ]
         assert float(slope) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
 
 
@@ -76,8 +86,8 @@ def test_the_loss_of_sequences_is_that_of_simulations():
     batch = posed.draw(jax.random.key(1))
     values = posed.losses(posed.start(), batch)
     data, sigma = record(), record()["mass.a"].std()
-    for i, start in enumerate(np.asarray(batch.start)):
-        part = data.between(data.time[start] - 1e-9, data.time[start] + 0.99 + 1e-9)
+    for i, start in enumerate(np.asarray(batch.start).tolist()):
+        part = data.between(0.01 * start - 1e-6, 0.01 * start + 0.99 + 1e-6)
         sol = ac.simulate(
             learned(), (part.time[0], part.time[-1]), dt=0.01, solver="heun", params=posed.params,
             inputs={"push.f": part["push.f"]}, x0=[part["mass.s"][0], part["mass.v"][0]],
@@ -102,11 +112,15 @@ def test_substeps_are_smaller_steps():
 
 def test_uneven_records_are_integrated_from_sample_to_sample():
     time = np.sort(np.r_[0.0, np.random.default_rng(0).uniform(0, 5, 800), 5.0])
-    true = ac.simulate(plain(), (0, 5), inputs={"push.f": (time, force(time))}, saveat=time, rtol=1e-9, atol=1e-11)
+    true = ac.simulate(
+        plain(), (0, 5), inputs={"push.f": (time, force(time))}, saveat=time, rtol=1e-9, atol=1e-11
+    )
     data = ac.Data(time, {n: true[n] for n in ("mass.a", "push.f", "mass.s", "mass.v")})
     assert not data.uniform
-    posed = problem(plain(), data, sequence_length=None, batch_size=1, modifiers=["mass.m"], solver="rk4")
-    assert float(posed.full_loss(posed.start())) < 1e-5
+    posed = problem(
+        plain(), data, sequence_length=None, batch_size=1, modifiers=["mass.m"], solver="rk4"
+    )
+    assert float(posed.simulate(posed.start())[0]) < 1e-5
 
 
 # -- training ----------------------------------------------------------------------------------------
@@ -124,7 +138,9 @@ def test_a_hardening_spring_is_learned():
     spring = jax.vmap(fit.remove_offset()["extra.net"])(jnp.asarray(z))
     assert np.sqrt(np.mean((np.asarray(spring) - CUBIC * z**3) ** 2)) < 0.2  # newtons, of 2.3
     assert fit.seen["extra.net"].sigma[0] == pytest.approx(record()["mass.s"].std(), rel=0.02)
-    sol = ac.simulate(learned(), (0, 20), dt=0.01, inputs=record(), params=fit.params, solver="heun")
+    sol = ac.simulate(
+        learned(), (0, 20), dt=0.01, inputs=record(), params=fit.params, solver="heun"
+    )
     error = np.sqrt(np.mean((sol["mass.a"] - record()["mass.a"]) ** 2)) / record()["mass.a"].std()
     assert error == pytest.approx(fit.loss, rel=1e-6)
     assert fit.history.loss.shape == fit.history.penalties["ZeroCrossing"].shape == (400,)
@@ -169,7 +185,7 @@ def test_the_same_seed_gives_the_same_weights():
 
 def test_users_losses_regularizers_and_optimizers():
     def absolute(predicted, measured, sigma):
-        assert predicted.shape == measured.shape == (20, 1)
+        assert predicted.shape == measured.shape in ((20, 1), (1001, 1))
         return jnp.mean(jnp.abs(predicted - measured) / sigma)
 
     def small_mass(params, context):
@@ -178,7 +194,8 @@ def test_users_losses_regularizers_and_optimizers():
         return 1e-3 * params["mass.m"] ** 2
 
     fit = ac.fit(
-        learned(), record(end=10.0), "mass.a", loss=absolute, regularizers=[small_mass, ac.ZeroCrossing(), ac.ZeroCrossing(1.0)],
+        learned(), record(end=10.0), "mass.a", loss=absolute,
+        regularizers=[small_mass, ac.ZeroCrossing(), ac.ZeroCrossing(1.0)],
         sequence_length=0.2, batch_size=2, epochs=5, optimizer=optax.sgd(1e-3), evaluate_every=5, progress=False,
     )  # fmt: skip
     assert list(fit.history.penalties) == ["small_mass", "ZeroCrossing", "ZeroCrossing 2"]
@@ -186,7 +203,9 @@ def test_users_losses_regularizers_and_optimizers():
 
 
 def test_an_optimizer_with_a_line_search():
-    fit = ac.fit(learned(), record(end=2.0), "mass.a", optimizer=optax.lbfgs(), epochs=10, progress=False)
+    fit = ac.fit(
+        learned(), record(end=2.0), "mass.a", optimizer=optax.lbfgs(), epochs=10, progress=False
+    )
     assert fit.loss < 0.3 * fit.loss_before
 
 
@@ -223,7 +242,7 @@ def test_batches():
     assert batch.points is not None
     assert batch.points.shape == (64, 10)
     assert all(len(set(row)) == 10 for row in np.asarray(batch.points).tolist())
-    assert 0 <= int(batch.start.min())
+    assert int(batch.start.min()) >= 0
     assert int(batch.start.max()) <= 2001 - 50
     whole = sequences(record(), None, 1, None)
     assert whole.whole
@@ -277,7 +296,9 @@ def test_a_diverging_sequence_is_left_out_and_told():
         assert np.isfinite(fit.history.loss[divergence.epoch])
     assert float(fit.params["extra.net"].weight) == pytest.approx(CUBIC, rel=0.02)
     assert "diverged" in repr(fit)
-    assert "s diverged; left out" in str(fit.history.divergences[0]) or "more diverged" in str(fit.history.divergences[0])
+    assert "s diverged; left out" in str(fit.history.divergences[0]) or "more diverged" in str(
+        fit.history.divergences[0]
+    )
 
 
 def test_the_good_sequences_give_the_gradient_they_give_alone():
@@ -286,14 +307,20 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
     posed = problem(data=data, batch_size=3)
     trainer = Trainer(optax.with_extra_args_support(optax.sgd(1.0)), 1e3, modified)
     state = begin(trainer, posed.start(), jax.random.key(0))
-    bad = eqx.tree_at(lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700]))
+    bad = eqx.tree_at(
+        lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700])
+    )
     good = jax.tree.map(lambda a: a[np.array([0, 2])], bad)
     from acausal.trainer import _gradient  # the part under test is not public
 
     _, mixed, mask = _gradient(posed, trainer, state.trainable, bad)
     _, alone, _ = _gradient(posed, trainer, state.trainable, good)
     assert mask.tolist() == [False, True, False]
-    jax.tree.map(lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-10, atol=1e-12), mixed.gradient, alone.gradient)
+    jax.tree.map(
+        lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-10, atol=1e-12),
+        mixed.gradient,
+        alone.gradient,
+    )
 
 
 def test_too_many_rejections_end_the_training():
@@ -343,7 +370,9 @@ def test_progress_is_reported(capsys):
 
 def test_chunks_do_not_change_the_result(monkeypatch):
     def run():
-        return ac.fit(learned(), record(), "mass.a", sequence_length=0.2, epochs=12, progress=False).history.loss
+        return ac.fit(
+            learned(), record(), "mass.a", sequence_length=0.2, epochs=12, progress=False
+        ).history.loss
 
     many = run()
     monkeypatch.setattr(training, "LOOK", 0.0)
@@ -356,7 +385,15 @@ def test_chunks_do_not_change_the_result(monkeypatch):
 def test_outputs_alone_suffice_for_the_whole_record():
     data = record(end=2.0).select(["mass.a", "push.f"])
     for x0 in ("model", {"mass.s": 0.0, "mass.v": 0.0}):
-        fit = ac.fit(learned(), data, "mass.a", x0=x0, epochs=10, regularizers=[ac.SmallCorrection()], progress=False)
+        fit = ac.fit(
+            learned(),
+            data,
+            "mass.a",
+            x0=x0,
+            epochs=10,
+            regularizers=[ac.SmallCorrection()],
+            progress=False,
+        )
         assert fit.loss < fit.loss_before
 
 
@@ -364,11 +401,11 @@ def test_outputs_alone_suffice_for_the_whole_record():
     ("wishes", "kind", "sentence"),
     [
         ({"data": ["mass.a", "push.f"]}, ac.DataError,
-         "The data lack 'mass.s', 'mass.v': sequences start from measured states. "
-         "Train on the whole record (sequence_length=None) with x0='model' or x0={...}."),
+         ("The data lack 'mass.s', 'mass.v': sequences start from measured states. "
+          "Train on the whole record (sequence_length=None) with x0='model' or x0={...}.")),
         ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1}, ac.DataError,
-         "The data lack 'mass.v', with which the record starts: "
-         "give x0={'mass.v': ...}, or x0='model' for the model's start values."),
+         ("The data lack 'mass.v', with which the record starts: "
+          "give x0={'mass.v': ...}, or x0='model' for the model's start values.")),
         ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is no state of the model: did you mean 'mass.v'?"),
         ({"data": ["mass.a", "mass.s", "mass.v"]}, ac.DataError, "The data lack 'push.f', an input of the model."),
         ({"targets": ("spring.f",)}, ac.DataError, "The data lack 'spring.f', a target of the training."),
@@ -407,5 +444,7 @@ def test_a_constant_target_is_refused():
 
 def test_a_parameter_at_zero_cannot_be_modified():
     params = plain().parameters() | {"spring.d": 0.0}
-    with pytest.raises(ac.TrainingError, match="Parameter 'spring.d' is 0, and a modifier multiplies"):
+    with pytest.raises(
+        ac.TrainingError, match=r"Parameter 'spring\.d' is 0, and a modifier multiplies"
+    ):
         modifiers(["spring.d"], 0.2, params)

@@ -1,3 +1,5 @@
+from typing import Any
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -53,7 +55,7 @@ def test_wrong_networks_are_refused(make, message):
 
 
 def test_offset_correction():
-    params = {"a.net": ac.MLP(key=0), "b.net": ac.MLP(2, key=1), "a.c": 3.0}
+    params: dict[str, Any] = {"a.net": ac.MLP(key=0), "b.net": ac.MLP(2, key=1), "a.c": 3.0}
     corrected = ac.remove_offset(params)
     assert corrected["a.c"] == 3.0
     assert float(corrected["a.net"](0.0)) == 0.0
@@ -72,8 +74,10 @@ def test_tables_are_no_networks():
 def test_arguments_of_a_network_in_a_model():
     system = learned()
     x, packed = jnp.asarray([0.3, 0.0]), system.pack(system.parameters(0))
-    np.testing.assert_allclose(arguments(system, "extra.net", 0.0, x, jnp.zeros(1), packed), [[0.3]])
-    with pytest.raises(ac.ModelError, match="no module 'extra.nut': did you mean 'extra.net'"):
+    np.testing.assert_allclose(
+        arguments(system, "extra.net", 0.0, x, jnp.zeros(1), packed), [[0.3]]
+    )
+    with pytest.raises(ac.ModelError, match=r"no module 'extra\.nut': did you mean 'extra\.net'"):
         calls(system, "extra.nut")
 
 

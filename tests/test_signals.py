@@ -22,7 +22,9 @@ def test_linear_agrees_with_numpy(ts):
     np.testing.assert_allclose(at(signal, t), np.interp(t, ts, values), atol=1e-12)
 
 
-@pytest.mark.parametrize("ts", [0.1 * np.arange(21), UNIFORM, UNEVEN], ids=["steps", "uniform", "uneven"])
+@pytest.mark.parametrize(
+    "ts", [0.1 * np.arange(21), UNIFORM, UNEVEN], ids=["steps", "uniform", "uneven"]
+)
 def test_previous_holds_from_each_sample_on(ts):
     values = np.arange(len(ts), dtype=float)
     signal = ac.Signal(ts, values, "previous")
@@ -89,7 +91,11 @@ def test_traced_samples_and_times():
 @pytest.mark.parametrize(
     ("ts", "values", "message"),
     [
-        ([0.0, 1.0, 1.0], [1, 2, 3], "'u' has a time base that does not increase: 1 s at sample 1 "),
+        (
+            [0.0, 1.0, 1.0],
+            [1, 2, 3],
+            "'u' has a time base that does not increase: 1 s at sample 1 ",
+        ),
         ([0.0, np.nan, 1.0], [1, 2, 3], "'u' has a time that is nan at sample 1."),
         ([0.0], [1.0], "'u' needs a time base of at least two samples, got shape (1,)."),
         ([0.0, 1.0], [1, 2, 3], "'u' has 3 samples for 2 times."),

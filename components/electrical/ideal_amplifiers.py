@@ -1,6 +1,7 @@
 """Ideal and idealized operational amplifiers."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
 
@@ -52,30 +53,43 @@ class IdealOpAmp3Pin(_ThreePins):
         yield ac.Eq(self.in_p.v, self.in_n.v)
 
 
-class IdealOpAmpLimited(_ThreePins):
+class _Limited(_ThreePins):
+    """An output between two limits, along whose characteristic the variable ``s`` runs, from -1 to 1 inside.
+
+    Stated in ``s`` the law is as steep inside as outside, so that Newton's method finds the way.
+    """
+
+    s = ac.Variable(doc="position on the characteristic; the limits are at -1 and 1")
+
+    def _characteristic(self, low: Any, high: Any) -> tuple[Any, Any]:
+        """The output, and by how much the input is beyond what gives that output."""
+        inside = ac.maximum(ac.minimum(self.s, 1), -1)
+        middle, half = (high + low) / 2, (high - low) / 2
+        return middle + half * inside, half * (self.s - inside)
+
+
+class IdealOpAmpLimited(_Limited):
     """Ideal amplifier whose output stays between the potentials of ``VMin`` and ``VMax``.
 
     ``vin = in_p.v - in_n.v`` is zero while the output is within; below zero ``out.v = VMin.v``, above
-    zero ``out.v = VMax.v``. The parameter ``s`` runs along the characteristic, from -1 to 1 inside.
+    zero ``out.v = VMax.v``.
     """
 
     VMax = PositivePin()
     VMin = NegativePin()
     vin = ac.Variable(unit="V", doc="input voltage")
-    s = ac.Variable(doc="position on the characteristic")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.VMax.i, 0)
         yield ac.Eq(self.VMin.i, 0)
-        inside = ac.maximum(ac.minimum(self.s, 1), -1)
-        middle, half = (self.VMax.v + self.VMin.v) / 2, (self.VMax.v - self.VMin.v) / 2
+        output, excess = self._characteristic(self.VMin.v, self.VMax.v)
         yield ac.Eq(self.vin, self.in_p.v - self.in_n.v)
-        yield ac.Eq(self.vin, self.s - inside)
-        yield ac.Eq(self.out.v, middle + half * inside)
+        yield ac.Eq(self.vin, excess)
+        yield ac.Eq(self.out.v, output)
 
 
-class IdealizedOpAmpLimited(_ThreePins):
+class IdealizedOpAmpLimited(_Limited):
     """Amplifier with the gain ``V0``: ``v_out = V0 v_in``, bounded to the supply ``vns`` ... ``vps``.
 
     The supply is ``Vps`` and ``Vns`` [V], or with ``useSupply`` the potentials of the pins ``s_p`` and
@@ -113,5 +127,6 @@ class IdealizedOpAmpLimited(_ThreePins):
         if self.useSupply:
             yield ac.Eq(self.s_p.i, self.i_s)
             yield ac.Eq(self.s_n.i, -self.i_s)
-        bounded = ac.maximum(ac.minimum(self.V0 * self.v_in, self.vps), self.vns)
-        yield ac.Eq(self.v_out, bounded)
+        output, excess = self._characteristic(self.vns, self.vps)
+        yield ac.Eq(self.v_out, output)
+        yield ac.Eq(self.v_in, output / self.V0 + excess)

@@ -58,7 +58,12 @@ class TwoPort(PartialMedium):
     V_flow = ac.Variable(unit="m3/s", doc="volume flow rate from a to b")
     Q_flow = ac.Variable(unit="W", doc="heat flow rate into the medium")
     T = ac.Variable(
-        unit="K", start="T0", fixed="T0fixed", nominal=300.0, state="prefer", doc="outlet temperature"
+        unit="K",
+        start="T0",
+        fixed="T0fixed",
+        nominal=300.0,
+        state="prefer",
+        doc="outlet temperature",
     )
     T_a = ac.Variable(unit="K", nominal=300.0, doc="temperature at flowPort_a")
     T_b = ac.Variable(unit="K", nominal=300.0, doc="temperature at flowPort_b")
@@ -129,7 +134,9 @@ class SimpleFriction(ac.Component):
         v, v_l, v_n = self.volumeFlow, self.V_flowLaminar, self.V_flowNominal
         linear = self.dpLaminar / v_l
         k = (self.dpNominal - linear * v_n) / (v_n - v_l) ** 2
-        turbulent = ac.where(v > v_l, k * (v - v_l) ** 2, ac.where(v < -v_l, -k * (v + v_l) ** 2, 0))
+        turbulent = ac.where(
+            v > v_l, k * (v - v_l) ** 2, ac.where(v < -v_l, -k * (v + v_l) ** 2, 0)
+        )
         yield ac.Eq(self.pressureDrop, linear * v + turbulent)
         yield ac.Eq(self.Q_friction, self.frictionLoss * v * self.pressureDrop)
 

@@ -79,9 +79,7 @@ class PressureIncrease(PartialAdiabatic):
     constantPressureIncrease = ac.Parameter(
         unit="Pa", when="not usePressureIncreaseInput", doc="pressure increase"
     )
-    pressureIncrease = ac.Input(
-        unit="Pa", when="usePressureIncreaseInput", doc="pressure increase"
-    )
+    pressureIncrease = ac.Input(unit="Pa", when="usePressureIncreaseInput", doc="pressure increase")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -116,6 +114,4 @@ class IdealPump(PartialAdiabatic):
         yield ac.Eq(self.dp1, self.dp0 * r * ac.Abs(r))
         yield ac.Eq(self.V_flow1, self.V_flow0 * r)
         yield ac.Eq(self.dp, -self.dp0 * ac.Abs(r) * left)
-        yield ac.Eq(
-            self.flange_a.tau, self.dp0 / self.wNominal * ac.sign(r) * left * self.V_flow
-        )
+        yield ac.Eq(self.flange_a.tau, self.dp0 / self.wNominal * ac.sign(r) * left * self.V_flow)

@@ -1,4 +1,4 @@
-"""Sources, sensors and conversions with temperatures in degrees Celsius (`Modelica.Thermal.HeatTransfer.Celsius`)."""
+"""Sources, sensors and conversions of temperatures in degrees Celsius."""
 
 from collections.abc import Iterator
 

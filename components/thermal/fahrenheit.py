@@ -1,4 +1,4 @@
-"""Sources, sensors and conversions with temperatures in degrees Fahrenheit (`Modelica.Thermal.HeatTransfer.Fahrenheit`)."""
+"""Sources, sensors and conversions of temperatures in degrees Fahrenheit."""
 
 from collections.abc import Iterator
 

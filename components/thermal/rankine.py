@@ -1,4 +1,4 @@
-"""Sources, sensors and conversions with temperatures in degrees Rankine (`Modelica.Thermal.HeatTransfer.Rankine`)."""
+"""Sources, sensors and conversions of temperatures in degrees Rankine."""
 
 from collections.abc import Iterator
 

@@ -1,6 +1,7 @@
 """Given temperatures and heat flows."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
 
@@ -37,6 +38,7 @@ class PartialHeatFlow(ac.Component):
     T_ref = ac.Parameter(293.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the heat flow rate")
     port = HeatPort()
+    Q_flow: Any
 
     def equations(self) -> Iterator[ac.Eq]:
         warm = 1 + self.alpha * (self.port.T - self.T_ref)

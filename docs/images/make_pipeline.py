@@ -11,7 +11,7 @@ import acausal as ac  # noqa: E402
 from examples.qvm.model import with_networks  # noqa: E402
 
 WIDTH, ROW, TOP = 860, 62, 66
-LEFT, FORM, VALUE = 24, 150, 452
+LEFT, FORM, VALUE = 24, 150, 430
 BOX = (104, 38)
 
 STYLE = """
@@ -52,7 +52,7 @@ def rows(system: ac.System) -> list[tuple[str, str, str, str]]:
             "flatten",
             "FlatModel",
             f"{flat.n_variables} variables, {flat.n_equations} equations of {len(flat.groups)} templates",
-            f"template over 3 slots; {suspension}, and {tyre}",
+            f"one template; rows {suspension}, {tyre}",
         ),
         (
             "reduce",
@@ -64,11 +64,11 @@ def rows(system: ac.System) -> list[tuple[str, str, str, str]]:
             "generate",
             "Program",
             f"{len(program.instructions)} array operations, pure JAX",
-            f"f64[{step.size}]: suspension.f, tyre.f",
+            f"one f64[{step.size}], with tyre.f",
         ),
-        ("initialize", "x(0)", "consistent start values", "fixed starts may name it"),
+        ("initialize", "x(0)", "consistent start values", "its start may be fixed"),
         ("simulate", "Solution", "any variable by its name", 'solution["suspension.f"]'),
-        ("fit", "Fit", "trained networks and parameters", "params, modifiers, what was seen"),
+        ("fit", "Fit", "trained networks and parameters", "suspension.c and .d may be trained"),
     ]
 
 
@@ -105,14 +105,14 @@ def draw(system: ac.System) -> str:
 
 def _derive(reduce: int, generate: int) -> list[str]:
     """The box beside reduce and generate: both ask sympy, once per template."""
-    x, y, width = 700, (reduce + generate) // 2 - 4, 132
+    x, y, width = 696, (reduce + generate) // 2 - 4, 146
     parts = [
         f'<rect class="side" x="{x}" y="{y}" width="{width}" height="46" rx="7"/>',
         f'<text class="verb" x="{x + width / 2}" y="{y + 20}">derive</text>',
         f'<text class="note" x="{x + width / 2}" y="{y + 37}" text-anchor="middle">sympy, per template</text>',
     ]
     for target, side in ((reduce + 19, y + 14), (generate + 19, y + 32)):
-        parts.append(f'<path class="dash" d="M{x},{side} H{x - 22} V{target} H{x - 36}"/>')
+        parts.append(f'<path class="dash" d="M{x},{side} H{x - 18} V{target} H{x - 34}" marker-end="url(#tip)"/>')
     return parts
 
 

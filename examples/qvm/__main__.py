@@ -10,8 +10,12 @@ import argparse  # noqa: E402
 def main() -> None:
     """Parse the command line and run."""
     parser = argparse.ArgumentParser(prog="python -m examples.qvm", description=__doc__)
-    parser.add_argument("--paper", action="store_true", help="the paper's five trainings, 1000 epochs each")
-    parser.add_argument("--seed", type=int, default=0, help="of the networks' weights and the batches")
+    parser.add_argument(
+        "--paper", action="store_true", help="the paper's five trainings, 1000 epochs each"
+    )
+    parser.add_argument(
+        "--seed", type=int, default=0, help="of the networks' weights and the batches"
+    )
     arguments = parser.parse_args()
     if arguments.paper:
         from examples.qvm import paper

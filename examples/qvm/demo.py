@@ -84,7 +84,11 @@ def _rows(report: dict[str, Any]) -> list[tuple[str, str, str]]:
         ("loss of the PeN-ODE", f"{report['loss']:.4f}", "0.035"),
         ("... the noise alone", f"{report['noise_floor']:.4f}", ""),
         ("... against outputs without noise", f"{report['loss_clean']:.4f}", ""),
-        ("seconds to the paper's loss", "not reached" if seconds is None else f"{seconds:.0f}", "16 200"),
+        (
+            "seconds to the paper's loss",
+            "not reached" if seconds is None else f"{seconds:.0f}",
+            "16 200",
+        ),
         ("spring, RMS error within 2σ", f"{report['spring_error_newton']:.2f} N", ""),
         ("damper, RMS error within 2σ", f"{report['damper_error_newton']:.2f} N", ""),
     ]
@@ -105,7 +109,11 @@ def _page(out: Path, system: ac.System, data: Any, trained: ac.Fit, report: dict
         "what the linear suspension lacks. After Kamp, Ultsch and Brembeck (2023), doi 10.5220/0012160100003543.",
     )
     page.section("The model")
-    page.figure(figures.model_diagram(), "The connected components; tinted ones hold a network.", out / "model.png")
+    page.figure(
+        figures.model_diagram(),
+        "The connected components; tinted ones hold a network.",
+        out / "model.png",
+    )
     page.text(
         "From this graph the differential equations follow. z and v are positions and speeds of body (b), wheel (w) "
         "and road (r); u is the road's vertical speed."
@@ -130,18 +138,24 @@ def _page(out: Path, system: ac.System, data: Any, trained: ac.Fit, report: dict
         out / "trajectories.png",
     )
     page.figure(
-        figures.losses({"whole record": trained}, {"paper 0.035": PAPER_LOSS, "noise": report["noise_floor"]}),
+        figures.losses(
+            {"whole record": trained}, {"paper 0.035": PAPER_LOSS, "noise": report["noise_floor"]}
+        ),
         "Losses in training: of random batches (thin) and of one simulation of the whole record (dots).",
         out / "losses.png",
     )
     page.section("What the data cannot tell")
     page.text(GAUGE)
-    page.write(out / "index.html", f"Every figure on this page is in report.json beside it. Seed {report['seed']}.")
+    page.write(
+        out / "index.html",
+        f"Every figure on this page is in report.json beside it. Seed {report['seed']}.",
+    )
 
 
 GAUGE = (
     "Multiplying both masses, the tyre's stiffness and damping and the force of the suspension by one factor changes "
     "neither acceleration. With trained parameters the networks can supply that factor, since c_s z_s + d_s v_s and "
-    "they act side by side. The data fix the ratios of the parameters only; the common factor is fixed by what we "
-    "know beforehand: a mass that was weighed, or a wish for small corrections. Keep one parameter fixed where you can."
+    "they act side by side. So the data fix the ratios of these parameters, not their common factor. What picks it is "
+    "what is known beforehand. Here that is the start: modifiers at zero and networks that give almost no force. Where a "
+    "mass was weighed, leave it out of the trained parameters, and all the others are determined."
 )

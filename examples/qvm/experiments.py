@@ -39,11 +39,33 @@ class Experiment:
     epochs: int = 1000
 
 
-def fit(experiment: Experiment, ride: Ride, *, seed: int = 0, observers: Sequence[Any] = (), **settings: Any) -> ac.Fit:
+def fit(
+    experiment: Experiment,
+    ride: Ride,
+    *,
+    seed: int = 0,
+    observers: Sequence[Any] = (),
+    **settings: Any,
+) -> ac.Fit:
     """Train the networks of an experiment on a ride."""
     system = ac.compile(with_networks(wrong=experiment.wrong))
-    chosen = {"regularizers": [ac.ZeroCrossing(0.01)], "epochs": experiment.epochs, **experiment.settings, **settings}
-    return ac.fit(system, ride.measured, OUTPUTS, x0=AT_REST, solver="heun", seed=seed, observers=observers, **chosen)
+    chosen = {
+        "regularizers": [ac.ZeroCrossing(0.01)],
+        "epochs": experiment.epochs,
+        "evaluate_every": 50,
+        **experiment.settings,
+        **settings,
+    }
+    return ac.fit(
+        system,
+        ride.measured,
+        OUTPUTS,
+        x0=AT_REST,
+        solver="heun",
+        seed=seed,
+        observers=observers,
+        **chosen,
+    )
 
 
 BATCH = {"sequence_length": 4.0, "batch_size": 3}
@@ -66,7 +88,15 @@ DEMO = Experiment(
 PAPER = (
     Experiment("baseline", "baseline: 42 s, every sample", 0.02, {}, 0.035, 0.035, 120.0),
     Experiment("batch", "3 random sequences of 4 s", 0.02, BATCH, 0.035, 0.035, 24.0),
-    Experiment("batch_subs", "... and 25 % of the points", 0.02, {**BATCH, "subsample": 0.25}, 0.035, 0.035, 17.0),
+    Experiment(
+        "batch_subs",
+        "... and 25 % of the points",
+        0.02,
+        {**BATCH, "subsample": 0.25},
+        0.035,
+        0.035,
+        17.0,
+    ),
     Experiment("nsy_par", "noise x5, parameters off", 0.10, BATCH, 0.22, 0.225, wrong=True),
     Experiment(
         "paramopt",

@@ -20,9 +20,20 @@ from examples.qvm.model import UNCERTAIN, linear, with_networks
 from examples.qvm.record import INPUT, Ride
 
 MATHS = {
-    "body.s": "z_b", "body.v": "v_b", "wheel.s": "z_w", "wheel.v": "v_w", "road.s": "z_r", "road.v_ref": "u",
-    "body.m": "m_b", "wheel.m": "m_w", "suspension.c": "c_s", "suspension.d": "d_s", "tyre.c": "c_t",
-    "tyre.d": "d_t", SPRING: "F_NN_c", DAMPER: "F_NN_d",
+    "body.s": "z_b",
+    "body.v": "v_b",
+    "wheel.s": "z_w",
+    "wheel.v": "v_w",
+    "road.s": "z_r",
+    "road.v_ref": "u",
+    "body.m": "m_b",
+    "wheel.m": "m_w",
+    "suspension.c": "c_s",
+    "suspension.d": "d_s",
+    "tyre.c": "c_t",
+    "tyre.d": "d_t",
+    SPRING: "F_NN_c",
+    DAMPER: "F_NN_d",
 }
 """The paper's names."""
 
@@ -38,7 +49,9 @@ def forces(fits: Mapping[str, ac.Fit]) -> Figure:
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
     for ax, name, symbol in ((axes[0], SPRING, "z_s [m]"), (axes[1], DAMPER, "v_s [m/s]")):
         functions = {label: fit.remove_offset()[name] for label, fit in fits.items()}
-        plot.learned(ax, functions, last.seen[name], truth=true[name], xlabel=symbol, ylabel="force [N]")
+        plot.learned(
+            ax, functions, last.seen[name], truth=true[name], xlabel=symbol, ylabel="force [N]"
+        )
     axes[0].set_title("spring: what the linear spring lacks")
     axes[1].set_title("damper: what the linear damper lacks")
     figure.tight_layout()
@@ -55,15 +68,34 @@ def losses(fits: Mapping[str, ac.Fit], levels: Mapping[str, float]) -> Figure:
 
 def trajectories(fit: ac.Fit, ride: Ride, window: tuple[float, float] = (4.0, 8.0)) -> Figure:
     """Travel, speed and acceleration of the body: measured truth, linear model, trained model (figure 4)."""
-    runs = {"linear model": _drive(ac.compile(linear()), None, ride), "PeN-ODE": _drive(fit.system, fit.params, ride)}
+    runs = {
+        "linear model": _drive(ac.compile(linear()), None, ride),
+        "PeN-ODE": _drive(fit.system, fit.params, ride),
+    }
     time = ride.clean.time
     shown = (time >= window[0]) & (time <= window[1])
     figure, axes = plt.subplots(3, 1, figsize=(10, 7.5), sharex=True)
     rows = (("body.s", "z_b [m]"), ("body.v", "v_b [m/s]"), ("body.a", "a_b [m/s²]"))
     for ax, (name, label) in zip(axes, rows, strict=True):
-        ax.plot(time[shown], ride.clean[name][shown], color=plot.TRUTH, lw=2.4, alpha=0.5, label="reference")
-        for (run, solution), style, color in zip(runs.items(), ("--", "-"), plot.LEARNED[1::-1], strict=True):
-            ax.plot(time[shown], np.asarray(solution[name])[shown], style, color=color, lw=1.1, label=run)
+        ax.plot(
+            time[shown],
+            ride.clean[name][shown],
+            color=plot.TRUTH,
+            lw=2.4,
+            alpha=0.5,
+            label="reference",
+        )
+        for (run, solution), style, color in zip(
+            runs.items(), ("--", "-"), plot.LEARNED[1::-1], strict=True
+        ):
+            ax.plot(
+                time[shown],
+                np.asarray(solution[name])[shown],
+                style,
+                color=color,
+                lw=1.1,
+                label=run,
+            )
         ax.set_ylabel(label)
         ax.grid(alpha=0.25)
     axes[0].legend(frameon=False, ncols=3, loc="upper right")

@@ -92,5 +92,7 @@ def loss(system: ac.System, params: dict[str, Any], record: ac.Data, ride: Ride)
         params=params,
         solver="heun",
     )
-    squares = [((np.asarray(solution[n]) - record[n]) / ride.measured[n].std()) ** 2 for n in OUTPUTS]
+    squares = [
+        ((np.asarray(solution[n]) - record[n]) / ride.measured[n].std()) ** 2 for n in OUTPUTS
+    ]
     return float(np.sqrt(np.mean(sum(squares))))

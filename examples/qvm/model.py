@@ -66,7 +66,9 @@ class QuarterVehicle(ac.Component):
         for name, element in extra.items():
             setattr(self, name, element)
         self.wheel = tl.Mass(m=WHEEL * off["wheel.m"])
-        self.tyre = tl.SpringDamper(c=TYRE_STIFFNESS * off["tyre.c"], d=TYRE_DAMPING * off["tyre.d"])
+        self.tyre = tl.SpringDamper(
+            c=TYRE_STIFFNESS * off["tyre.c"], d=TYRE_DAMPING * off["tyre.d"]
+        )
         self.road = tl.Speed(exact=True)
         for element in (self.suspension, *extra.values()):
             self.connect(self.body.flange_b, element.flange_a)
