@@ -56,6 +56,13 @@ from acausal.functions import (
     tanh,
     where,
 )
+from acausal.netlist import (
+    load,
+    save,
+)
+from acausal.netlist_file import (
+    NetlistError,
+)
 from acausal.neural import (
     MLP,
     OffsetCorrected,
@@ -113,6 +120,7 @@ __all__ = [
     "Linearization",
     "ModelError",
     "Module",
+    "NetlistError",
     "OffsetCorrected",
     "Option",
     "Output",
@@ -141,12 +149,14 @@ __all__ = [
     "fit",
     "floor",
     "linearize",
+    "load",
     "log",
     "maximum",
     "minimum",
     "pi",
     "prescribed",
     "remove_offset",
+    "save",
     "sign",
     "simulate",
     "sin",

@@ -20,6 +20,8 @@ from acausal.errors import StructureError
 from acausal.flatten import FlatModel
 from acausal.template import EquationGroup, Integers, Template
 
+MAX_DOUBLINGS = 64
+
 
 @dataclass(frozen=True)
 class AliasFree:
@@ -80,7 +82,7 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
 
 
 def _check_inputs(model: FlatModel, classes: _Classes) -> None:
-    """Inputs are free: no equation may tie one to zero or to another input."""
+    """Inputs are free: no equation may tie one to zero, to another input or to its derivative."""
     seen = {classes.zero: "zero"}
     for variable in model.inputs.tolist():
         root, name = int(classes.root[variable]), model.layout.variable(variable)
@@ -90,6 +92,12 @@ def _check_inputs(model: FlatModel, classes: _Classes) -> None:
                 "connect the input to a source, or remove what prescribes it"
             )
         seen[root] = f"the input '{name}'"
+    for root, told in list(seen.items())[1:]:
+        below = classes.bottom(root)
+        if below != root and below in seen:
+            raise StructureError(
+                f"overdetermined: {told} is made a derivative of {seen[below]}; one of them cannot be free"
+            )
 
 
 def parameter_aliases(model: FlatModel) -> Integers:
@@ -98,11 +106,13 @@ def parameter_aliases(model: FlatModel) -> Integers:
     for binding in model.bindings:
         if binding.expression in binding.symbols:
             target[binding.target] = binding.arguments[0]
-    for _ in range(len(model.bindings) + 1):
+    for _ in range(MAX_DOUBLINGS):
         further = target[target]
         if np.array_equal(further, target):
-            break
+            return target
         target = further
+    circular = np.flatnonzero(target[target] != target)  # told when parameters are laid out
+    target[circular] = circular
     return target
 
 
@@ -183,9 +193,10 @@ class _Classes:
             return True
         if a in self.antecedent and b in self.antecedent:
             return False
-        return self._bottom(a) != self._bottom(b)
+        return self.bottom(a) != self.bottom(b)
 
-    def _bottom(self, root: int) -> int:
+    def bottom(self, root: int) -> int:
+        """The lowest class of the chain of derivatives that a class is in."""
         while root in self.antecedent and root != self.zero:
             root = self.find(self.antecedent[root])[0]
         return root

@@ -139,7 +139,17 @@ def _role(declaration: Variable) -> type:
 
 
 _OWN = frozenset(
-    "_parent _name _modifiers _options _children _dynamic _constants _pending _connections".split()
+    {
+        "_parent",
+        "_name",
+        "_modifiers",
+        "_options",
+        "_children",
+        "_dynamic",
+        "_constants",
+        "_pending",
+        "_connections",
+    }
 )
 """What the framework keeps in a component; all other attributes are the author's."""
 
@@ -329,6 +339,8 @@ class Component:
             raise DeclarationError(
                 f"'{name}' is no name for a part: letters, digits and underscores only"
             )
+        if name == "time":
+            raise DeclarationError("'time' is the time; choose another name")
         if name in self.__dict__:
             raise DeclarationError(f"{self._label()} has a '{name}' already; choose another name")
         if anew and hasattr(type(self), name):
@@ -414,7 +426,10 @@ class Component:
                 self._modifiers[name] = value
             case Parameter():
                 self._modifiers[name] = _value(where, declaration, value)
-                self.__dict__.pop(name, None)
+                if declaration.shape is not None:  # its size may have changed
+                    self.__dict__.pop(name, None)
+                    if name in self._dynamic:
+                        self._read(declaration)
             case _:
                 raise DeclarationError(f"{where} cannot be modified")
 

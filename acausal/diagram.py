@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -56,7 +55,7 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
         _draw_wire(ax, wire, positions, positions[f"#{number}"], color)
     for name, part in model._children.items():
         _draw_box(ax, positions[name], name, type(part).__name__, learned=_learns(part))
-    _frame(ax, positions.values())
+    _frame(ax, list(positions.values()))
     return ax
 
 
@@ -165,8 +164,8 @@ def _draw_box(
     )
 
 
-def _frame(ax: Axes, positions: Iterable[tuple[float, float]]) -> None:
-    xs, ys = zip(*positions, strict=True)
+def _frame(ax: Axes, positions: list[tuple[float, float]]) -> None:
+    xs, ys = zip(*(positions or [(0.0, 0.0)]), strict=True)
     ax.set_xlim(min(xs) - 0.9, max(xs) + 0.9)
     ax.set_ylim(min(ys) - 0.6, max(ys) + 0.6)
     ax.set_axis_off()

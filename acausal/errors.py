@@ -43,9 +43,14 @@ class TrainingError(AcausalError):
     """A training could not start or could not go on."""
 
 
+def shortened(text: str, limit: int = 80) -> str:
+    """A text of at most `limit` characters for a message."""
+    return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
 def listing(names: Iterable[str], limit: int = 12) -> str:
     """Join names for a message: quoted, at most `limit`, the rest counted."""
-    quoted = [f"'{name}'" for name in names]
+    quoted = [f"'{shortened(name)}'" for name in names]
     shown = ", ".join(quoted[:limit])
     return shown if len(quoted) <= limit else f"{shown} and {len(quoted) - limit} more"
 
@@ -53,7 +58,7 @@ def listing(names: Iterable[str], limit: int = 12) -> str:
 def nearest(name: str, known: Iterable[str]) -> str:
     """A clause that names the nearest known name, or the known ones where none is near."""
     candidates = list(known)
-    close = get_close_matches(name, candidates, n=1, cutoff=0.6)
+    close = get_close_matches(name[:200], candidates, n=1, cutoff=0.6)
     if close:
         return f"did you mean '{close[0]}'?"
     if not candidates:

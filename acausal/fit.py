@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -128,6 +129,7 @@ def fit(
     return _result(problem, trained)
 
 
+@cache
 def default_optimizer(epochs: int) -> optax.GradientTransformation:
     """Adam, its rate falling from 0.01 to 0.0001 as a cosine over the epochs."""
     return optax.adam(optax.cosine_decay_schedule(1e-2, epochs, 1e-2))
@@ -195,7 +197,9 @@ class Fit:
         ]
         lines += [f"  modifiers {changes}"] if changes else []
         diverged = self.history.divergences
-        lines += [f"  diverged  sequences in {len(diverged)} epochs"] if diverged else []
+        lines += (
+            [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
+        )
         return "\n".join(lines)
 
 
@@ -225,7 +229,7 @@ def _warn(trained: Trained) -> None:
     diverged = trained.history.divergences
     if diverged:
         warnings.warn(
-            f"Sequences diverged in {len(diverged)} of {trained.history.epochs} epochs and were left out "
+            f"Something diverged in {len(diverged)} of {trained.history.epochs} epochs and was left out "
             f"(fit.history.divergences); first, {diverged[0]}.",
             stacklevel=3,
         )

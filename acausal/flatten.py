@@ -14,6 +14,7 @@ import sympy as sp
 from acausal.component import Component, Connector, element_names
 from acausal.connections import connection_groups, connection_sets, model_inputs
 from acausal.errors import DeclarationError, nearest
+from acausal.functions import COMPUTABLE
 from acausal.symbols import (
     STATE_SELECT,
     Declaration,
@@ -367,8 +368,9 @@ def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list
     try:
         return list(equations())
     except (TypeError, ValueError) as error:
+        reason = str(error).partition("\n")[0]
         raise DeclarationError(
-            f"{component._label()}: its equations cannot be read ({error}). Yield ac.Eq(left, right) from the "
+            f"{component._label()}: its equations cannot be read ({reason}). Yield ac.Eq(left, right) from the "
             "method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
         ) from error
 
@@ -390,6 +392,11 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
     residual = _without_der(equation.lhs - equation.rhs, where)
     if residual.has(sp.nan, sp.oo, -sp.oo, sp.zoo, sp.I):
         raise DeclarationError(f"{where}: all numbers in an equation must be real and finite")
+    for call in residual.atoms(sp.Function):
+        if not isinstance(call, COMPUTABLE):
+            raise DeclarationError(
+                f"{where}: '{call.func}' cannot be computed; use the functions that acausal exports"
+            )
     names: dict[sp.Symbol, sp.Symbol] = {}
     variables: dict[sp.Symbol, tuple[int, tuple[tuple[str, ...], int]]] = {}
     parameters: dict[sp.Symbol, tuple[tuple[str, ...], int]] = {}

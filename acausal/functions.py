@@ -6,7 +6,6 @@ from typing import Any
 
 import sympy as sp
 from sympy import (
-    Abs,
     acos,
     asin,
     atan,
@@ -16,7 +15,6 @@ from sympy import (
     exp,
     log,
     pi,
-    sign,
     sin,
     sinh,
     sqrt,
@@ -24,7 +22,7 @@ from sympy import (
     tanh,
 )
 
-from acausal.symbols import time
+from acausal.symbols import ModuleCall, time
 
 maximum, minimum = sp.Max, sp.Min
 
@@ -61,6 +59,20 @@ def where(condition: Any, value: Any, otherwise: Any) -> sp.Expr:
     return sp.Piecewise((value, condition), (otherwise, True))
 
 
+class Abs(sp.Abs):
+    """The absolute value of a real number (sympy's own expects complex ones, as in ``Abs(log(x))``)."""
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        return sign(self.args[0]) * self.args[0].diff(s)
+
+
+class sign(sp.sign):  # noqa: N801 (a mathematician's name)
+    """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        return sp.S.Zero
+
+
 class floor(sp.floor):  # noqa: N801 (a mathematician's name)
     """The greatest integer not above the argument; piecewise constant, so its derivative counts as zero."""
 
@@ -90,3 +102,31 @@ class Prescribed(sp.Function):
 def prescribed(q: Any, *derivatives: Any) -> sp.Expr:
     """The signal ``q``, whose derivatives in time are these signals, not computed but given."""
     return Prescribed(0, time, q, *derivatives) if derivatives else q
+
+
+COMPUTABLE: tuple[type, ...] = (
+    ModuleCall,
+    Prescribed,
+    sp.Abs,
+    sp.Heaviside,
+    sp.Max,
+    sp.Min,
+    sp.Mod,
+    sp.Piecewise,
+    sp.acos,
+    sp.asin,
+    sp.atan,
+    sp.atan2,
+    sp.ceiling,
+    sp.cos,
+    sp.cosh,
+    sp.exp,
+    sp.floor,
+    sp.log,
+    sp.sign,
+    sp.sin,
+    sp.sinh,
+    sp.tan,
+    sp.tanh,
+)
+"""All functions that may stand in an equation."""

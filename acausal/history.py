@@ -12,12 +12,12 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Divergence:
-    """A sequence that diverged in training and was left out.
+    """Sequences that diverged in an update and were left out, or an update that was rejected.
 
     Attributes:
         epoch: the update.
-        time: where the sequence starts in the record, in seconds.
-        count: sequences that diverged in this update; ``time`` is the first one's.
+        time: where the first such sequence starts in the record, in seconds.
+        count: how many there were; 0 where the gradient was not finite though no sequence diverged.
         rejected: whether the whole update was rejected.
     """
 
@@ -27,8 +27,10 @@ class Divergence:
     rejected: bool
 
     def __str__(self) -> str:
-        others = f" and {self.count - 1} more" if self.count > 1 else ""
         end = "update rejected" if self.rejected else "left out"
+        if self.count == 0:
+            return f"epoch {self.epoch}: the gradient is not finite; {end}"
+        others = f" and {self.count - 1} more" if self.count > 1 else ""
         return f"epoch {self.epoch}: the sequence from t = {self.time:g} s{others} diverged; {end}"
 
 
@@ -42,7 +44,7 @@ class History:
         modifiers: by parameter, its relative change p̃/p − 1 before the update, shape (epochs,).
         seconds: time since the start of the training at the end of each update, shape (epochs,).
         full_loss: loss over the whole record, (epochs done, loss) in rows, shape (k, 2).
-        divergences: the sequences that diverged.
+        divergences: what diverged and was left out.
     """
 
     loss: np.ndarray
@@ -81,7 +83,7 @@ class Log:
                 int(rows.diverged[i]),
                 bool(rows.rejected[i]),
             )
-            for i in np.flatnonzero(rows.diverged).tolist()
+            for i in np.flatnonzero(rows.rejected | (rows.diverged > 0)).tolist()
         ]
         self._entries.append(rows)
         self._seconds.append(started + (ended - started) * np.arange(1, count + 1) / count)

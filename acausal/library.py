@@ -5,7 +5,7 @@ module has a ``CATALOG``, by Modelica's name. These attributes of the module are
 
 - ``CATALOG``: Modelica's packages, each with the Python module that holds its classes and their names, such as
   ``{"Modelica.Blocks.Math": ("blocks", ("Gain", "Add"))}``.
-- ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water}``.
+- ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water()}``.
 - ``ENUMERATIONS``: names of enumeration types; their values are read as the last word, a text.
 
 Installed packages announce theirs as an entry point of the group ``acausal.libraries``.
@@ -13,13 +13,15 @@ Installed packages announce theirs as an entry point of the group ``acausal.libr
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cache, cached_property
 from importlib.metadata import entry_points
 from types import ModuleType
 from typing import Any
 
 from acausal.component import Component, Connector
+from acausal.errors import nearest
+from acausal.symbols import Input, Output
 
 
 @dataclass(frozen=True)
@@ -29,15 +31,19 @@ class Library:
     module: ModuleType
 
     @cached_property
-    def modelica_names(self) -> dict[str, str]:
-        """Modelica's name of a class -> its Python path within the library, for the classes that exist."""
-        catalog: dict[str, tuple[str, tuple[str, ...]]] = getattr(self.module, "CATALOG", {})
+    def catalog(self) -> dict[str, str]:
+        """Modelica's name of a class -> its Python path, whether it exists or not."""
+        packages: dict[str, tuple[str, tuple[str, ...]]] = getattr(self.module, "CATALOG", {})
         return {
             f"{package}.{name}": f"{self.module.__name__}.{place}.{name}"
-            for package, (place, names) in catalog.items()
+            for package, (place, names) in packages.items()
             for name in names
-            if self._python(f"{self.module.__name__}.{place}.{name}") is not None
         }
+
+    @cached_property
+    def modelica_names(self) -> dict[str, str]:
+        """Modelica's name of a class -> its Python path, for the classes that exist."""
+        return {name: path for name, path in self.catalog.items() if self._python(path) is not None}
 
     @cached_property
     def written_names(self) -> dict[type, str]:
@@ -49,26 +55,43 @@ class Library:
 
     def find(self, name: str) -> Any:
         """The class of a full name, or None."""
-        return self._python(self.modelica_names.get(name, name))
+        return self._python(self.catalog.get(name, name))
 
     def name_of(self, cls: type) -> str | None:
         """The full name of a class, or None if it is not of this library."""
         if cls in self.written_names:
             return self.written_names[cls]
-        own = self.module.__name__
-        path = f"{cls.__module__}.{cls.__qualname__}"
-        if cls.__module__ == own or cls.__module__.startswith(f"{own}."):
-            return path if self._python(path) is cls else None
+        modules = cls.__module__.split(".")
+        for length in range(1, len(modules) + 1):  # the shortest path that leads there
+            path = ".".join((*modules[:length], cls.__qualname__))
+            if self._python(path) is cls:
+                return path
         return None
 
     def constant(self, name: str) -> Any:
         """A record, a constant or the value of an enumeration, by its full name; None if there is none."""
         words = name.removesuffix("()").split(".")
-        records: dict[str, Any] = getattr(self.module, "RECORDS", {})
-        if words[-1] in records:
-            return records[words[-1]]
+        if words[-1] in self.records:
+            return self.records[words[-1]]
         enumerations: tuple[str, ...] = getattr(self.module, "ENUMERATIONS", ())
         return words[-1] if len(words) > 1 and words[-2] in enumerations else None
+
+    def constant_name(self, value: Any) -> str | None:
+        """How a record is written, or None if this library does not know it."""
+        for name, record in self.records.items():
+            if type(record) is type(value) and is_dataclass(record):
+                changed = [
+                    f"{field.name.rstrip('_')}={given!r}"
+                    for field in fields(record)
+                    if (given := getattr(value, field.name)) != getattr(record, field.name)
+                ]
+                return f"{name}({', '.join(changed)})"
+        return None
+
+    @cached_property
+    def records(self) -> dict[str, Any]:
+        """Constants and records by the last word of their name."""
+        return getattr(self.module, "RECORDS", {})
 
     def _python(self, path: str) -> Any:
         """A public class by its Python path, reached through the library's own modules only."""
@@ -82,9 +105,34 @@ class Library:
             value = getattr(value, word, None)
             if isinstance(value, ModuleType) and not value.__name__.startswith(f"{own}."):
                 return None
-        return value if isinstance(value, type) and issubclass(value, Component | Connector) else None
+        return value if is_element(value) else None
 
 
+def is_element(value: Any) -> bool:
+    """Whether a file may name this: a class of components or connectors, or a signal."""
+    return isinstance(value, type) and (
+        issubclass(value, Component | Connector) or value in (Input, Output)
+    )
+
+
+def find(libraries: tuple[Library, ...], name: str) -> Any:
+    """The class of a full name.
+
+    Raises:
+        KeyError: with a clause that names the nearest known class.
+    """
+    for library in libraries:
+        found = library.find(name)
+        if found is not None:
+            return found
+    if any(name in library.catalog for library in libraries):
+        raise KeyError("the library does not cover it yet")
+    known = [n for library in libraries for n in library.modelica_names]
+    same = [n for n in known if n.rpartition(".")[2] == name.rpartition(".")[2]]
+    raise KeyError(nearest(name, same or known))
+
+
+@cache
 def installed() -> tuple[Library, ...]:
     """The libraries that installed packages announce."""
     points = sorted(entry_points(group="acausal.libraries"), key=lambda point: point.name)

@@ -169,7 +169,9 @@ def _piecewise(node: sp.Piecewise, visit: Visit) -> Any:
     result: Any = jnp.nan
     for value, condition in reversed(node.args):
         result = (
-            visit(value) if condition is sp.S.true else jnp.where(visit(condition), visit(value), result)
+            visit(value)
+            if condition is sp.S.true
+            else jnp.where(visit(condition), visit(value), result)
         )
     return result
 

@@ -61,7 +61,7 @@ class Problem(eqx.Module):
     sequences: Sequences
     x0: Array | None
     loss: Loss = eqx.field(static=True)
-    regularizers: dict[str, Regularizer] = eqx.field(static=True)
+    regularizers: dict[str, Regularizer]
     context: Context
     solver: Solver = eqx.field(static=True)
     substeps: int = eqx.field(static=True)

@@ -1,19 +1,17 @@
 """Regularizers: what training wants of a model beside fitting the data.
 
-A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace; those here are frozen
-descriptions. Outputs of networks are taken relative to their ``output_scale``, so that weights are pure numbers.
+A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace. Outputs of networks are
+taken relative to their ``output_scale``, so that weights are pure numbers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError, nearest
@@ -35,8 +33,7 @@ class Context(eqx.Module):
 Regularizer = Callable[[Mapping[str, Any], Context], Array]
 
 
-@dataclass(frozen=True, eq=False)
-class ZeroCrossing:
+class ZeroCrossing(eqx.Module):
     """Networks should vanish at zero: ``weight · Σ F(0)²``, the paper's (4).
 
     A network with secondary arguments T is held at zero for all of them: the mean over samples of
@@ -50,7 +47,7 @@ class ZeroCrossing:
     """
 
     weight: float = 0.01
-    networks: tuple[str, ...] | None = None
+    networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
     secondary: Mapping[str, Any] | None = None
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
@@ -60,20 +57,18 @@ class ZeroCrossing:
         return self.weight * _sum(terms)
 
     def _at_zero(self, name: str, network: Any, context: Context) -> Array:
-        given = (self.secondary or {}).get(name)
-        others = (
-            context.arguments[name][:, 1:]
-            if given is None
-            else jnp.asarray(np.atleast_2d(np.asarray(given).T).T)
-        )
+        if self.secondary is not None and name in self.secondary:
+            given = jnp.asarray(self.secondary[name], float)
+            others = given[:, None] if given.ndim == 1 else given
+        else:
+            others = context.arguments[name][:, 1:]
         if others.shape[1] == 0:
             others = others[:1]
         force = jax.vmap(lambda row: network(jnp.zeros(()), *row))(others)
         return jnp.mean((force / output_scale(network)) ** 2)
 
 
-@dataclass(frozen=True)
-class SmallCorrection:
+class SmallCorrection(eqx.Module):
     """Networks should add as little as the data allow: ``weight · Σ mean F²`` over the record.
 
     A prior that fixes what data leave open. In the quarter vehicle, say, one factor on all masses, the tyre and
@@ -85,7 +80,7 @@ class SmallCorrection:
     """
 
     weight: float = 1e-3
-    networks: tuple[str, ...] | None = None
+    networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
         """The penalty."""

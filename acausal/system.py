@@ -206,7 +206,9 @@ class System:
             return jnp.asarray([given.get(name, 0.0) for name in self.inputs], dtype=float)
         values = jnp.asarray(u, dtype=float)
         if values.shape != (len(self.inputs),):
-            raise DataError(f"u has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})")
+            raise DataError(
+                f"u has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"
+            )
         return values
 
     # -- inside --------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -90,14 +90,16 @@ def train(
     interrupted, evaluated, size = False, 0, 1
     try:
         clock = time.perf_counter()
-        program = cast(Any, advance).lower(problem, trainer, state, jnp.asarray(0)).compile()
+        jax.block_until_ready(
+            advance(problem, trainer, state, state.epoch)
+        )  # compiles, and does nothing
         compiling = time.perf_counter() - clock
         while log.epochs < epochs:
             due = min(evaluated + evaluate_every, epochs)
             count = min(size, due - log.epochs, CHUNK)
             clock = time.perf_counter()
             state, entry = jax.block_until_ready(
-                program(problem, trainer, state, jnp.asarray(log.epochs + count))
+                advance(problem, trainer, state, jnp.asarray(log.epochs + count, int))
             )
             ended = time.perf_counter()
             new = log.add(entry, count, clock - began, ended - began)
@@ -136,7 +138,7 @@ def _check_rejections(log: Log, rejected: int) -> None:
     if rejected < PATIENCE:
         return
     first = log.epochs - rejected
-    sequences = [d for d in log.divergences if d.epoch >= first]
+    sequences = [d for d in log.divergences if d.epoch >= first and d.count]
     if sequences:
         what = f"the sequence from t = {sequences[0].time:g} s diverges"
         mend = "Start from smaller networks or better parameters, take shorter sequences, or a smaller dt."

@@ -46,7 +46,9 @@ class _Printer(StrPrinter):
         name = type(expr).__name__
         name = NAMES.get(name, name)
         if name not in FUNCTIONS:
-            raise DeclarationError(f"a file cannot hold the function {name}; expressions know {', '.join(FUNCTIONS)}")
+            raise DeclarationError(
+                f"a file cannot hold the function {name}; expressions know {', '.join(FUNCTIONS)}"
+            )
         return f"{name}({', '.join(self._print(a) for a in expr.args)})"
 
     _print_Abs = _print_Max = _print_Min = _print_floor = _print_Function
@@ -54,7 +56,9 @@ class _Printer(StrPrinter):
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
         *pieces, (last, condition) = expr.args
         if condition != sp.true:
-            raise DeclarationError("a file cannot hold an expression that is defined piece by piece with gaps")
+            raise DeclarationError(
+                "a file cannot hold an expression that is defined piece by piece with gaps"
+            )
         text = "".join(f"if {self._print(c)} then {self._print(v)} else " for v, c in pieces)
         return f"({text}{self._print(last)})"
 

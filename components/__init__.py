@@ -12,3 +12,34 @@
 The library is written as a user writes one: it knows the rest of the package only as
 ``import acausal as ac``.
 """
+
+from importlib import import_module
+from typing import Any
+
+from .modelica import CATALOG, ENUMERATIONS
+
+__all__ = [
+    "CATALOG",
+    "ENUMERATIONS",
+    "RECORDS",
+    "blocks",
+    "electrical",
+    "fluid",
+    "magnetic",
+    "neural",
+    "rotational",
+    "thermal",
+    "translational",
+]
+
+RECORDS: dict[str, Any]
+"""Media, materials and material constants, by the last word of their Modelica name."""
+
+
+def __getattr__(name: str) -> Any:
+    """The packages are imported when they are asked for."""
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name == "RECORDS":
+        return import_module(f"{__name__}.records").RECORDS
+    return import_module(f"{__name__}.{name}")

@@ -17,6 +17,7 @@ from jax import Array
 import acausal as ac
 from acausal.lower import ModuleValue, evaluate
 from acausal.parameters import Packed
+from acausal.reduce import Loop
 from acausal.symbols import time
 from acausal.template import EquationGroup, Integers
 
@@ -25,56 +26,77 @@ Signal = Callable[[Any, Array, Array], Array]
 
 
 def residuals(system: ac.System, t: float, x: Any, u: Any, params: Any = None) -> dict[str, float]:
-    """Largest absolute residual of the flat equations, by ``component: equation`` as written."""
-    packed = system.pack(params)
-    t, x, u = jnp.asarray(float(t)), jnp.asarray(x, dtype=float), jnp.asarray(u, dtype=float)
-    found: dict[str, float] = {}
-    for group in system.flat.groups:
-        rest = np.abs(_residual(system, group, packed, t, x, u))
-        for component, value in zip(group.components.tolist(), rest.tolist(), strict=True):
-            place = system.flat.layout.paths[component] if component >= 0 else "connection"
-            name = f"{place} ({group.template.origin})"
-            # NaN must win
-            found[name] = value if not value <= found.get(name, 0.0) else found.get(name, 0.0)
-    return found
+    """Largest absolute residual of the flat equations, by ``component (equation as written)``."""
+    rest = _all(system, system.pack(params))(t, x, u)
+    return _by_name(system, rest)
 
 
 def worst(system: ac.System, seed: int = 0, points: int = 2, params: Any = None) -> float:
     """Largest residual, relative to the largest value in the model, at random points."""
     rng = np.random.default_rng(seed)
+    packed = system.pack(params)
+    evaluate_all = _all(system, packed)
     result = 0.0
     for _ in range(points):
         x = rng.uniform(0.2, 1.0, len(system.states))
         u = rng.uniform(0.2, 1.0, len(system.inputs))
         t = float(rng.uniform(0.1, 0.9))
-        found = residuals(system, t, x, u, params)
-        scale = 1.0
-        if system.variables:
-            values = system.observe(system.variables, t, x, u, system.pack(params))
-            scale = max(1.0, float(np.abs(np.asarray(values)).max()))
-        largest = max(found.values(), default=0.0, key=lambda r: (np.isnan(r), r))
-        result = max(result, largest / scale, key=lambda r: (np.isnan(r), r))
+        largest = float(np.max([0.0, *_by_name(system, evaluate_all(t, x, u)).values()]))
+        result = float(np.max([result, largest / max(1.0, np.abs(x).max(initial=0.0))]))
     return result
 
 
+def _all(system: ac.System, packed: Packed) -> Callable[[Any, Any, Any], list[Array]]:
+    """Residuals of all groups; compiled where the model has loops that would be compiled one by one."""
+
+    resolved = [system.reduced.resolve(v) for v in range(system.flat.n_variables)]
+    nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
+    highest = max((n for g in system.flat.groups for n in g.template.orders), default=0)
+
+    def every(t: Any, x: Array, u: Array) -> Array:
+        return signs * system.program.values(nodes, t, x, u, packed) if nodes else jnp.zeros(0)
+
+    def evaluate_all(t: Any, x: Any, u: Any) -> list[Array]:
+        t, x, u = (jnp.asarray(v, dtype=float) for v in (t, x, u))
+        signals = [every]
+        for _ in range(highest):
+            signals.append(_along(system, packed, signals[-1]))
+        values = [signal(t, x, u) for signal in signals]
+        return [_residual(system, group, packed, t, values) for group in system.flat.groups]
+
+    loops = [s for s in system.reduced.steps if isinstance(s, Loop) and not s.shape.is_linear]
+    return jax.jit(evaluate_all) if loops else evaluate_all
+
+
+def _by_name(system: ac.System, rest: list[Array]) -> dict[str, float]:
+    found: dict[str, float] = {}
+    for group, values in zip(system.flat.groups, rest, strict=True):
+        for component, value in zip(group.components.tolist(), np.abs(values), strict=True):
+            place = system.flat.layout.paths[component] if component >= 0 else "connection"
+            name = f"{place} ({group.template.origin})"
+            found[name] = float(np.max([found.get(name, 0.0), value]))  # NaN wins
+    return found
+
+
 def _residual(
-    system: ac.System, group: EquationGroup, packed: Packed, t: Any, x: Any, u: Any
-) -> np.ndarray:
+    system: ac.System, group: EquationGroup, packed: Packed, t: Any, values: list[Array]
+) -> Array:
+    """One group's equations; ``values[n]`` are the n-th derivatives of all variables."""
     columns: dict[Any, Any] = {time: t}
     template = group.template
     for i, (symbol, order) in enumerate(zip(template.variables, template.orders, strict=True)):
-        columns[symbol] = _values(system, group.variables[:, i], order, packed)(t, x, u)
+        columns[symbol] = values[order][group.variables[:, i]]
     for i, symbol in enumerate(template.parameters):
         columns[symbol] = _parameters(system, group.parameters[:, i], packed)
     if not template.modules:
-        return np.broadcast_to(evaluate(template.residual, columns), (len(group),))
+        return jnp.broadcast_to(evaluate(template.residual, columns), (len(group),))
     rows = []
     for row in range(len(group)):
         one = {s: v if jnp.ndim(v) == 0 else v[row] for s, v in columns.items()}
         modules = zip(template.modules, group.modules[row], strict=True)
         one |= {s: ModuleValue(packed.modules[int(m)]) for s, m in modules}
         rows.append(evaluate(template.residual, one))
-    return np.asarray(rows)
+    return jnp.stack(rows)
 
 
 def _parameters(system: ac.System, indices: Integers, packed: Packed) -> Array:
@@ -87,24 +109,14 @@ def _parameters(system: ac.System, indices: Integers, packed: Packed) -> Array:
     return jnp.stack(kept)
 
 
-def _values(system: ac.System, variables: Integers, order: int, packed: Packed) -> Signal:
-    """The variables, ``order`` times differentiated along the vector field."""
-    resolved = [system.reduced.resolve(int(v)) for v in variables]
-    nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
+def _along(system: ac.System, packed: Packed, signal: Signal) -> Signal:
+    """The derivative of a signal along the vector field."""
 
-    def value(t: Any, x: Array, u: Array) -> Array:
-        return signs * system.program.values(nodes, t, x, u, packed)
+    def slope(t: Any, x: Array, u: Array) -> Array:
+        rates = system.program.vector_field(t, x, u, packed), _input_rates(system, u)
+        return jax.jvp(signal, (t, x, u), (jnp.ones_like(t), *rates))[1]
 
-    def along(function: Signal) -> Signal:
-        def slope(t: Any, x: Array, u: Array) -> Array:
-            rates = system.program.vector_field(t, x, u, packed), _input_rates(system, u)
-            return jax.jvp(function, (t, x, u), (jnp.ones_like(t), *rates))[1]
-
-        return slope
-
-    for _ in range(order):
-        value = along(value)
-    return value
+    return slope
 
 
 def _input_rates(system: ac.System, u: Array) -> Array:

@@ -75,7 +75,8 @@ DEFAULTS: dict[str, dict[str, Any]] = {
     "ConstantSpeed": {"v_fixed": ..., "useSupport": False},
     "ForceStep": {"stepForce": ..., "offsetForce": ..., "startTime": 0, "useSupport": False},
     "EddyCurrentForce": {
-        "useF_nominalInput": False, "f_nominal": 0, "v_nominal": ..., "TRef": ..., "alpha20": ...,
+        "useExcitationInput": False, "constantExcitation": 1, "f_nominal": ..., "v_nominal": ...,
+        "TRef": ..., "alpha20": ...,
         "T": 293.15, "useHeatPort": False, "useSupport": False,
     },
 }  # fmt: skip
@@ -140,7 +141,9 @@ def test_every_class_has_as_many_equations_as_unknowns(name):
         tl.GeneralForceToPositionAdaptor(use_pder2=False),
         tl.GeneralForceToPositionAdaptor(use_pder=False),
         tl.GeneralPositionToForceAdaptor(use_pder=False),
-        tl.EddyCurrentForce(v_nominal=1, TRef=293.15, alpha20=0.004, useF_nominalInput=True),
+        tl.EddyCurrentForce(
+            f_nominal=1, v_nominal=1, TRef=293.15, alpha20=0.004, useExcitationInput=True
+        ),
     ],
     ids=repr,
 )
@@ -560,7 +563,7 @@ def test_prescribed_motions_are_followed_exactly(drives, mass):
 
 def test_constant_speed(drives):
     assert np.allclose(drives["masses[5].s"], 0.5 * drives.t, atol=1e-6)
-    assert np.allclose(drives["adaptor.f"], -12 * drives.t, atol=1e-6)
+    assert np.allclose(drives["adaptor.f"], 12 * drives.t, atol=1e-6)
 
 
 def test_a_filtered_position_follows_closely(drives):

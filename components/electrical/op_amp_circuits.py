@@ -112,9 +112,9 @@ class Add(_TwoInputs, _Inverting):
 
 
 class Feedback(_TwoInputs):
-    """Difference: ``v2 = -k (v1 - v1_2)``."""
+    """Difference: ``v2 = -(v1 - v1_2)/k``; as in Modelica ``R3 = R1/k``, although it calls ``k`` the gain."""
 
-    k = ac.Parameter(1.0, min=0, doc="gain")
+    k = ac.Parameter(1.0, min=0, doc="inverse of the gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the inputs")
     R3 = ac.Parameter(lambda self: self.R1 / self.k, unit="Ohm", doc="resistance, computed")
 

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 import acausal as ac
 from acausal.components.laws import SMOOTHNESS, lookup
 from acausal.components.thermal import HeatPort
@@ -91,13 +93,13 @@ class _Lossy(ac.Component):
     def modify(self, **modifiers: Any) -> None:
         """Set parameters, options and starts by name; a ``lossTable`` decides on ``ideal``."""
         if "lossTable" in modifiers:
-            rows = [tuple(row) for row in modifiers["lossTable"]]
-            if any(len(row) != len(LOSSLESS) for row in rows):
+            table = np.asarray(modifiers["lossTable"], dtype=object)
+            if table.ndim != 2 or table.shape[1] != len(LOSSLESS):
                 raise ac.DeclarationError(
                     f"{type(self).__name__}.lossTable needs rows of 5 numbers: |w_a|, eta_mf1, "
-                    f"eta_mf2, |tau_bf1|, |tau_bf2|; got {[len(row) for row in rows]}"
+                    f"eta_mf2, |tau_bf1|, |tau_bf2|; its shape is {table.shape}"
                 )
-            modifiers = {"ideal": rows == [LOSSLESS], **modifiers}
+            modifiers = {"ideal": bool(np.array_equal(table, [LOSSLESS])), **modifiers}
         super().modify(**modifiers)
 
 

@@ -92,9 +92,9 @@ class GeneralForceToPositionAdaptor(ac.Component):
 
 
 class GeneralPositionToForceAdaptor(ac.Component):
-    """A flange as signals, motion in, force out: ``flange.s = p``, ``f = flange.f``.
+    """A flange as signals, motion in, force out: ``flange.s = p``, ``f = -flange.f``.
 
-    With ``use_pder`` and ``use_pder2`` the inputs ``pder`` and ``pder2`` are taken for the derivatives
+    ``f`` [N] drives what is connected to the flange. With ``use_pder`` and ``use_pder2`` the inputs ``pder`` and ``pder2`` are taken for the derivatives
     of ``p`` wherever the model needs them; without, ``p`` is differentiated.
     """
 
@@ -104,14 +104,14 @@ class GeneralPositionToForceAdaptor(ac.Component):
     p = ac.Input(unit="m", doc="position")
     pder = ac.Input(unit="m/s", when="use_pder", doc="speed, consistent with p")
     pder2 = ac.Input(unit="m/s2", when="_with_pder2", doc="acceleration, consistent with pder")
-    f = ac.Output(unit="N", doc="force")
+    f = ac.Output(unit="N", doc="force that drives what is connected, = -flange.f")
 
     @property
     def _with_pder2(self) -> bool:
         return self.use_pder and self.use_pder2
 
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.f, self.flange.f)
+        yield ac.Eq(self.f, -self.flange.f)
         rates = [self.pder] if self.use_pder else []
         rates += [self.pder2] if self._with_pder2 else []
         yield ac.Eq(self.flange.s, ac.prescribed(self.p, *rates))

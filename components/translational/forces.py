@@ -4,7 +4,13 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components.laws import REGULARIZATION, regularized_sign
+from acausal.components.laws import (
+    REGULARIZATION,
+    eddy_current,
+    inverse,
+    regularized_sign,
+    temperature_factor,
+)
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPort
 
 from .interfaces import (
@@ -113,12 +119,8 @@ class InverseSpeedDependentForce(_NominalForce):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        fast = ac.maximum(ac.Abs(self.v), self.v0)
-        force = self.f_nominal * self.v_nominal / fast
-        if not self.ForceDirection:
-            slow = self.f_nominal * self.v / self.v0
-            force = ac.where(ac.Abs(self.v) < self.v0, slow, force * ac.where(self.v < 0, -1, 1))
-        yield ac.Eq(self.f, -force)
+        shape = inverse(self.v, self.v_nominal, self.v0, one_way=self.ForceDirection)
+        yield ac.Eq(self.f, -self.f_nominal * shape)
 
 
 class SignForce(PartialSpeedDependentForce):
@@ -137,28 +139,32 @@ class SignForce(PartialSpeedDependentForce):
         yield ac.Eq(self.f, -self.f_nominal * regularized_sign(self.v, self.v0, self.reg))
 
 
-class EddyCurrentForce(PartialSpeedDependentForce, PartialElementaryConditionalHeatPort):
-    """Eddy current brake (Kloss): ``f = 2 f_nominal r/(1 + r**2)``, always against the motion.
+class EddyCurrentForce(PartialElementaryOneFlangeAndSupport2, PartialElementaryConditionalHeatPort):
+    """Eddy current brake (Kloss): ``f = 2 f_max r/(1 + r**2)``, always against the motion.
 
-    ``r = v_normalized = v/(v_nominal (1 + alpha (TheatPort - TRef)))`` with the temperature coefficient
-    ``alpha = alpha20/(1 + alpha20 (TRef - 293.15))``; ``lossPower = f v``. With
-    ``useF_nominalInput`` the input ``f_input`` [N] takes the place of ``f_nominal``.
+    ``f = flange.f``, unlike the other forces. ``f_max = excitation**2 f_nominal`` with the input
+    ``excitation`` where there is one (``useExcitationInput``), else ``constantExcitation``.
+    ``r = v_normalized = v/(v_nominal (1 + alpha (TheatPort - TRef)))`` with the temperature
+    coefficient ``alpha`` of `acausal.components.laws.temperature_factor`; ``lossPower = f v``.
     """
 
-    useF_nominalInput = ac.Option(False, doc="whether f_input replaces f_nominal")
-    f_nominal = ac.Parameter(0.0, unit="N", doc="greatest force")
+    useExcitationInput = ac.Option(False, doc="whether excitation is an input")
+    constantExcitation = ac.Parameter(1.0, doc="relative excitation without input")
+    f_nominal = ac.Parameter(unit="N", doc="greatest force at full excitation")
     v_nominal = ac.Parameter(unit="m/s", min=0, doc="speed of the greatest force at TRef")
     TRef = ac.Parameter(unit="K", min=0, doc="reference temperature")
     alpha20 = ac.Parameter(unit="1/K", doc="temperature coefficient of the material at 20 degC")
-    f_input = ac.Input(unit="N", when="useF_nominalInput", doc="greatest force")
+    excitation = ac.Input(when="useExcitationInput", doc="relative excitation; 1 for f_nominal")
+    f = ac.Variable(unit="N", doc="braking force, = flange.f")
+    v = ac.Variable(unit="m/s", doc="speed of the flange relative to the support")
     v_normalized = ac.Variable(doc="speed over that of the greatest force")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        greatest = self.f_input if self.useF_nominalInput else self.f_nominal
-        alpha = self.alpha20 / (1 + self.alpha20 * (self.TRef - 293.15))
-        heated = 1 + alpha * (self.TheatPort - self.TRef)
-        r = self.v_normalized
-        yield ac.Eq(r, self.v / (self.v_nominal * heated))
-        yield ac.Eq(self.f, 2 * greatest * r / (1 + r**2))
+        excitation = self.excitation if self.useExcitationInput else self.constantExcitation
+        warmed = temperature_factor(self.TheatPort, self.TRef, self.alpha20)
+        yield ac.Eq(self.f, self.flange.f)
+        yield ac.Eq(self.v, ac.der(self.s))
+        yield ac.Eq(self.v_normalized, self.v / (self.v_nominal * warmed))
+        yield ac.Eq(self.f, excitation**2 * self.f_nominal * eddy_current(self.v_normalized))
         yield ac.Eq(self.lossPower, self.f * self.v)

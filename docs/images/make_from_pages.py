@@ -15,7 +15,7 @@ sys.path.insert(0, str(ROOT))
 
 from tests.test_docs import blocks  # noqa: E402
 
-PAGES = ("getting-started.md", "how-it-works.md")
+PAGES = ("getting-started.md", "quarter-vehicle.md")
 
 
 def main() -> None:

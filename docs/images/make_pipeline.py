@@ -39,6 +39,10 @@ path { stroke: #44525f; fill: none; stroke-width: 1.4 }
 """
 
 
+TIP = """<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">
+<path d="M0.5,0.5 L7,4 L0.5,7.5"/></marker></defs>"""
+
+
 def rows(system: ac.System) -> list[tuple[str, str, str, str]]:
     """Verb, form and its size, and what the suspension's force is in it."""
     flat, reduced, program = system.flat, system.reduced, system.program
@@ -47,7 +51,12 @@ def rows(system: ac.System) -> list[tuple[str, str, str, str]]:
     suspension, tyre = group.variables.tolist()
     step = next(i for i in program.instructions if "c*s_rel" in str(getattr(i, "expression", "")))
     return [
-        ("declare", "Component", "a tree of components and connections", "f = c (s_rel − s_rel0) + d v_rel"),
+        (
+            "declare",
+            "Component",
+            "a tree of components and connections",
+            "f = c (s_rel − s_rel0) + d v_rel",
+        ),
         (
             "flatten",
             "FlatModel",
@@ -77,25 +86,31 @@ def draw(system: ac.System) -> str:
     table = rows(system)
     height = TOP + ROW * len(table) + 14
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}" '
-        'role="img" aria-label="The pipeline: declare, flatten, reduce, generate, initialize, simulate, fit">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" role="img">',
+        "<title>The pipeline: declare, flatten, reduce, generate, initialize, simulate, fit</title>",
         f"<style>{STYLE}</style>",
-        '<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
-        '<path d="M0.5,0.5 L7,4 L0.5,7.5"/></marker></defs>',
+        TIP,
         f'<rect class="panel" x="1" y="1" width="{WIDTH - 2}" height="{height - 2}" rx="10"/>',
     ]
     for x, head in ((FORM, "its result"), (VALUE, "the suspension's force in it")):
         parts.append(f'<text class="head" x="{x}" y="{TOP - 24}">{escape(head)}</text>')
-    parts.append(f'<text class="head" x="{LEFT + BOX[0] / 2}" y="{TOP - 24}" text-anchor="middle">stage</text>')
+    parts.append(
+        f'<text class="head" x="{LEFT + BOX[0] / 2}" y="{TOP - 24}" text-anchor="middle">stage</text>'
+    )
     centre = LEFT + BOX[0] / 2
     for i, (verb, form, note, value) in enumerate(table):
         y = TOP + ROW * i
         if i % 2 == 0:
-            parts.append(f'<rect class="stripe" x="{FORM - 14}" y="{y - 11}" width="{WIDTH - FORM - 6}" height="{ROW}" rx="6"/>')
-        parts.append(f'<rect class="box" x="{LEFT}" y="{y}" width="{BOX[0]}" height="{BOX[1]}" rx="7"/>')
+            size = f'width="{WIDTH - FORM - 6}" height="{ROW}"'
+            parts.append(f'<rect class="stripe" x="{FORM - 14}" y="{y - 11}" {size} rx="6"/>')
+        parts.append(
+            f'<rect class="box" x="{LEFT}" y="{y}" width="{BOX[0]}" height="{BOX[1]}" rx="7"/>'
+        )
         parts.append(f'<text class="verb" x="{centre}" y="{y + 24}">{verb}</text>')
         if i + 1 < len(table):
-            parts.append(f'<path d="M{centre},{y + BOX[1]} V{y + ROW - 2}" marker-end="url(#tip)"/>')
+            parts.append(
+                f'<path d="M{centre},{y + BOX[1]} V{y + ROW - 2}" marker-end="url(#tip)"/>'
+            )
         parts.append(f'<text x="{FORM}" y="{y + 16}">{escape(form)}</text>')
         parts.append(f'<text class="note" x="{FORM}" y="{y + 34}">{escape(note)}</text>')
         parts.append(f'<text class="code" x="{VALUE}" y="{y + 24}">{escape(value)}</text>')
@@ -112,7 +127,9 @@ def _derive(reduce: int, generate: int) -> list[str]:
         f'<text class="note" x="{x + width / 2}" y="{y + 37}" text-anchor="middle">sympy, per template</text>',
     ]
     for target, side in ((reduce + 19, y + 14), (generate + 19, y + 32)):
-        parts.append(f'<path class="dash" d="M{x},{side} H{x - 18} V{target} H{x - 34}" marker-end="url(#tip)"/>')
+        parts.append(
+            f'<path class="dash" d="M{x},{side} H{x - 18} V{target} H{x - 34}" marker-end="url(#tip)"/>'
+        )
     return parts
 
 

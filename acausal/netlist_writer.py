@@ -1,0 +1,323 @@
+"""Write: a component tree becomes a netlist document.
+
+What came from a file and is unchanged is written as it stood there. Of a part whose class is in a library its name is
+written and how it differs from a fresh one; any other part is written as a subsystem.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from acausal.component import Component, Connector
+from acausal.errors import ModelError
+from acausal.library import Library
+from acausal.netlist_file import EXPERIMENT_KEYS, NetlistError, within
+from acausal.netlist_model import START_KEYS, Netlist, arguments_of, state
+from acausal.symbols import (
+    Input,
+    Module,
+    Option,
+    Output,
+    Parameter,
+    Reference,
+    Start,
+    Variable,
+    references,
+)
+from acausal.written import written
+
+LEADING = ("start_time", "stop_time", "compare")
+"""Keys of an experiment that come before the model."""
+
+
+class Writer:
+    """Writes a component tree as a document."""
+
+    def __init__(self, libraries: tuple[Library, ...]) -> None:
+        self.libraries = libraries
+
+    def model(self, model: Component) -> dict[str, Any]:
+        """The document of a composite.
+
+        Raises:
+            NetlistError: in one sentence, for what a file cannot hold.
+        """
+        read = model if isinstance(model, Netlist) else None
+        if read is None:
+            _check_statements(model)
+        experiment = read._experiment if read else {}
+        connectors = self._connectors(model)
+        placed = {n: {"class": connectors.pop(n)} for n in (read._placed if read else ())}
+        parts = {name: self._part(model, name, part) for name, part in model._children.items()}
+        sections = {
+            "parameters": self._parameters(model),
+            "connectors": connectors,
+            "components": {**placed, **parts},
+            "connections": _connections(model),
+            "initial_equations": [text for text, _ in read._initial] if read else [],
+        }
+        document: dict[str, Any] = {"model": read._title if read else type(model).__name__}
+        if read and not read._title:
+            del document["model"]
+        document |= {key: experiment[key] for key in LEADING if key in experiment}
+        document |= {key: section for key, section in sections.items() if section}
+        return document | {key: experiment[key] for key in EXPERIMENT_KEYS if key in experiment}
+
+    # -- what a model declares -----------------------------------------------------------------------
+
+    def _parameters(self, model: Component) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        texts = model._texts if isinstance(model, Netlist) else {}
+        for (part, name), (raw, before) in texts.items():
+            if not part:
+                kept = _same(before, state(model, name)) or name in model._steady
+                found[name] = raw if kept else self._parameter(model, name)
+        for name, declared in model._declarations():
+            if isinstance(declared, Parameter) and name not in found:
+                found[name] = self._parameter(model, name)
+        return found
+
+    def _parameter(self, model: Component, name: str) -> Any:
+        declared = model._declared.get(name) or model._dynamic.get(name)
+        if not isinstance(declared, Parameter):
+            return self._json(model, model._constants[name], name)
+        value = model._modifiers.get(name, declared.default)
+        if not _is_within(model, value):  # given from outside: the enclosing model says so
+            value = declared.default
+        if callable(value) and not isinstance(value, sp.Expr):
+            value = value(model)
+        text = None if value is None else self._json(model, value, name)
+        attributes = {
+            key: given
+            for key in ("unit", "min", "max")
+            if (given := getattr(declared, key)) not in ("", None)
+        }
+        return {"=": text, **attributes} if attributes and declared.shape is None and text is not None else text
+
+    def _connectors(self, model: Component) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for name, declared in model._declarations():
+            where = f"{model._label()}.{name}"
+            if isinstance(declared, Connector):
+                found[name] = self._class(type(declared), where)
+            elif isinstance(declared, Input | Output) and declared.shape is None:
+                kind = self._class(Input if isinstance(declared, Input) else Output, where)
+                found[name] = {"class": kind, "unit": declared.unit} if declared.unit else kind
+            elif isinstance(declared, Variable | Module) and not isinstance(model, Netlist):
+                raise NetlistError(f"{where}: a file holds parts, parameters and scalar signals; "
+                                   f"put {type(model).__name__} into a library")
+        return found
+
+    # -- parts ---------------------------------------------------------------------------------------
+
+    def _part(self, model: Component, name: str, part: Component) -> dict[str, Any]:
+        texts: Mapping[tuple[str, str], tuple[Any, Any]]
+        texts = model._texts if isinstance(model, Netlist) else {}
+        cls = None if isinstance(part, Netlist) else self._public(type(part))
+        if cls is not None:
+            entry: dict[str, Any] = {"class": self._class(cls, part._label())}
+            changed = self._modifiers(model, part, cls)
+        elif part._children:
+            entry = self.model(part)
+            changed = {
+                key: self._json(model, value, f"{part._label()}.{key}")
+                for key, value in part._modifiers.items()
+                if not _is_within(part, value)
+            }
+        else:
+            self._class(type(part), part._label())
+            raise AssertionError
+        given: dict[str, Any] = {}
+        for key in dict.fromkeys((*(k for owner, k in texts if owner == name), *changed)):
+            kept = (name, key) in texts and _same(texts[name, key][1], state(part, key))
+            if kept:
+                given[key] = texts[name, key][0]
+            elif key in changed:
+                given[key] = changed[key]
+        return {**entry, "with": given} if given else entry
+
+    def _modifiers(self, model: Component, part: Component, cls: Any) -> dict[str, Any]:
+        """What a part of a library must be given to become what it is."""
+        made = model._made.get(part._name) if isinstance(model, Netlist) else None
+        arguments = made or self._arguments(part, cls)
+        try:
+            fresh = cls(**arguments)
+        except Exception:  # whatever a constructor does not like
+            raise _unwritable(part) from None
+        found = {
+            key: self._json(model, value, f"{part._label()}.{key}", cls._declared.get(key))
+            for key, value in arguments.items()
+            if not isinstance(cls._declared.get(key), Option) or value != cls._declared[key].default
+        }
+        return found | self._differences(model, part, fresh, (part, fresh))
+
+    def _arguments(self, part: Component, cls: Any) -> dict[str, Any]:
+        """Options, vectors, and arguments of the class that became attributes of the part's own class."""
+        found = dict(part._options)
+        for name, value in part._modifiers.items():
+            declared = cls._declared.get(name)
+            if isinstance(declared, Parameter) and declared.shape is not None:
+                found[name] = value
+        for name in arguments_of(cls):
+            own = getattr(type(part), name, None)
+            if own is not getattr(cls, name, None):
+                found[name] = own
+        return found
+
+    def _differences(
+        self, model: Component, part: Component, fresh: Component, roots: tuple[Component, Component]
+    ) -> dict[str, Any]:
+        """Modifiers that make a fresh part, and the parts within, equal to this one."""
+        alike = [(n, type(c)) for n, c in part._children.items()] == [
+            (n, type(c)) for n, c in fresh._children.items()
+        ]
+        constants = [
+            _comparable(root, c._constants) for root, c in zip(roots, (part, fresh), strict=True)
+        ]
+        if not alike or len(part._connections) != len(fresh._connections) or constants[0] != constants[1]:
+            raise _unwritable(part)
+        found: dict[str, Any] = {}
+        given = {**part._options, **part._modifiers}
+        before = {**fresh._options, **fresh._modifiers}
+        for key, value in given.items():
+            if key in before and _comparable(roots[0], value) == _comparable(roots[1], before[key]):
+                continue
+            text = self._json(model, value, f"{part._label()}.{key}", part._declared.get(key))
+            connector, _, variable = key.partition(".")
+            if variable:
+                found.setdefault(connector, {})[variable] = text
+            else:
+                found[key] = text
+        for name, child in part._children.items():
+            inner = self._differences(model, child, fresh._children[name], roots)
+            if inner:
+                found[name] = inner
+        return found
+
+    def _public(self, cls: Any) -> Any:
+        """The class of a library that a part is made from, or None."""
+        for base in cls.__mro__:
+            if base.__qualname__ == cls.__qualname__ and base.__module__ == cls.__module__:
+                if any(library.name_of(base) for library in self.libraries):
+                    return base
+        return None
+
+    def _class(self, cls: type, where: str) -> str:
+        for library in self.libraries:
+            name = library.name_of(cls)
+            if name is not None:
+                return name
+        raise NetlistError(f"{where}: class {cls.__name__} is in no library; pass libraries=[...]")
+
+    # -- values --------------------------------------------------------------------------------------
+
+    def _json(self, model: Component, value: Any, where: str, declared: Any = None) -> Any:
+        match value:
+            case bool() | int() | float():
+                return value
+            case str():
+                choices = declared.choices if isinstance(declared, Option) else None
+                return value if value in (choices or ()) else f'"{value}"'
+            case Start():
+                return self._start(model, value, where)
+            case np.ndarray():
+                return self._json(model, value.tolist(), where)
+            case list() | tuple():
+                return [self._json(model, v, where) for v in cast(Sequence[Any], value)]
+            case sp.Expr() if value.is_number:
+                return float(value)
+            case sp.Expr():
+                names = {r: sp.Symbol(_path(model, r, where), real=True) for r in references(value)}
+                return within(where, lambda: written(value.xreplace(names)))
+            case type():
+                return self._class(value, where)
+            case _:
+                for library in self.libraries:
+                    name = library.constant_name(value)
+                    if name is not None:
+                        return name
+                raise NetlistError(f"{where}: a file cannot hold {value!r:.60}")
+
+    def _start(self, model: Component, start: Start, where: str) -> dict[str, Any]:
+        given = {key: getattr(start, name) for key, name in START_KEYS.items()}
+        state = {"stateSelect": f"StateSelect.{start.state}"} if start.state is not None else {}
+        return {
+            key: self._json(model, value, where)
+            for key, value in given.items()
+            if value is not None and key != "stateSelect"
+        } | state
+
+
+def _check_statements(model: Component) -> None:
+    for stated in (model.equations, model.initial_equations):
+        if next(iter(stated()), None) is not None:
+            raise NetlistError(
+                f"{model._label()} states equations of its own, which a file cannot hold; "
+                "put its class into a library, or the equations into a part of a library"
+            )
+
+
+def _connections(model: Component) -> list[list[str]]:
+    """What the file connected, then what was connected since."""
+    found: list[list[str]] = []
+    count = 0
+    if isinstance(model, Netlist):
+        found = [list(pair) for pair, _ in model._wires]
+        count = sum(made for _, made in model._wires)
+    where = model._label()
+    return found + [[_path(model, end, where) for end in pair] for pair in model._connections[count:]]
+
+
+def _path(model: Component, end: Any, where: str) -> str:
+    """Dotted name of an endpoint or reference, seen from a model.
+
+    Raises:
+        NetlistError: if it lies outside of the model.
+    """
+    owner, local = (end.owner, end.path) if isinstance(end, Reference) else (end._owner, end._name)
+    names = [local]
+    while owner is not model:
+        if owner is None:
+            raise NetlistError(f"{where} refers to '{local}', which is not part of {model._label()}")
+        names.append(owner._name)
+        owner = owner._parent
+    return ".".join(reversed(names))
+
+
+def _is_within(model: Component, value: Any) -> bool:
+    """Whether all references of a value lie within a model."""
+    if isinstance(value, list | tuple | np.ndarray):
+        return all(_is_within(model, v) for v in cast(Sequence[Any], value))
+    if not isinstance(value, sp.Expr):
+        return True
+    owners = [reference.owner for reference in references(value)]
+    return all(owner is model or model in owner._ancestors() for owner in owners)
+
+
+def _comparable(root: Component, value: Any) -> Any:
+    """A value with names instead of references, so that those of like parts are equal."""
+    match value:
+        case sp.Expr() if _is_within(root, value):
+            names = {r: sp.Symbol(_path(root, r, "")) for r in references(value)}
+            return value.xreplace(names)
+        case list() | tuple() | np.ndarray():
+            return [_comparable(root, v) for v in cast(Sequence[Any], value)]
+        case dict():
+            return {k: _comparable(root, v) for k, v in cast(dict[str, Any], value).items()}
+        case _:
+            return value
+
+
+def _same(before: Sequence[Any], now: Sequence[Any]) -> bool:
+    return len(before) == len(now) and all(a is b for a, b in zip(before, now, strict=True))
+
+
+def _unwritable(part: Component) -> ModelError:
+    return NetlistError(
+        f"{part._label()} was made with arguments that a file cannot hold; give modifiers instead, or take its "
+        "class out of the library, so that it is written as a subsystem"
+    )

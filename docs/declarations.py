@@ -1,0 +1,109 @@
+"""Reference pages: the declarations of a component as one table instead of an entry for each attribute.
+
+An extension of griffe, which reads the sources for mkdocstrings (mkdocs.yml names it).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import Any
+
+import griffe
+
+KINDS = ("Parameter", "Option", "Module", "Input", "Output", "Potential", "Flow", "Variable")
+"""What a declaration may be, in the order of the table; connectors come before inputs."""
+Row = tuple[str, str, str, str]
+
+
+class Declarations(griffe.Extension):
+    """Moves class attributes such as ``c = ac.Parameter(unit="N/m")``, inherited ones too, below the docstring."""
+
+    def on_package(self, *, pkg: griffe.Module, **kwargs: Any) -> None:
+        """Called when griffe has read a package."""
+        classes = list(_classes(pkg))
+        own = {cls.path: _rows(cls) for cls in classes}
+        for cls in classes:
+            rows: dict[str, Row] = {}
+            for base in (cls, *_bases(cls)):
+                for name, row in own.get(base.path, {}).items():
+                    rows.setdefault(name, row)
+            if rows:
+                _append(cls, _table(rows))
+        for cls in classes:
+            for name in own[cls.path]:
+                del cls.members[name]
+
+
+def _classes(scope: griffe.Module | griffe.Class) -> Iterator[griffe.Class]:
+    for member in list(scope.members.values()):
+        if member.is_alias:
+            continue
+        if isinstance(member, griffe.Class):
+            yield member
+        if isinstance(member, griffe.Module | griffe.Class):
+            yield from _classes(member)
+
+
+def _bases(cls: griffe.Class) -> list[griffe.Class]:
+    try:
+        return cls.mro()
+    except ValueError:
+        return []
+
+
+def _rows(cls: griffe.Class) -> dict[str, Row]:
+    rows = {name: _row(member) for name, member in cls.members.items()}
+    return {name: row for name, row in rows.items() if row is not None}
+
+
+def _row(member: Any) -> Row | None:
+    """Kind, unit, default and description of an attribute that declares something."""
+    if member.is_alias or not member.is_attribute or member.value is None:
+        return None
+    try:
+        call = ast.parse(str(member.value), mode="eval").body
+    except SyntaxError:
+        return None
+    if not isinstance(call, ast.Call):
+        return None
+    kind = ast.unparse(call.func).rpartition(".")[2]
+    is_connector = kind[:1].isupper() and not call.args
+    if kind not in KINDS and not is_connector:
+        return None
+    given = {k.arg: k.value for k in call.keywords if k.arg}
+    default = ast.unparse(call.args[0]) if call.args else _text(given.get("start"))
+    unit, doc, when = (_text(given.get(k)) for k in ("unit", "doc", "when"))
+    if when and not when.startswith("_"):
+        doc = "; ".join(filter(None, (doc, f"only with `{when}`")))
+    shown = default if len(default) < 24 else "…"
+    return (
+        kind.lower() if kind in KINDS else f"`{kind}`",
+        _code(unit),
+        _code(shown),
+        doc.replace("|", "\\|"),
+    )
+
+
+def _text(node: ast.expr | None) -> str:
+    if node is None:
+        return ""
+    return str(node.value) if isinstance(node, ast.Constant) else ast.unparse(node)
+
+
+def _code(text: str) -> str:
+    return f"`{text}`" if text else ""
+
+
+def _table(rows: dict[str, Row]) -> str:
+    order = {kind.lower(): i for i, kind in enumerate(KINDS)}
+    ranked = sorted(rows.items(), key=lambda item: order.get(item[1][0], order["input"] - 0.5))
+    lines = [f"| `{name}` | {' | '.join(row)} |" for name, row in ranked]
+    return "\n".join(["| | | unit | default | |", "|---|---|---|---|---|", *lines])
+
+
+def _append(cls: griffe.Class, table: str) -> None:
+    old = cls.docstring
+    text = f"{old.value}\n\n{table}" if old else table
+    settings = {"parser": old.parser, "parser_options": old.parser_options} if old else {}
+    cls.docstring = griffe.Docstring(text, parent=cls, **settings)

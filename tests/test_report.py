@@ -1,0 +1,41 @@
+"""Pages are self-contained, show what they are given and cannot be broken by it."""
+
+import json
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import sympy as sp
+
+from acausal.report import Page, write_json
+
+
+def test_a_page_holds_all_it_was_given(tmp_path: Path) -> None:
+    page = Page("Title <1>", "lead & more")
+    page.section("Section")
+    page.text("text with <tags>")
+    page.table(["name", "value"], [["a", 1], ["b", 2]], [True, False])
+    x, t = sp.symbols("body.s time")
+    force = sp.Function("spring.net")(x)
+    page.equations([sp.Eq(sp.Derivative(x, t), force / 2, evaluate=False)], {"body.s": "z_b", "spring.net": "F"})
+    figure, ax = plt.subplots()
+    ax.plot([0, 1])
+    page.figure(figure, "a picture", tmp_path / "picture.png")
+    plt.close(figure)
+    text = page.write(tmp_path / "new" / "index.html", "the end").read_text(encoding="utf-8")
+    for piece in ("Title &lt;1&gt;", "lead &amp; more", "text with &lt;tags&gt;", 'class="hit"', 'class="miss"', "the end"):
+        assert piece in text
+    assert "<mi>z</mi>" in text
+    assert "<mi>F</mi>" in text
+    assert "data:image/png;base64," in text
+    assert "http://" not in text.replace("http://www.w3.org", "")
+    assert "https://" not in text
+    assert (tmp_path / "picture.png").stat().st_size > 1000
+
+
+def test_figures_are_written_as_json(tmp_path: Path) -> None:
+    path = write_json(tmp_path / "out" / "report.json", {"loss": 0.03})
+    assert json.loads(path.read_text()) == {"loss": 0.03}
