@@ -268,9 +268,9 @@ def specialise(
         pieces.append(
             EquationGroup(
                 template,
-                roots[np.ix_(rows, columns[0])],
-                arguments[np.ix_(rows, columns[1])],
-                group.modules[np.ix_(rows, columns[2])],
+                roots[rows][:, columns[0]],
+                arguments[rows][:, columns[1]],
+                group.modules[rows][:, columns[2]],
                 group.components[rows],
             )
         )
@@ -335,7 +335,7 @@ def specialised(
         if is_zero:
             replaced[symbol] = sp.S.Zero
     replaced = {s: r for s, r in replaced.items() if s != r}
-    residual = template.residual.xreplace(replaced) if replaced else template.residual
+    residual: Any = template.residual.xreplace(replaced) if replaced else template.residual
     if residual.has(sp.zoo, sp.nan, sp.oo):
         zeros = [s.name for s, r in replaced.items() if r == 0 and s in template.parameters]
         raise StructureError(

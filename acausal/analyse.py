@@ -45,7 +45,7 @@ class Linearization:
 
     def damping(self) -> np.ndarray:
         """Damping ratio of every eigenvalue, ``-Re / |.|``; 1 for an integrator."""
-        values = self.eigenvalues()
+        values: Any = self.eigenvalues()
         size = np.abs(values)
         return np.divide(-values.real, size, out=np.ones_like(size), where=size > 0)
 

@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
-from typing import Any, ClassVar, Self, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 import numpy as np
 import sympy as sp
@@ -173,6 +173,11 @@ class Component:
 
     _declared: ClassVar[dict[str, Declaration | Connector]] = {}
 
+    if TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Parts that ``__init__`` assigns under computed names."""
+
     _parent: Component | None
     _name: str
     _modifiers: dict[str, Any]
@@ -232,8 +237,8 @@ class Component:
 
     # -- what a user calls -----------------------------------------------------------------------
 
-    def connect(self, *endpoints: Endpoint | Sequence[Signal]) -> None:
-        """Join two or more connectors (or signals) in one node.
+    def connect(self, *endpoints: Endpoint | Sequence[Endpoint]) -> None:
+        """Join two or more connectors (or signals, or equally long lists of them) in one node.
 
         Potentials become equal, flows sum to zero; of signals exactly one is the source.
 
@@ -564,9 +569,9 @@ def _values(where: str, declaration: Parameter, value: Any) -> np.ndarray:
     """A vector or matrix of values; its size is checked when the sizes are settled."""
     values = np.asarray(value, dtype=object)
     checked = [_number(f"{where}[{i}]", declaration, v) for i, v in enumerate(values.flat, start=1)]
-    result = np.empty(values.shape, dtype=object)
-    result.flat = checked
-    return result
+    result = np.empty(values.size, dtype=object)
+    result[:] = checked
+    return result.reshape(values.shape)
 
 
 def _number(where: str, declaration: Parameter, value: Any) -> Any:

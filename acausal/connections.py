@@ -139,7 +139,7 @@ def _edges(layout: Layout) -> tuple[Integers, dict[int, type[Connector] | None]]
 def _locate(
     layout: Layout, scope: Component, end: Any
 ) -> tuple[Component, int, type[Connector] | None]:
-    owner: Component = end._owner if isinstance(end, Connector) else end.owner
+    owner: Any = end._owner if isinstance(end, Connector) else end.owner
     number = layout.position.get(id(owner))
     if number is None:
         raise ConnectionError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import sympy as sp
 from sympy.core.relational import Relational
@@ -66,7 +67,7 @@ def solve(template: Template, column: int) -> sp.Expr | None:
     symbol, coefficient = template.variables[column], slope(template, column)
     if coefficient == 0 or symbol in coefficient.free_symbols or _decides(template, column):
         return None
-    rest = template.residual.xreplace({symbol: sp.S.Zero})
+    rest: Any = template.residual.xreplace({symbol: sp.S.Zero})
     if rest.has(sp.nan, sp.zoo, sp.oo):
         rest = sp.expand(template.residual - coefficient * symbol)
     return -rest / coefficient

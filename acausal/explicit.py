@@ -24,7 +24,7 @@ def explicit_equations(
 ) -> tuple[sp.Equality, ...]:
     """``der(state) = ...`` for every state, in order, then the equations of loops left implicit."""
     writer = _Writer(reduced, aliases_of_parameters)
-    rates = [
+    rates: list[Any] = [
         sp.Eq(
             sp.Derivative(writer.symbol(int(s)), time), sign * writer.value(int(r)), evaluate=False
         )
@@ -39,7 +39,7 @@ class _Writer:
     def __init__(self, reduced: ReducedModel, parameter_target: Any) -> None:
         self.reduced = reduced
         self.parameter_target = parameter_target
-        self.implicit: list[sp.Equality] = []
+        self.implicit: list[Any] = []
         self._values: dict[int, sp.Expr] = {reduced.aliases.zero: sp.S.Zero}
         self._known = {*reduced.states.tolist(), *reduced.inputs.tolist()}
         self._origin: dict[int, tuple[Any, int]] = {}
@@ -120,13 +120,13 @@ class _Writer:
             self.implicit += [sp.Eq(r, 0, evaluate=False) for r in residuals]
 
 
-def _readable(expression: sp.Expr) -> sp.Expr:
+def _readable(expression: Any) -> Any:
     """Modules as ordinary functions named by their parameter."""
     calls = {c: _function(c) for c in expression.atoms(ModuleCall)}
     return expression.xreplace(calls) if calls else expression
 
 
-def _function(call: ModuleCall) -> sp.Expr:
+def _function(call: Any) -> Any:
     module, orders, *args = call.args
     plain = sp.Function(f"{module}{chr(39) * int(sum(orders))}")
     return plain(*(_readable(a) for a in args))

@@ -389,7 +389,7 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
             f"{owner._label()}: equations() yields {equation!r}; yield ac.Eq(left, right)"
         )
     where = f"{type(owner).__name__}: {equation}"
-    residual = _without_der(equation.lhs - equation.rhs, where)
+    residual: Any = _without_der(equation.lhs - equation.rhs, where)
     if residual.has(sp.nan, sp.oo, -sp.oo, sp.zoo, sp.I):
         raise DeclarationError(f"{where}: all numbers in an equation must be real and finite")
     for call in residual.atoms(sp.Function):
@@ -446,7 +446,7 @@ class _Derived(sp.Symbol):
         return self
 
 
-def _without_der(expression: sp.Expr, where: str) -> sp.Expr:
+def _without_der(expression: Any, where: str) -> Any:
     """Replace every ``der`` by derivative symbols, differentiating what stands inside."""
     replaced = {d: _total(_without_der(d.args[0], where)) for d in expression.atoms(der)}
     return expression.xreplace(replaced) if replaced else expression
@@ -633,17 +633,15 @@ def _parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], 
         for name, given in component._modifiers.items():
             if isinstance(given, Start) or name in form.module_index:
                 continue
-            elements = np.ravel(given) if isinstance(given, np.ndarray) else [given]
-            paths = _paths(
-                component,
-                name,
-                cast(Declaration, component._declared.get(name) or component._dynamic[name]),
-            )
-            if len(paths) != len(elements):
+            declared = cast(Declaration, component._declared.get(name) or component._dynamic[name])
+            shape = component._shape(name, declared)
+            values = np.asarray(given, dtype=object)
+            if values.shape not in ((), shape):
                 raise DeclarationError(
-                    f"{component._label()}.{name} needs {len(paths)} values, got {len(elements)}"
+                    f"{component._label()}.{name} needs {_sizes(shape)} values, got {_sizes(values.shape)}"
                 )
-            for path, element in zip(paths, elements, strict=True):
+            elements = np.broadcast_to(values, shape or ()).flat
+            for path, element in zip(element_names(name, shape), elements, strict=True):
                 if path not in form.parameter_index:
                     continue  # the options left no use for it
                 index = int(base[number]) + form.parameter_index[path]
@@ -664,6 +662,10 @@ def _parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], 
             f"give it where the component is made ({local_name}=...)"
         )
     return value, tuple(bindings), folded
+
+
+def _sizes(shape: tuple[int, ...] | None) -> str:
+    return " by ".join(str(n) for n in shape or (1,))
 
 
 def _default(form: Form, path: str, declaration: Parameter) -> float:
@@ -718,7 +720,8 @@ def _binding(layout: Layout, target: int, expression: sp.Expr) -> Binding:
         symbols.append(names[reference])
         index = layout.form(number).parameter_index[reference.path]
         arguments.append(int(layout.parameter_base[number]) + index)
-    return Binding(target, expression.xreplace(names), tuple(symbols), tuple(arguments))
+    named: Any = expression.xreplace(names)
+    return Binding(target, named, tuple(symbols), tuple(arguments))
 
 
 def _module_values(layout: Layout) -> tuple[Any, ...]:

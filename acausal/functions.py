@@ -62,14 +62,15 @@ def where(condition: Any, value: Any, otherwise: Any) -> sp.Expr:
 class Abs(sp.Abs):
     """The absolute value of a real number (sympy's own expects complex ones, as in ``Abs(log(x))``)."""
 
-    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        return sign(self.args[0]) * self.args[0].diff(s)
+    def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
+        argument: Any = self.args[0]
+        return sign(argument) * argument.diff(s)
 
 
 class sign(sp.sign):  # noqa: N801 (a mathematician's name)
     """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
 
-    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+    def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         return sp.S.Zero
 
 
@@ -84,9 +85,10 @@ class floor(sp.floor):  # noqa: N801 (a mathematician's name)
 class Prescribed(sp.Function):
     """``Prescribed(n, time, q, qd, ...)``: q's n-th derivative, which is the signal at that place."""
 
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
+    def fdiff(self, argindex: int = 1) -> Any:
         """With respect to time the next signal, else zero."""
-        order, _, *signals = self.args
+        parts: Any = self.args
+        order, _, *signals = parts
         if argindex != 2:
             return sp.S.Zero
         last = order + 1 == len(signals) - 1
@@ -96,10 +98,11 @@ class Prescribed(sp.Function):
         return True
 
     def _sympystr(self, printer: Any) -> str:
-        return printer._print(self.args[2 + int(self.args[0])])
+        parts: Any = self.args
+        return printer._print(parts[2 + int(parts[0])])
 
 
-def prescribed(q: Any, *derivatives: Any) -> sp.Expr:
+def prescribed(q: Any, *derivatives: Any) -> Any:
     """The signal ``q``, whose derivatives in time are these signals, not computed but given."""
     return Prescribed(0, time, q, *derivatives) if derivatives else q
 

@@ -148,6 +148,7 @@ def _torn(shape: BlockShape, tears: Any, t: Any, known: dict[sp.Symbol, Any]) ->
     for equation, variable in shape.torn.assigned:
         stated = shape.equations[equation]
         explicit = derive.solve(stated.template, stated.variables.index(variable))
+        assert explicit is not None
         unknowns[variable] = evaluate(explicit, fill(equation))
     residuals = [
         evaluate(shape.equations[e].template.residual, fill(e)) for e in shape.torn.residuals

@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
+from jax.core import Tracer
 
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.flatten import FlatModel
@@ -140,7 +141,7 @@ class Initializer:
         return x.at[free].set(result)
 
     def _check(self, conditions: Sequence[Condition], rest: Any) -> None:
-        if isinstance(rest, jax.core.Tracer):
+        if isinstance(rest, Tracer):
             return
         wrong = np.flatnonzero(~(np.abs(np.asarray(rest)) < 1e-6))
         if len(wrong):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import equinox as eqx
@@ -87,7 +88,7 @@ Values = Mapping[sp.Symbol, Any]
 
 def evaluate(expression: sp.Expr, values: Values) -> Any:
     """Value of an expression for the values of its symbols (scalars or arrays of one length)."""
-    memo: dict[sp.Basic, Any] = dict(values)
+    memo: dict[sp.Basic, Any] = {**values}
 
     def visit(node: sp.Basic) -> Any:
         if node not in memo:
@@ -121,8 +122,8 @@ def _sum(node: sp.Add, visit: Visit) -> Any:
         value = visit(-term if negative else term)
         if total is None:
             total = -value if negative else value
-        else:
-            total = total - value if negative else total + value
+            continue
+        total = total - value if negative else total + value
     return total
 
 
@@ -130,7 +131,7 @@ def _positive_first(terms: tuple[sp.Basic, ...]) -> list[Any]:
     return sorted(terms, key=lambda t: bool(t.could_extract_minus_sign()))
 
 
-def _product(node: sp.Mul, visit: Visit) -> Any:
+def _product(node: Any, visit: Visit) -> Any:
     above: Any = None
     below: Any = None
     sign = 1.0
@@ -166,14 +167,35 @@ def _power(node: sp.Pow, visit: Visit) -> Any:
 
 
 def _piecewise(node: sp.Piecewise, visit: Visit) -> Any:
+    cases: list[tuple[Any, Any]] = []
+    earlier: Any = False
+    for value, condition in node.args:
+        holds = visit(condition)
+        cases.append((holds, _case(value, jnp.logical_and(holds, jnp.logical_not(earlier)), visit)))
+        earlier = jnp.logical_or(holds, earlier)
     result: Any = jnp.nan
-    for value, condition in reversed(node.args):
-        result = (
-            visit(value)
-            if condition is sp.S.true
-            else jnp.where(visit(condition), visit(value), result)
-        )
+    for holds, value in reversed(cases):
+        result = value if holds is True else jnp.where(holds, value, result)
     return result
+
+
+def _case(value: sp.Expr, holds: Any, visit: Visit) -> Any:
+    """A case that gradients pass only where it holds, as elsewhere its slope may be infinite."""
+    if not _is_steep(value):
+        return visit(value)
+    read = {s: visit(s) for s in sorted(value.free_symbols, key=str)}
+    return evaluate(value, {s: _only_where(holds, v) for s, v in read.items()})
+
+
+@cache
+def _is_steep(value: sp.Expr) -> bool:
+    return not value.is_polynomial(*value.free_symbols)
+
+
+def _only_where(holds: Any, value: Any) -> Any:
+    if isinstance(value, ModuleValue):
+        return value
+    return jnp.where(holds, value, jax.lax.stop_gradient(value))
 
 
 def _call(function: Callable[..., Any]) -> Rule:
@@ -197,7 +219,7 @@ def _relation(function: Callable[[Any, Any], Any]) -> Rule:
     return relate
 
 
-def _module(node: ModuleCall, visit: Visit) -> Any:
+def _module(node: Any, visit: Visit) -> Any:
     module, orders, *args = node.args
     return visit(module)(tuple(int(n) for n in orders), *(jnp.asarray(visit(a)) for a in args))
 

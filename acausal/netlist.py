@@ -31,7 +31,7 @@ from acausal.component import Component
 from acausal.errors import ModelError
 from acausal.library import Library, installed
 from acausal.netlist_model import Netlist
-from acausal.netlist_reader import Reader
+from acausal.netlist_reader import build
 from acausal.netlist_writer import Writer
 
 
@@ -50,7 +50,7 @@ def load(path: str | Path, libraries: Sequence[ModuleType] = ()) -> Netlist:
             that does not exist, an expression that is malformed.
     """
     path = Path(path)
-    return Reader(_libraries(libraries)).model(netlist_file.read(path), path.name)
+    return build(netlist_file.read(path), path.name, _libraries(libraries))
 
 
 def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = ()) -> None:

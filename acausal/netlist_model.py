@@ -62,6 +62,11 @@ class Netlist(Component):
         owner = attribute(self, part) if part else self
         self._texts[part, key] = raw, state(owner, key)
 
+    def tell_apart(self) -> None:
+        """Make the equations of the file part of what tells this model from others with the same parts."""
+        initial = tuple(text for text, _ in self._initial)
+        self._constants["equations of the file"] = (*map(str, self._bindings), *initial)
+
     def settle(self) -> None:
         """Take the present state as what the file led to, after an enclosing file has modified this model."""
         for (part, key), (raw, _) in list(self._texts.items()):
@@ -103,7 +108,11 @@ def state(part: Any, key: str) -> tuple[Any, ...]:
         return ()
     if key in part._children:
         child = part._children[key]
-        return tuple(v for name in (*child._declared, *child._dynamic, *child._children) for v in state(child, name))
+        return tuple(
+            v
+            for name in (*child._declared, *child._dynamic, *child._children)
+            for v in state(child, name)
+        )
     own = [part._modifiers.get(key), part._options.get(key), part._constants.get(key)]
     inner = [v for name, v in part._modifiers.items() if name.startswith(f"{key}.")]
     return (*own, *inner)
@@ -111,7 +120,11 @@ def state(part: Any, key: str) -> tuple[Any, ...]:
 
 def _member(component: Component, name: str) -> Any:
     """A part, connector, declaration or plain value of a component, nothing that could be called."""
-    if name not in component._children and name not in component._declared and name not in component.__dict__:
+    if (
+        name not in component._children
+        and name not in component._declared
+        and name not in component.__dict__
+    ):
         return None
     value = getattr(component, name)
     known = isinstance(value, Component | Connector | sp.Expr | ModuleReference)
@@ -133,6 +146,7 @@ def is_left_out(model: Component, path: str) -> bool:
 
 
 def hint(model: Component, text: str) -> str:
+    """A clause that names the nearest thing that can be connected."""
     head, _, tail = text.rpartition(".")
     owner = attribute(model, head) if head else model
     if isinstance(owner, Component):

@@ -72,9 +72,10 @@ class Writer:
     def _parameters(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
         texts = model._texts if isinstance(model, Netlist) else {}
+        steady = model._steady if isinstance(model, Netlist) else []
         for (part, name), (raw, before) in texts.items():
             if not part:
-                kept = _same(before, state(model, name)) or name in model._steady
+                kept = _same(before, state(model, name)) or name in steady
                 found[name] = raw if kept else self._parameter(model, name)
         for name, declared in model._declarations():
             if isinstance(declared, Parameter) and name not in found:
@@ -96,7 +97,11 @@ class Writer:
             for key in ("unit", "min", "max")
             if (given := getattr(declared, key)) not in ("", None)
         }
-        return {"=": text, **attributes} if attributes and declared.shape is None and text is not None else text
+        return (
+            {"=": text, **attributes}
+            if attributes and declared.shape is None and text is not None
+            else text
+        )
 
     def _connectors(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
@@ -108,8 +113,10 @@ class Writer:
                 kind = self._class(Input if isinstance(declared, Input) else Output, where)
                 found[name] = {"class": kind, "unit": declared.unit} if declared.unit else kind
             elif isinstance(declared, Variable | Module) and not isinstance(model, Netlist):
-                raise NetlistError(f"{where}: a file holds parts, parameters and scalar signals; "
-                                   f"put {type(model).__name__} into a library")
+                raise NetlistError(
+                    f"{where}: a file holds parts, parameters and scalar signals; "
+                    f"put {type(model).__name__} into a library"
+                )
         return found
 
     # -- parts ---------------------------------------------------------------------------------------
@@ -169,7 +176,11 @@ class Writer:
         return found
 
     def _differences(
-        self, model: Component, part: Component, fresh: Component, roots: tuple[Component, Component]
+        self,
+        model: Component,
+        part: Component,
+        fresh: Component,
+        roots: tuple[Component, Component],
     ) -> dict[str, Any]:
         """Modifiers that make a fresh part, and the parts within, equal to this one."""
         alike = [(n, type(c)) for n, c in part._children.items()] == [
@@ -178,7 +189,11 @@ class Writer:
         constants = [
             _comparable(root, c._constants) for root, c in zip(roots, (part, fresh), strict=True)
         ]
-        if not alike or len(part._connections) != len(fresh._connections) or constants[0] != constants[1]:
+        if (
+            not alike
+            or len(part._connections) != len(fresh._connections)
+            or constants[0] != constants[1]
+        ):
             raise _unwritable(part)
         found: dict[str, Any] = {}
         given = {**part._options, **part._modifiers}
@@ -201,9 +216,9 @@ class Writer:
     def _public(self, cls: Any) -> Any:
         """The class of a library that a part is made from, or None."""
         for base in cls.__mro__:
-            if base.__qualname__ == cls.__qualname__ and base.__module__ == cls.__module__:
-                if any(library.name_of(base) for library in self.libraries):
-                    return base
+            alike = base.__qualname__ == cls.__qualname__ and base.__module__ == cls.__module__
+            if alike and any(library.name_of(base) for library in self.libraries):
+                return base
         return None
 
     def _class(self, cls: type, where: str) -> str:
@@ -269,7 +284,9 @@ def _connections(model: Component) -> list[list[str]]:
         found = [list(pair) for pair, _ in model._wires]
         count = sum(made for _, made in model._wires)
     where = model._label()
-    return found + [[_path(model, end, where) for end in pair] for pair in model._connections[count:]]
+    return found + [
+        [_path(model, end, where) for end in pair] for pair in model._connections[count:]
+    ]
 
 
 def _path(model: Component, end: Any, where: str) -> str:
@@ -282,7 +299,9 @@ def _path(model: Component, end: Any, where: str) -> str:
     names = [local]
     while owner is not model:
         if owner is None:
-            raise NetlistError(f"{where} refers to '{local}', which is not part of {model._label()}")
+            raise NetlistError(
+                f"{where} refers to '{local}', which is not part of {model._label()}"
+            )
         names.append(owner._name)
         owner = owner._parent
     return ".".join(reversed(names))

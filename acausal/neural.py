@@ -29,6 +29,10 @@ ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
 SPREAD = 2.0
 """Bound of the first layer's weights and biases."""
 
+FEW = 4
+"""Sequences side by side up to which products are better fused than left to a library."""
+
+Product = Callable[[Array, Array], Array]
 Scale = float | tuple[float, ...]
 Key = Array | int
 
@@ -104,6 +108,10 @@ class MLP(eqx.Module):
 
     def __call__(self, *inputs: ArrayLike) -> Array:
         """The output for ``in_size`` scalar inputs."""
+        return self.evaluate(inputs, jnp.matmul)
+
+    def evaluate(self, inputs: tuple[ArrayLike, ...], product: Product) -> Array:
+        """The output, with a way to spell the product of a matrix and a vector."""
         if len(inputs) != self.in_size:
             raise DeclarationError(
                 f"a network of {self.in_size} inputs is called with {len(inputs)}"
@@ -111,20 +119,38 @@ class MLP(eqx.Module):
         activation = ACTIVATIONS[self.activation]
         h = jnp.stack([jnp.asarray(x) for x in inputs]) / jnp.asarray(self.input_scale)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
-            h = activation(_product(weight, h) + bias)
-        return self.output_scale * (_product(self.weights[-1], h) + self.biases[-1])[0]
+            h = activation(product(weight, h) + bias)
+        return self.output_scale * (product(self.weights[-1], h) + self.biases[-1])[0]
 
     def __repr__(self) -> str:
         sizes = [self.in_size, *(len(b) for b in self.biases)]
         return f"MLP({'-'.join(map(str, sizes))}, {self.activation})"
 
 
-def _product(matrix: Array, vector: Array) -> Array:
-    """``matrix @ vector``, spelled so that XLA fuses it into the step around it instead of calling a library.
+class Fused(eqx.Module):
+    """A network whose products are spelled as sums, which XLA fuses into the step around them.
 
-    On a CPU this halves the time of a step for a few sequences side by side.
+    On a CPU the gradient of the quarter vehicle takes 0.8 × the time of matrix products for up to
+    `FEW` sequences side by side, and 2 × for twelve and more.
     """
-    return jnp.sum(matrix * vector, axis=-1)
+
+    net: MLP
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The network's output."""
+        return self.net.evaluate(inputs, lambda matrix, vector: jnp.sum(matrix * vector, axis=-1))
+
+
+def arranged(params: Mapping[str, Any], side_by_side: int) -> dict[str, Any]:
+    """The parameters with networks spelled for so many evaluations side by side; they compute the same."""
+
+    def fuse(leaf: Any) -> Any:
+        return Fused(leaf) if isinstance(leaf, MLP) and 1 < side_by_side <= FEW else leaf
+
+    return {
+        name: jax.tree.map(fuse, leaf, is_leaf=lambda node: isinstance(node, MLP))
+        for name, leaf in params.items()
+    }
 
 
 def _uniform(key: Array, shape: tuple[int, ...], limit: float) -> Array:

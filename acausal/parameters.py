@@ -243,7 +243,7 @@ def _by_expression(
             for s, a in zip(binding.symbols, binding.arguments, strict=True)
             if model.folded[target[a]]
         }
-        expression = binding.expression.xreplace(zeros)
+        expression: Any = binding.expression.xreplace(zeros)
         if expression.has(sp.zoo, sp.nan, sp.oo):
             name = model.layout.parameter(binding.target)
             raise DeclarationError(f"'{name}': its expression divides by a parameter that is zero")

@@ -14,6 +14,7 @@ from acausal.arguments import arguments
 from acausal.integrate import integrate
 from acausal.losses import Loss
 from acausal.modifiers import Modifiers
+from acausal.neural import arranged
 from acausal.record import Batch, Record, Sequences
 from acausal.regularizers import Context, Regularizer
 from acausal.solvers import Solver
@@ -84,7 +85,7 @@ class Problem(eqx.Module):
 
     def losses(self, trainable: Trainable, batch: Batch) -> Array:
         """The loss of every sequence of a batch, shape (B,)."""
-        params = self.assemble(trainable)
+        params = arranged(self.assemble(trainable), batch.start.shape[0])
         packed = self.system.pack(params)
 
         def one(start: Array, points: Array | None) -> Array:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from heapq import heapify, heappop, heappush
 
+from typing import Any
+
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
@@ -16,7 +18,7 @@ Column = dict[int, float]
 """The entries of a column that are not zero, by row."""
 
 
-def choose_columns(matrix: csr_array, candidates: Sequence[int]) -> tuple[list[int], list[int]]:
+def choose_columns(matrix: Any, candidates: Sequence[int]) -> tuple[list[int], list[int]]:
     """One column for every row, as early as possible in ``candidates``, so that they are independent.
 
     The structure is asked first; only where its choice turns out to be singular, in a connected part of rows
@@ -83,7 +85,7 @@ def singular(rows: Sequence[int], columns: Sequence[int], values: Sequence[float
     return len(independent(enumerate(scaled))[0]) < n
 
 
-def _columns(matrix: csr_array, candidates: Sequence[int]) -> dict[int, Column]:
+def _columns(matrix: Any, candidates: Sequence[int]) -> dict[int, Column]:
     """The candidates' columns; rows are scaled to a largest entry of one."""
     entries = matrix.tocoo()
     largest = np.zeros(matrix.shape[0])

@@ -6,7 +6,6 @@ The result says which variables are states, and in which order and from which eq
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -188,7 +187,7 @@ def _steps(
     bounds = np.flatnonzero(np.diff(blocks.block[order], prepend=-1, append=-1))
     values = parameter_values(system.model)
     vanishing = system.vanishing(values)
-    found: dict[Hashable, list[Any]] = {}
+    found: dict[Any, list[Any]] = {}
     for a, b in itertools.pairwise(bounds):
         equations = order[a:b].tolist()
         unknowns = [variable_of[e] for e in equations]

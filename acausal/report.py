@@ -32,7 +32,8 @@ figure { margin: 1.2rem 0; } figure img { max-width: 100%; }
 figcaption { color: var(--soft); font-size: .92rem; max-width: 46rem; }
 .equations { overflow-x: auto; background: #f7f9fb; border-left: 3px solid var(--accent); padding: .6rem 1rem; }
 .equations math { display: block; margin: .7rem 0; font-size: 1.08rem; text-align: left; }
-footer { margin-top: 3rem; color: var(--soft); font-size: .85rem; border-top: 1px solid var(--line); padding-top: .6rem; }
+footer { margin-top: 3rem; padding-top: .6rem; color: var(--soft); font-size: .85rem;
+         border-top: 1px solid var(--line); }
 """
 
 
@@ -118,6 +119,8 @@ def write_json(path: str | Path, content: Any) -> Path:
 class _MathML(MathMLPresentationPrinter):
     """MathML with upright multi-letter names and time derivatives as Newton's dots."""
 
+    dom: Any
+
     def _print_Derivative(self, e: sp.Derivative) -> Any:
         over = self.dom.createElement("mover")
         over.appendChild(self._print(e.expr))
@@ -141,7 +144,7 @@ class _MathML(MathMLPresentationPrinter):
         return operator
 
 
-def _mathml(equation: sp.Equality, names: dict[str, str]) -> str:
+def _mathml(equation: Any, names: dict[str, str]) -> str:
     symbols = {s: sp.Symbol(names[s.name]) for s in equation.free_symbols if s.name in names}
     functions = {
         f: sp.Function(names[f.func.__name__])(*f.args)
@@ -149,7 +152,7 @@ def _mathml(equation: sp.Equality, names: dict[str, str]) -> str:
         if f.func.__name__ in names
     }
     renamed = equation.xreplace(functions).xreplace(symbols)
-    printed = _MathML({"mul_symbol": "⁢"})._print(renamed)
+    printed: Any = _MathML({"mul_symbol": "⁢"})._print(renamed)
     return (
         f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{printed.toxml()}</math>'
     )

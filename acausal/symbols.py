@@ -71,21 +71,25 @@ class ModuleCall(sp.Function):
     a network through index reduction and linearization.
     """
 
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
+    def fdiff(self, argindex: int = 1) -> Any:
         """The partial derivative by an argument (counted from 3), again a call."""
-        module, orders, *args = self.args
+        module, orders, *args = self._parts
         raised = [n + (i == argindex - 3) for i, n in enumerate(orders)]
         return ModuleCall(module, sp.Tuple(*raised), *args)
 
+    @property
+    def _parts(self) -> tuple[Any, ...]:
+        return self.args
+
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        slopes = [self.fdiff(i) * a.diff(s) for i, a in enumerate(self.args[2:], start=3)]
+        slopes = [self.fdiff(i) * a.diff(s) for i, a in enumerate(self._parts[2:], start=3)]
         return sp.Add(*slopes)
 
     def _eval_is_real(self) -> bool:
         return True
 
     def _sympystr(self, printer: Any) -> str:
-        module, orders, *args = self.args
+        module, orders, *args = self._parts
         name = printer._print(module) + "'" * int(sum(orders))
         return f"{name}({', '.join(printer._print(a) for a in args)})"
 
@@ -259,7 +263,7 @@ class ModuleReference:
 
     symbol: Reference
 
-    def __call__(self, *args: Any) -> ModuleCall:
+    def __call__(self, *args: Any) -> Any:
         """The module applied to expressions."""
         expressions = [_expression(a, f"an argument of {self.symbol.path}") for a in args]
         return ModuleCall(self.symbol, sp.Tuple(*[0] * len(args)), *expressions)

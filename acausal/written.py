@@ -8,12 +8,12 @@ import sympy as sp
 from sympy.printing.str import StrPrinter
 
 from acausal.errors import DeclarationError
-from acausal.expressions import FUNCTIONS
+from acausal.vocabulary import FUNCTIONS
 
 NAMES = {"Abs": "abs", "Max": "max", "Min": "min"}
 
 
-def written(expression: sp.Expr) -> str:
+def written(expression: sp.Basic) -> str:
     """The text of an expression whose symbols bear the names to write.
 
     Raises:
@@ -39,7 +39,7 @@ class _Printer(StrPrinter):
     def _print_Rational(self, expr: sp.Rational) -> str:
         return f"{expr.p}/{expr.q}"
 
-    def _print_Exp1(self, expr: Any) -> str:
+    def _print_Exp1(self, expr: Any) -> Any:
         return "exp(1)"
 
     def _print_Function(self, expr: sp.Function) -> str:
@@ -54,7 +54,8 @@ class _Printer(StrPrinter):
     _print_Abs = _print_Max = _print_Min = _print_floor = _print_Function
 
     def _print_Piecewise(self, expr: sp.Piecewise) -> str:
-        *pieces, (last, condition) = expr.args
+        pieces: list[Any] = list(expr.args)
+        last, condition = pieces.pop()
         if condition != sp.true:
             raise DeclarationError(
                 "a file cannot hold an expression that is defined piece by piece with gaps"

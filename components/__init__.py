@@ -18,10 +18,9 @@ from typing import Any
 
 from .modelica import CATALOG, ENUMERATIONS
 
-__all__ = [
-    "CATALOG",
-    "ENUMERATIONS",
-    "RECORDS",
+__all__ = ["CATALOG", "ENUMERATIONS", "RECORDS"]
+
+PACKAGES = (
     "blocks",
     "electrical",
     "fluid",
@@ -30,7 +29,7 @@ __all__ = [
     "rotational",
     "thermal",
     "translational",
-]
+)
 
 RECORDS: dict[str, Any]
 """Media, materials and material constants, by the last word of their Modelica name."""
@@ -38,8 +37,8 @@ RECORDS: dict[str, Any]
 
 def __getattr__(name: str) -> Any:
     """The packages are imported when they are asked for."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name in PACKAGES:
+        return import_module(f"{__name__}.{name}")
     if name == "RECORDS":
         return import_module(f"{__name__}.records").RECORDS
-    return import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

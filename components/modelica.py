@@ -4,8 +4,6 @@
 and the table of coverage read it.
 """
 
-from typing import Any
-
 _BLOCKS = "Modelica.Blocks"
 _ANALOG = "Modelica.Electrical.Analog"
 _TRANSLATIONAL = "Modelica.Mechanics.Translational"
@@ -14,7 +12,13 @@ _HEAT = "Modelica.Thermal.HeatTransfer"
 _FLUID = "Modelica.Thermal.FluidHeatFlow"
 _FLUX = "Modelica.Magnetic.FluxTubes"
 
-_SCALE = ("ToKelvin", "FromKelvin", "FixedTemperature", "PrescribedTemperature", "TemperatureSensor")
+_SCALE = (
+    "ToKelvin",
+    "FromKelvin",
+    "FixedTemperature",
+    "PrescribedTemperature",
+    "TemperatureSensor",
+)
 
 
 def _words(text: str) -> tuple[str, ...]:
@@ -194,6 +198,7 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
         "fluid",
         _words("FlowPort FlowPort_a FlowPort_b AbsoluteSensor RelativeSensor FlowSensor"),
     ),
+    f"{_FLUID}.Examples.Utilities": ("fluid", _words("DoubleRamp")),
     f"{_FLUID}.BaseClasses": (
         "fluid",
         _words("SinglePortLeft SinglePortBottom TwoPort SimpleFriction"),

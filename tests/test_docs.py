@@ -133,6 +133,13 @@ def test_blocks_are_found_and_numbered(tmp_path: Path) -> None:
     assert [len(block) - len(block.lstrip("\n")) for block in blocks(page)] == [2, 12]
 
 
+def test_how_it_works_names_modules_that_exist() -> None:
+    text = (ROOT / "docs" / "how-it-works.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`(\w+\.py)`", text))
+    assert named
+    assert not sorted(name for name in named if not (ROOT / "acausal" / name).exists())
+
+
 @pytest.mark.parametrize(
     ("shown", "printed", "same"),
     [

@@ -37,13 +37,13 @@ BASES = ("Element1D",)
 
 def minimal(cls):
     """An instance with the value 1 for all that must be given."""
+    if cls is thermal.ThermalCollectorMatrix:
+        return cls(Ns=2, Np=3)
     needed = {
         name: 1.0
         for name, d in cls._declared.items()
         if isinstance(d, ac.Parameter) and d.default is None
     }
-    if cls is thermal.ThermalCollectorMatrix:
-        needed = {"Ns": 2, "Np": 3}
     return cls(**needed)
 
 

@@ -37,6 +37,7 @@ from .sensors import (
     VolumeFlowSensor,
 )
 from .sources import AbsolutePressure, Ambient, IdealPump, PressureIncrease, VolumeFlow
+from .utilities import DoubleRamp
 
 __all__ = [
     "AbsolutePressure",
@@ -45,6 +46,7 @@ __all__ = [
     "Air_70degC",
     "Ambient",
     "Cylinder",
+    "DoubleRamp",
     "EnthalpyFlowSensor",
     "FlowPort",
     "FlowPort_a",

@@ -46,7 +46,6 @@ class TwoPort(PartialMedium):
     T0 = ac.Parameter(293.15, unit="K", doc="initial temperature of the medium")
     T0fixed = ac.Option(False, doc="whether T0 holds initially; else it is a guess")
     tapT = ac.Parameter(1.0, min=0, max=1, doc="where a heat port is, from inlet to outlet")
-    m_flow_small = ac.Parameter(M_FLOW_SMALL, unit="kg/s", min=0, doc="exchange at rest")
     rho = ac.Parameter(lambda self: self.medium.rho, unit="kg/m3", doc="density of the medium")
     cp = ac.Parameter(
         lambda self: self.medium.cp, unit="J/(kg.K)", doc="heat capacity at constant pressure"
@@ -54,6 +53,7 @@ class TwoPort(PartialMedium):
     cv = ac.Parameter(
         lambda self: self.medium.cv, unit="J/(kg.K)", doc="heat capacity at constant volume"
     )
+    m_flow_small = ac.Parameter(M_FLOW_SMALL, unit="kg/s", min=0, doc="exchange at rest")
     dp = ac.Variable(unit="Pa", nominal=1e5, doc="pressure drop from a to b")
     V_flow = ac.Variable(unit="m3/s", doc="volume flow rate from a to b")
     Q_flow = ac.Variable(unit="W", doc="heat flow rate into the medium")
@@ -150,10 +150,10 @@ class PartialSinglePort(PartialMedium):
 
     Exchange = True
 
-    m_flow_small = ac.Parameter(M_FLOW_SMALL, unit="kg/s", min=0, doc="exchange at rest")
     cp = ac.Parameter(
         lambda self: self.medium.cp, unit="J/(kg.K)", doc="heat capacity at constant pressure"
     )
+    m_flow_small = ac.Parameter(M_FLOW_SMALL, unit="kg/s", min=0, doc="exchange at rest")
     T_port = ac.Variable(unit="K", nominal=300.0, doc="temperature at the port")
     T = ac.Variable(unit="K", start=293.15, nominal=300.0, doc="temperature of the medium")
     h = ac.Variable(unit="J/kg", nominal=1e5, doc="specific enthalpy of the medium")

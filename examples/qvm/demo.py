@@ -156,6 +156,6 @@ GAUGE = (
     "Multiplying both masses, the tyre's stiffness and damping and the force of the suspension by one factor changes "
     "neither acceleration. With trained parameters the networks can supply that factor, since c_s z_s + d_s v_s and "
     "they act side by side. So the data fix the ratios of these parameters, not their common factor. What picks it is "
-    "what is known beforehand. Here that is the start: modifiers at zero and networks that give almost no force. Where a "
-    "mass was weighed, leave it out of the trained parameters, and all the others are determined."
+    "what is known beforehand. Here that is the start: modifiers at zero and networks that give almost no force. Where "
+    "a mass was weighed, leave it out of the trained parameters, and all the others are determined."
 )

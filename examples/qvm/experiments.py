@@ -10,9 +10,9 @@ import optax
 
 import acausal as ac
 from examples.qvm.model import UNCERTAIN, with_networks
-from examples.qvm.record import OUTPUTS, Ride
+from examples.qvm.record import OUTPUTS, STATES, Ride
 
-AT_REST = dict.fromkeys(("body.s", "body.v", "wheel.s", "wheel.v", "road.s"), 0.0)
+AT_REST: dict[str, float] = dict.fromkeys(STATES, 0.0)
 """The record starts at rest: the one state that is known without noise."""
 
 
@@ -49,7 +49,7 @@ def fit(
 ) -> ac.Fit:
     """Train the networks of an experiment on a ride."""
     system = ac.compile(with_networks(wrong=experiment.wrong))
-    chosen = {
+    chosen: dict[str, Any] = {
         "regularizers": [ac.ZeroCrossing(0.01)],
         "epochs": experiment.epochs,
         "evaluate_every": 50,

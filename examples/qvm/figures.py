@@ -39,13 +39,15 @@ MATHS = {
 
 
 def model_diagram() -> Figure:
-    return ac.diagram(with_networks()).figure
+    figure = ac.diagram(with_networks()).figure
+    assert isinstance(figure, Figure)
+    return figure
 
 
 def forces(fits: Mapping[str, ac.Fit]) -> Figure:
     """Learned spring and damper against the truth (the paper's figures 2 and 3a)."""
     true = true_forces()
-    last = next(reversed(fits.values()))
+    *_, last = fits.values()
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
     for ax, name, symbol in ((axes[0], SPRING, "z_s [m]"), (axes[1], DAMPER, "v_s [m/s]")):
         functions = {label: fit.remove_offset()[name] for label, fit in fits.items()}

@@ -122,7 +122,7 @@ def _page(
     experiments = report["experiments"]
     page = Page(
         "The quarter vehicle: the paper's five trainings",
-        "Kamp, Ultsch and Brembeck (2023), doi 10.5220/0012160100003543: its figures 2 to 5 and its tables, computed anew.",
+        "Kamp, Ultsch and Brembeck (2023), doi 10.5220/0012160100003543: figures 2 to 5 and tables, computed anew.",
     )
     page.section("Losses and times")
     page.table(
@@ -131,9 +131,9 @@ def _page(
         [all(e["met"].values()) for e in experiments.values()],
     )
     page.text(
-        "Loss: formula (21) over one simulation of all 42 s with the trained model, against the noisy record. Spring and "
-        "damper: RMS difference of learned and true force within 2σ of what the network has seen. The paper's losses were "
-        "read off its plots; its times are of an i7 notebook and Julia."
+        "Loss: formula (21) over one simulation of all 42 s with the trained model, against the noisy record. "
+        "Spring and damper: RMS difference of learned and true force within 2σ of what the network has seen. "
+        "The paper's losses were read off its plots; its times are of an i7 notebook and Julia."
     )
     first = {n: f for n, f in fits.items() if n == "baseline"} or fits
     page.section("Figure 2: learned spring and friction")
