@@ -588,7 +588,7 @@ def _number(where: str, declaration: Parameter, value: Any) -> Any:
             )
         return value
     try:
-        number = float("" if isinstance(value, str) else value)
+        number = float("" if isinstance(value, str | bool) else value)
     except (TypeError, ValueError):
         raise DeclarationError(
             f"{where}={value!r}: a number or an expression of parameters is needed"

@@ -23,6 +23,7 @@ from acausal.vocabulary import BARE_CONSTANTS, CONSTANTS, CONVERSIONS, FUNCTIONS
 MAX_LENGTH = 10_000
 MAX_DEPTH = 60
 MAX_INTEGER = 2**53
+MAX_EXPONENT = 100
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -242,6 +243,8 @@ class _Reader:
 
     def _arithmetic(self, operator: str, a: Any, b: Any) -> Any:
         a, b = self._number(a), self._number(b)
+        if isinstance(a, sp.Expr) or isinstance(b, sp.Expr):
+            a, b = _inexact(a), b if operator == "^" and _is_small(b) else _inexact(b)
         try:
             match operator:
                 case "+":
@@ -374,6 +377,15 @@ class _Reader:
     def _next(self) -> str:
         self.position += 1
         return self.tokens[self.position - 1][1]
+
+
+def _is_small(exponent: Any) -> bool:
+    return isinstance(exponent, int) and abs(exponent) <= MAX_EXPONENT
+
+
+def _inexact(value: Any) -> Any:
+    """Integers as floats: sympy's exact powers of them could grow without end."""
+    return float(value) if isinstance(value, int) else value
 
 
 def _is_record(value: Any) -> bool:

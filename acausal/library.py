@@ -13,7 +13,9 @@ Installed packages announce theirs as an entry point of the group ``acausal.libr
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, is_dataclass
+from difflib import get_close_matches
 from functools import cache, cached_property
 from importlib.metadata import entry_points
 from types import ModuleType
@@ -115,7 +117,7 @@ def is_element(value: Any) -> bool:
     )
 
 
-def find(libraries: tuple[Library, ...], name: str) -> Any:
+def find(libraries: Sequence[Library], name: str) -> Any:
     """The class of a full name.
 
     Raises:
@@ -129,7 +131,10 @@ def find(libraries: tuple[Library, ...], name: str) -> Any:
         raise KeyError("the library does not cover it yet")
     known = [n for library in libraries for n in library.modelica_names]
     same = [n for n in known if n.rpartition(".")[2] == name.rpartition(".")[2]]
-    raise KeyError(nearest(name, same or known))
+    if same or get_close_matches(name[:200], known, n=1):
+        raise KeyError(nearest(name, same or known))
+    modules = ", ".join(library.module.__name__ for library in libraries) or "none is installed"
+    raise KeyError(f"name it as Modelica does, or by its Python path within a library ({modules})")
 
 
 @cache

@@ -16,8 +16,9 @@ from acausal.symbols import Eq, ModuleReference, der
 START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSelect": "state"}
 """Attributes of a variable in a file -> field of `Start`."""
 
-STEP = re.compile(r"([A-Za-z]\w*)|\[(\d{1,6}(?:,\s*\d{1,6})*)\]", re.ASCII)
-PATH = re.compile(r"[A-Za-z]\w*(\[[\d,\s]+\])?(\.[A-Za-z]\w*(\[[\d,\s]+\])?)*", re.ASCII)
+INDEX = r"\[(\d{1,6}(?:,\s*\d{1,6})*)\]"
+STEP = re.compile(rf"([A-Za-z]\w*)|{INDEX}", re.ASCII)
+PATH = re.compile(rf"[A-Za-z]\w*({INDEX})?(\.[A-Za-z]\w*({INDEX})?)*", re.ASCII)
 
 
 class Netlist(Component):

@@ -3,7 +3,7 @@
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from acausal.gather import MAX_RUNS, One, Runs, Take, gather
@@ -26,6 +26,7 @@ def expected(pairs):
     return [float(jnp.atleast_1d(ARRAYS[s])[i]) for s, i in pairs]
 
 
+@settings(max_examples=25)
 @given(places)
 def test_elements_are_read_whatever_their_order(pairs):
     found = read(pairs)

@@ -1,17 +1,28 @@
 """Bases of blocks: which signals enter and leave. Signals have no unit unless a block says so."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
 
-RealInput = ac.Input
-RealOutput = ac.Output
+RealInput = RealVectorInput = ac.Input
+RealOutput = RealVectorOutput = ac.Output
+IntegerInput = IntegerVectorInput = BooleanInput = BooleanVectorInput = ac.Input
+IntegerOutput = BooleanOutput = ac.Output
+
+TRUE = 0.5
+"""All signals are real. One that stands for a truth value is true above this: blocks give 1 or 0."""
 
 INIT = ("NoInit", "SteadyState", "InitialState", "InitialOutput")
 """How a block with states starts: the choices of ``initType``, as in `Modelica.Blocks.Types.Init`."""
 
 INSTANT = 1e-15
 """Shortest duration [s]: it stands for a duration of zero in a quotient."""
+
+
+def truth(condition: Any) -> Any:
+    """1 where a condition holds, else 0."""
+    return ac.where(condition, 1, 0)
 
 
 class SO(ac.Component):
@@ -62,6 +73,31 @@ class MIMO(ac.Component):
     y = ac.Output(shape="nout", doc="output signals")
 
 
+class MIMOs(ac.Component):
+    """``n`` inputs ``u``, as many outputs ``y``."""
+
+    n = ac.Option(1, doc="number of inputs and of outputs")
+    u = ac.Input(shape="n", doc="input signals")
+    y = ac.Output(shape="n", doc="output signals")
+
+
+class MI2MO(ac.Component):
+    """``n`` inputs ``u1``, ``n`` inputs ``u2``, ``n`` outputs ``y``."""
+
+    n = ac.Option(1, doc="number of inputs of each kind and of outputs")
+    u1 = ac.Input(shape="n", doc="first input signals")
+    u2 = ac.Input(shape="n", doc="second input signals")
+    y = ac.Output(shape="n", doc="output signals")
+
+
+class SIMO(ac.Component):
+    """One input ``u``, ``nout`` outputs ``y``."""
+
+    nout = ac.Option(1, doc="number of outputs")
+    u = ac.Input(doc="input signal")
+    y = ac.Output(shape="nout", doc="output signals")
+
+
 class SVcontrol(ac.Component):
     """Set point ``u_s`` and measurement ``u_m`` enter, actuator signal ``y`` leaves."""
 
@@ -93,3 +129,16 @@ class PartialStart(ac.Component):
             yield ac.Eq(ac.der(self.y), 0)
         elif self.initType != "NoInit":
             yield ac.Eq(self.y, self.y_start)
+
+
+class NeedsDiscreteStates(ac.Component):
+    """Base of blocks that Modelica has and that cannot be made yet: they remember, or wait for events.
+
+    Raises:
+        DeclarationError: always.
+    """
+
+    def __init__(self, **modifiers: Any) -> None:
+        raise ac.DeclarationError(
+            f"{type(self).__name__} needs discrete states, which acausal does not have yet"
+        )

@@ -1,0 +1,60 @@
+"""Conversions between real, integer and truth signals, which are all real numbers here."""
+
+from collections.abc import Iterator
+
+import acausal as ac
+
+from .interfaces import SISO, TRUE, truth
+
+
+class RealToInteger(SISO):
+    """The nearest integer; halves are rounded away from zero."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        rounded = ac.where(self.u > 0, ac.floor(self.u + 0.5), -ac.floor(0.5 - self.u))
+        yield ac.Eq(self.y, rounded)
+
+
+class IntegerToReal(SISO):
+    """``y = u``."""
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.u)
+
+
+class BooleanToReal(SISO):
+    """``realTrue`` where ``u`` is true, else ``realFalse``."""
+
+    realTrue = ac.Parameter(1.0, doc="output where the input is true")
+    realFalse = ac.Parameter(0.0, doc="output where the input is false")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, ac.where(self.u > TRUE, self.realTrue, self.realFalse))
+
+
+class BooleanToInteger(SISO):
+    """``integerTrue`` where ``u`` is true, else ``integerFalse``."""
+
+    integerTrue = ac.Parameter(1.0, doc="output where the input is true")
+    integerFalse = ac.Parameter(0.0, doc="output where the input is false")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, ac.where(self.u > TRUE, self.integerTrue, self.integerFalse))
+
+
+class RealToBoolean(SISO):
+    """1 where ``u >= threshold``, else 0."""
+
+    threshold = ac.Parameter(0.5, doc="value from which on the output is true")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, truth(self.u >= self.threshold))
+
+
+class IntegerToBoolean(SISO):
+    """1 where ``u >= threshold``, else 0."""
+
+    threshold = ac.Parameter(1.0, doc="value from which on the output is true")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, truth(self.u >= self.threshold))

@@ -1,0 +1,230 @@
+"""Unit conversions: ``To_...`` from the unit of the SI, ``From_...`` back to it."""
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+import numpy as np
+
+import acausal as ac
+
+from .interfaces import SISO
+
+
+class PartialConversionBlock(SISO):
+    """Base of unit conversions: ``y = factor (u + shift)``."""
+
+    factor: ClassVar[float] = 1.0
+    shift: ClassVar[float] = 0.0
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.factor * (self.u + self.shift))
+
+
+class To_degC(PartialConversionBlock):
+    """Kelvin to degrees Celsius: ``y = u - 273.15``."""
+
+    u = ac.Input(unit="K", doc="temperature")
+    y = ac.Output(unit="degC", doc="temperature")
+    shift = -273.15
+
+
+class From_degC(PartialConversionBlock):
+    """Degrees Celsius to kelvin: ``y = u + 273.15``."""
+
+    u = ac.Input(unit="degC", doc="temperature")
+    y = ac.Output(unit="K", doc="temperature")
+    shift = 273.15
+
+
+class To_degF(PartialConversionBlock):
+    """Kelvin to degrees Fahrenheit: ``y = 9/5 u - 459.67``."""
+
+    u = ac.Input(unit="K", doc="temperature")
+    y = ac.Output(unit="degF", doc="temperature")
+    factor = 9 / 5
+    shift = -459.67 * 5 / 9
+
+
+class From_degF(PartialConversionBlock):
+    """Degrees Fahrenheit to kelvin: ``y = 5/9 (u + 459.67)``."""
+
+    u = ac.Input(unit="degF", doc="temperature")
+    y = ac.Output(unit="K", doc="temperature")
+    factor = 5 / 9
+    shift = 459.67
+
+
+class To_degRk(PartialConversionBlock):
+    """Kelvin to degrees Rankine: ``y = 9/5 u``."""
+
+    u = ac.Input(unit="K", doc="temperature")
+    y = ac.Output(unit="degR", doc="temperature")
+    factor = 9 / 5
+
+
+class From_degRk(PartialConversionBlock):
+    """Degrees Rankine to kelvin: ``y = 5/9 u``."""
+
+    u = ac.Input(unit="degR", doc="temperature")
+    y = ac.Output(unit="K", doc="temperature")
+    factor = 5 / 9
+
+
+class To_deg(PartialConversionBlock):
+    """Radians to degrees."""
+
+    u = ac.Input(unit="rad", doc="angle")
+    y = ac.Output(unit="deg", doc="angle")
+    factor = 180 / np.pi
+
+
+class From_deg(PartialConversionBlock):
+    """Degrees to radians."""
+
+    u = ac.Input(unit="deg", doc="angle")
+    y = ac.Output(unit="rad", doc="angle")
+    factor = np.pi / 180
+
+
+class To_rpm(PartialConversionBlock):
+    """Radians per second to revolutions per minute."""
+
+    u = ac.Input(unit="rad/s", doc="angular velocity")
+    y = ac.Output(unit="rev/min", doc="angular velocity")
+    factor = 30 / np.pi
+
+
+class From_rpm(PartialConversionBlock):
+    """Revolutions per minute to radians per second."""
+
+    u = ac.Input(unit="rev/min", doc="angular velocity")
+    y = ac.Output(unit="rad/s", doc="angular velocity")
+    factor = np.pi / 30
+
+
+class To_kmh(PartialConversionBlock):
+    """Metres per second to kilometres per hour."""
+
+    u = ac.Input(unit="m/s", doc="speed")
+    y = ac.Output(unit="km/h", doc="speed")
+    factor = 3.6
+
+
+class From_kmh(PartialConversionBlock):
+    """Kilometres per hour to metres per second."""
+
+    u = ac.Input(unit="km/h", doc="speed")
+    y = ac.Output(unit="m/s", doc="speed")
+    factor = 1 / 3.6
+
+
+class To_day(PartialConversionBlock):
+    """Seconds to days."""
+
+    u = ac.Input(unit="s", doc="time")
+    y = ac.Output(unit="d", doc="time")
+    factor = 1 / 86400
+
+
+class From_day(PartialConversionBlock):
+    """Days to seconds."""
+
+    u = ac.Input(unit="d", doc="time")
+    y = ac.Output(unit="s", doc="time")
+    factor = 86400.0
+
+
+class To_hour(PartialConversionBlock):
+    """Seconds to hours."""
+
+    u = ac.Input(unit="s", doc="time")
+    y = ac.Output(unit="h", doc="time")
+    factor = 1 / 3600
+
+
+class From_hour(PartialConversionBlock):
+    """Hours to seconds."""
+
+    u = ac.Input(unit="h", doc="time")
+    y = ac.Output(unit="s", doc="time")
+    factor = 3600.0
+
+
+class To_minute(PartialConversionBlock):
+    """Seconds to minutes."""
+
+    u = ac.Input(unit="s", doc="time")
+    y = ac.Output(unit="min", doc="time")
+    factor = 1 / 60
+
+
+class From_minute(PartialConversionBlock):
+    """Minutes to seconds."""
+
+    u = ac.Input(unit="min", doc="time")
+    y = ac.Output(unit="s", doc="time")
+    factor = 60.0
+
+
+class To_litre(PartialConversionBlock):
+    """Cubic metres to litres."""
+
+    u = ac.Input(unit="m3", doc="volume")
+    y = ac.Output(unit="l", doc="volume")
+    factor = 1000.0
+
+
+class From_litre(PartialConversionBlock):
+    """Litres to cubic metres."""
+
+    u = ac.Input(unit="l", doc="volume")
+    y = ac.Output(unit="m3", doc="volume")
+    factor = 1e-3
+
+
+class To_kWh(PartialConversionBlock):
+    """Joules to kilowatt hours."""
+
+    u = ac.Input(unit="J", doc="energy")
+    y = ac.Output(unit="kW.h", doc="energy")
+    factor = 1 / 3.6e6
+
+
+class From_kWh(PartialConversionBlock):
+    """Kilowatt hours to joules."""
+
+    u = ac.Input(unit="kW.h", doc="energy")
+    y = ac.Output(unit="J", doc="energy")
+    factor = 3.6e6
+
+
+class To_bar(PartialConversionBlock):
+    """Pascals to bars."""
+
+    u = ac.Input(unit="Pa", doc="pressure")
+    y = ac.Output(unit="bar", doc="pressure")
+    factor = 1e-5
+
+
+class From_bar(PartialConversionBlock):
+    """Bars to pascals."""
+
+    u = ac.Input(unit="bar", doc="pressure")
+    y = ac.Output(unit="Pa", doc="pressure")
+    factor = 1e5
+
+
+class To_gps(PartialConversionBlock):
+    """Kilograms per second to grams per second."""
+
+    u = ac.Input(unit="kg/s", doc="mass flow rate")
+    y = ac.Output(unit="g/s", doc="mass flow rate")
+    factor = 1000.0
+
+
+class From_gps(PartialConversionBlock):
+    """Grams per second to kilograms per second."""
+
+    u = ac.Input(unit="g/s", doc="mass flow rate")
+    y = ac.Output(unit="kg/s", doc="mass flow rate")
+    factor = 1e-3
