@@ -24,6 +24,7 @@ MAX_LENGTH = 10_000
 MAX_DEPTH = 60
 MAX_INTEGER = 2**53
 MAX_EXPONENT = 100
+MAX_OPERATIONS = 300
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -90,6 +91,7 @@ class _Reader:
         self.tokens = self._tokens()
         self.position = 0
         self.depth = 0
+        self.operations = 0
 
     def _tokens(self) -> list[tuple[str, str]]:
         found: list[tuple[str, str]] = []
@@ -162,6 +164,7 @@ class _Reader:
         left = self._sum()
         if self._peek() not in RELATIONS:
             return left
+        self._count()
         relation = RELATIONS[self._next()]
         right = self._sum()
         if isinstance(left, str | bool) and isinstance(right, type(left)):
@@ -171,6 +174,7 @@ class _Reader:
         return self._plain(relation(self._number(left), self._number(right)))
 
     def _logical(self, function: Any, *values: Any) -> Any:
+        self._count()
         return self._plain(function(*(self._truth(v) for v in values)))
 
     def _truth(self, value: Any) -> Any:
@@ -243,7 +247,10 @@ class _Reader:
 
     def _arithmetic(self, operator: str, a: Any, b: Any) -> Any:
         a, b = self._number(a), self._number(b)
+        if operator == "/" and isinstance(b, int | float) and b == 0:
+            raise self.wrong("divides by zero")
         if isinstance(a, sp.Expr) or isinstance(b, sp.Expr):
+            self._count()
             a, b = _inexact(a), b if operator == "^" and _is_small(b) else _inexact(b)
         try:
             match operator:
@@ -258,11 +265,14 @@ class _Reader:
                 case _:
                     plain = isinstance(a, int | float) and isinstance(b, int | float)
                     result = math.pow(a, b) if plain else a**b
-        except ZeroDivisionError:
-            raise self.wrong("divides by zero") from None
         except (OverflowError, ValueError):
             raise self.wrong("not a finite number") from None
         return self._finite(result)
+
+    def _count(self) -> None:
+        self.operations += 1
+        if self.operations > MAX_OPERATIONS:
+            raise self.wrong(f"more than {MAX_OPERATIONS} operations on parameters")
 
     def _number(self, value: Any) -> Any:
         if not isinstance(value, int | float | sp.Expr) or isinstance(value, bool):
@@ -304,6 +314,7 @@ class _Reader:
         known = function(name)
         if known is None:
             return self._record(name, given)
+        self._count()
         try:
             return self._finite(known(*(sp.sympify(self._number(value)) for _, value in given)))
         except (TypeError, ValueError):

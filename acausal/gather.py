@@ -44,6 +44,8 @@ class Runs:
         pieces = [
             _slice(arrays[source], start, step, length) for source, start, step, length in self.runs
         ]
+        if not pieces:
+            return jnp.zeros(0)
         return pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
 
     @property
@@ -85,7 +87,7 @@ def gather(source: Integers, index: Integers, sizes: Sequence[int]) -> Gather:
     One element where all are the same, slices where the indices progress evenly, else a take. ``sizes``
     are the lengths of the arrays.
     """
-    if (source == source[0]).all() and (index == index[0]).all():
+    if len(source) and (source == source[0]).all() and (index == index[0]).all():
         return One(int(source[0]), int(index[0]))
     runs = _runs(source, index)
     if len(runs) <= MAX_RUNS:

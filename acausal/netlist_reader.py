@@ -127,19 +127,12 @@ def _parameter(scope: Scope, name: str, raw: Any, where: str) -> None:
     """A parameter of the model; a list, truth value, text or record becomes a plain constant."""
     model = scope.model
     attributes = cast(Mapping[str, Any], raw) if isinstance(raw, Mapping) else {"=": raw}
-    known = ("=", "start", "fixed", *IGNORED_KEYS)
-    for key in attributes:
-        if key not in known:
-            raise NetlistError(
-                f"{where}: unknown attribute '{shortened(key)}'; {nearest(key, known)}"
-            )
-    declared = {key: attributes[key] for key in ("unit", "min", "max") if key in attributes}
+    declared = _attributes(attributes, where)
     given = attributes.get("=", attributes.get("start"))
     value = None if given is None else scope.value(given, where)
     number = isinstance(value, int | float | sp.Expr) and not isinstance(value, bool)
     if attributes.get("fixed", True) is False:
-        unit = str(declared.get("unit", ""))
-        _assign(model, name, Variable(unit=unit, state="prefer"), where)
+        _assign(model, name, Variable(unit=declared.get("unit", ""), state="prefer"), where)
         if value is not None:
             within(where, lambda: model.modify(**{name: Start(value)}))
         model._steady.append(name)
@@ -150,6 +143,26 @@ def _parameter(scope: Scope, name: str, raw: Any, where: str) -> None:
     else:
         _assign(model, name, value, where)
     model.remember("", name, raw)
+
+
+def _attributes(given: Mapping[str, Any], where: str) -> dict[str, Any]:
+    """Unit and bounds among the attributes of a parameter, all of which are checked."""
+    known: dict[str, tuple[Any, str]] = {
+        "unit": (str, "a text"),
+        "min": (int | float, "a number"),
+        "max": (int | float, "a number"),
+    }
+    for key, value in given.items():
+        if key not in ("=", "start", "fixed", *IGNORED_KEYS):
+            hint = nearest(key, ("=", "start", "fixed", *IGNORED_KEYS))
+            raise NetlistError(f"{where}: unknown attribute '{shortened(key)}'; {hint}")
+        kinds, wanted = known.get(key, (object, ""))
+        truth = isinstance(value, bool)
+        if not isinstance(value, kinds) or (truth and key in known):
+            raise NetlistError(f"{where}.{key}: {wanted} is needed, not {kind(value)}")
+        if key == "fixed" and not truth:
+            raise NetlistError(f"{where}.fixed: true or false is needed, not {kind(value)}")
+    return {key: given[key] for key in known if key in given}
 
 
 def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:

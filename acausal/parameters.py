@@ -102,13 +102,16 @@ class ParameterLayout:
         """Collect a parameter dict into arrays; numbers that it lacks keep the model's values.
 
         Raises:
-            DataError: for an unknown name or a missing module.
+            DataError: for an unknown name, a missing module or what is not a number.
         """
         if isinstance(params, Packed):
             return params
         self._check_names(params)
         own = self.model.value[self.free]
         given = [params.get(name, value) for name, value in zip(self.names, own, strict=True)]
+        wrong = [n for n, v in zip(self.names, given, strict=True) if not _is_number(v)]
+        if wrong:
+            raise DataError(f"params: {listing(wrong)} must be numbers, got {params[wrong[0]]!r}")
         if any(isinstance(v, jax.Array) for v in given):
             free = (
                 jnp.stack([jnp.asarray(given[i], dtype=float) for i in self.order])
@@ -171,6 +174,12 @@ class ParameterLayout:
     def chosen(self, modules: Integers) -> tuple[int, ...]:
         """The modules that a column of module slots refers to."""
         return tuple(int(m) for m in self.module_of[modules])
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, float | int):
+        return True
+    return isinstance(value, np.ndarray | np.number | jax.Array) and np.ndim(value) == 0
 
 
 def lay_out_parameters(model: FlatModel) -> ParameterLayout:

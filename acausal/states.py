@@ -11,6 +11,9 @@ from acausal.equations import Equations
 from acausal.errors import StructureError, listing
 from acausal.rank import choose_columns
 from acausal.slopes import Point, parameter_values, random_values
+from acausal.symbols import STATE_SELECT
+
+DEFAULT = float(STATE_SELECT.index("default"))
 
 
 def select_states(system: Equations) -> list[int]:
@@ -24,7 +27,7 @@ def select_states(system: Equations) -> list[int]:
     """
     derivative = system.structure.derivative
     antecedent = {d: v for v, d in enumerate(derivative) if d >= 0 and v not in system.known}
-    wanted = _preference(system)
+    wanted = _preference(system, antecedent)
     dummies: set[int] = set()
     constraints = [e for e in system.derived_from if system.structure.successor[e] < 0]
     candidates = [v for v in antecedent if derivative[v] < 0]
@@ -73,15 +76,24 @@ def _points(system: Equations) -> tuple[Point, Point]:
     return Point(start, parameters), Point(anywhere, parameters)
 
 
-def _preference(system: Equations) -> Callable[[int], tuple[float, int]]:
-    """How much a node is wanted as a state: the class's highest wish, then the earlier declared."""
+def _preference(
+    system: Equations, antecedent: dict[int, int]
+) -> Callable[[int], tuple[float, int]]:
+    """How much a node is wanted as a state: by wish, then the earlier declared.
+
+    What it derives from would become a state with it, so the average wish along that chain counts; of
+    a node's names the one with the highest wish.
+    """
     n = system.model.n_variables
     representative = system.aliases.representative
-    wish = np.zeros(len(representative)) + 2.0
+    wish = np.full(len(system.structure.derivative), DEFAULT)
     wish[representative[:n]] = 0.0
     np.maximum.at(wish, representative[:n], system.model.state)
 
     def wanted(node: int) -> tuple[float, int]:
-        return (float(wish[node]) if node < len(wish) else 2.0, -node)
+        chain = [node]
+        while chain[-1] in antecedent:
+            chain.append(antecedent[chain[-1]])
+        return float(wish[chain].mean()), -node
 
     return wanted

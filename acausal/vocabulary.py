@@ -12,6 +12,9 @@ import sympy as sp
 from acausal import functions
 from acausal.symbols import der
 
+MAX_VALUES = 20
+"""Of which a minimum or maximum is taken."""
+
 CONSTANTS: dict[str, float] = {
     "pi": math.pi,
     "e": math.e,
@@ -43,7 +46,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "log10": lambda x: sp.log(x) / sp.log(10),
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
     "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh,
-    "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "der": der,
+    "abs": sp.Abs, "sign": sp.sign, "min": lambda *x: _extreme(sp.Min, x), "max": lambda *x: _extreme(sp.Max, x), "der": der,
     "floor": functions.floor, "integer": functions.floor, "ceil": lambda x: -functions.floor(-x),
     "div": lambda x, y: sp.sign(x / y) * functions.floor(sp.Abs(x / y)),
     "mod": lambda x, y: x - functions.floor(x / y) * y,
@@ -67,6 +70,13 @@ CONVERSIONS: dict[str, tuple[float, float]] = {
 """Of `Modelica.Units.Conversions`: the SI value is ``factor * x + offset``; ``from_deg(x)``, ``to_deg(x)``."""
 
 PREFIXES = re.compile(r"(Modelica\.)?(Math|(Units\.|SIunits\.)?Conversions|Cv)\.")
+
+
+def _extreme(kind: Any, values: tuple[Any, ...]) -> Any:
+    """Of few values: sympy compares each with each."""
+    if not 0 < sum(max(1, len(kind.make_args(v))) for v in values) <= MAX_VALUES:
+        raise TypeError
+    return kind(*values)
 
 
 def function(name: str) -> Callable[..., Any] | None:

@@ -29,7 +29,10 @@ class _Printer(StrPrinter):
         if expr.exp == sp.S.Half:
             return f"sqrt({self._print(expr.base)})"
         if expr.exp.is_number and expr.exp.is_negative and not rational:
-            return f"1/{self.parenthesize(1 / expr, 1000, strict=False)}"
+            inverse = 1 / expr
+            text = self._print(inverse)
+            plain = inverse.is_Symbol or text.startswith("sqrt(")
+            return f"1/{text}" if plain else f"1/({text})"
         base, exponent = (self.parenthesize(p, 1000, strict=False) for p in (expr.base, expr.exp))
         return f"{base}^{exponent}"
 

@@ -5,6 +5,8 @@
 | `translational` | `Modelica.Mechanics.Translational` |
 | `rotational` | `Modelica.Mechanics.Rotational` |
 | `blocks` | `Modelica.Blocks` |
+| `electrical` | `Modelica.Electrical.Analog` |
+| `magnetic` | `Modelica.Magnetic.FluxTubes` |
 | `thermal` | `Modelica.Thermal.HeatTransfer` |
 | `fluid` | `Modelica.Thermal.FluidHeatFlow` |
 | `neural` | none: two-ports of any domain whose law is a network |

@@ -213,7 +213,10 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     f"{_FLUX}.Shapes.FixedShape": (
         "magnetic",
-        _words("GenericFluxTube Cuboid HollowCylinderAxialFlux HollowCylinderRadialFlux"),
+        _words(
+            "GenericFluxTube Cuboid HollowCylinderAxialFlux HollowCylinderRadialFlux "
+            "HollowCylinderCircumferentialFlux Toroid"
+        ),
     ),
     f"{_FLUX}.Shapes.Force": (
         "magnetic.force",
@@ -227,6 +230,22 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
         _words(
             "QuarterCylinder QuarterHollowCylinder HalfCylinder HalfHollowCylinder QuarterSphere "
             "QuarterHollowSphere EighthOfSphere EighthOfHollowSphere CoaxCylindersEndFaces"
+        ),
+    ),
+    f"{_FLUX}.Shapes.HysteresisAndMagnets": (
+        "magnetic",
+        _words(
+            "GenericLinearPermanentMagnet GenericHystTellinenSoft GenericHystTellinenHard "
+            "GenericHystTellinenPermanentMagnet GenericHystTellinenTable GenericHystTellinenEverett "
+            "GenericHystPreisachEverett"
+        ),
+    ),
+    f"{_FLUX}.Shapes.HysteresisAndMagnets": (
+        "magnetic",
+        _words(
+            "GenericHystTellinenSoft GenericHystTellinenHard GenericHystTellinenEverett "
+            "GenericHystTellinenTable GenericHystPreisachEverett GenericHystTellinenPermanentMagnet "
+            "GenericLinearPermanentMagnet"
         ),
     ),
     f"{_FLUX}.Sources": (
@@ -246,6 +265,21 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
             "MagneticPort PositiveMagneticPort NegativeMagneticPort TwoPortElementary "
             "TwoPortExtended TwoPort ConditionalHeatPort"
         ),
+    ),
+    f"{_FLUX}.Material.SoftMagnetic.Steel": (
+        "magnetic",
+        _words("Steel_9SMnPb28 Steel_9SMn28K DC01 DC03 X6Cr17 AISI_1008 AISI_12L14"),
+    ),
+    f"{_FLUX}.Material.SoftMagnetic.ElectricSheet": (
+        "magnetic",
+        _words("M330_50A M350_50A M530_50A M700_100A M940_100A"),
+    ),
+    f"{_FLUX}.Material.SoftMagnetic.PureIron": ("magnetic", _words("RFe80 VacoferS2")),
+    f"{_FLUX}.Material.SoftMagnetic.CobaltIron": ("magnetic", _words("Vacoflux50")),
+    f"{_FLUX}.Material.SoftMagnetic.NickelIron": ("magnetic", _words("MuMetall Permenorm3601K3")),
+    f"{_FLUX}.Material.HardMagnetic": (
+        "magnetic.hard_magnetic",
+        _words("HardFerrite NdFeB Sm2Co17 SmCo5 PlasticHardFerrite PlasticNdFeB PlasticSmCo"),
     ),
     f"{_BLOCKS}.Sources": (
         "blocks",

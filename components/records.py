@@ -1,16 +1,23 @@
 """Media, materials and constants that a netlist may name, by the last word of their Modelica name."""
 
+from types import ModuleType
 from typing import Any
 
 from . import constants
 from .fluid import media
+from .magnetic import hard_magnetic, soft_magnetic
+
+
+def _records(module: ModuleType) -> dict[str, Any]:
+    """An instance of every class that a module of records declares, by the name of the class."""
+    classes = (v for v in vars(module).values() if isinstance(v, type))
+    return {cls.__name__: cls() for cls in classes if cls.__module__ == module.__name__}
+
 
 RECORDS: dict[str, Any] = {
     **{name: value for name, value in vars(constants).items() if name.startswith("alpha20")},
-    **{
-        name: cls()
-        for name, cls in vars(media).items()
-        if isinstance(cls, type) and issubclass(cls, media.Medium)
-    },
+    **_records(media),
+    **_records(hard_magnetic),
+    **_records(soft_magnetic),
 }
-"""Name -> record or number."""
+"""Name -> record or number; `BaseData` is that of soft magnetic materials."""

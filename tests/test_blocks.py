@@ -15,7 +15,10 @@ from acausal.flatten import flatten
 
 signal: Any = scipy_signal  # its types are partly unknown
 
-BASES = ("MIMO", "MISO", "MO", "SI", "SI2SO", "SISO", "SO", "SVcontrol", "SignalSource")
+BASES = (
+    "MI2MO", "MIMO", "MIMOs", "MISO", "MO", "NeedsDiscreteStates", "PartialConversionBlock", "SI", "SI2SO",
+    "SIMO", "SISO", "SO", "SVcontrol", "SignalSource",
+)  # fmt: skip
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default,
 # `float` a default that follows from other parameters).
@@ -98,6 +101,13 @@ NEEDED: dict[str, dict[str, Any]] = {
     "StateSpace": {"A": [[-1.0]], "B": [[1.0]], "C": [[1.0]]},
     "Polynomial": {"c": [1.0, 2.0]},
     "MinMax": {"nu": 2},
+    "BooleanExpression": {"y": True},
+    "IntegerExpression": {"y": 2},
+    "IntegerTable": {"table": [[0, 1], [1, 2]]},
+    "CombiTable1Ds": {"table": [[0, 1], [1, 2]]},
+    "CombiTable1Dv": {"table": [[0, 1], [1, 2]]},
+    "CombiTable2Ds": {"table": [[0, 1], [1, 2]]},
+    "CombiTable2Dv": {"table": [[0, 1], [1, 2]]},
 }
 
 
@@ -113,8 +123,10 @@ def minimal(name):
 
 
 def classes():
+    """Names of the blocks that can be made."""
     found = {n: getattr(blocks, n) for n in blocks.__all__ if n not in BASES}
-    return [n for n, c in found.items() if issubclass(c, ac.Component)]
+    made = {n: c for n, c in found.items() if inspect.isclass(c) and issubclass(c, ac.Component)}
+    return [n for n, c in made.items() if not issubclass(c, blocks.NeedsDiscreteStates)]
 
 
 class Panel(ac.Component):

@@ -1,6 +1,7 @@
 """Electrical circuits: MSL's names and defaults, characteristics at points, and a bench of responses."""
 
 import inspect
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -188,8 +189,8 @@ PARTIAL = {
 }  # fmt: skip
 UNAVAILABLE = {"IdealThyristor", "IdealTriac"}
 
-CLASSES = [(el, name, DEFAULTS[name]) for name in DEFAULTS]
-CLASSES += [(oc, name, CIRCUITS[name]) for name in CIRCUITS]
+TABLES = [(el, DEFAULTS), (oc, CIRCUITS)]
+CLASSES = [(module, name, table[name]) for module, table in TABLES for name in table]
 IDS = [name for _, name, _ in CLASSES]
 
 
@@ -217,7 +218,7 @@ def circuit(*nets, **parts):
     return model
 
 
-def _end(model, path):
+def _end(model: Any, path: str) -> Any:
     for name in path.split("."):
         model = getattr(model, name)
     return model
@@ -230,7 +231,7 @@ AT_ZERO = ac.Start(0.0, fixed=True)
 # -- declarations ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("module", "table"), [(el, DEFAULTS), (oc, CIRCUITS)])
+@pytest.mark.parametrize(("module", "table"), TABLES)
 def test_every_class_is_documented_and_in_the_table(module, table):
     for name in module.__all__:
         cls = getattr(module, name)
@@ -452,8 +453,9 @@ def mosfets():
     return currents(ac.compile(Pins("DGSB", **transistors)), names)
 
 
-def channel(D, G, S, B, W, L, beta, vt, k2, k5):
+def channel(potentials, W, L, beta, vt, k2, k5):
     """Current into the drain of an n-channel transistor, by cases as in the literature."""
+    D, G, S, B = potentials
     ud, us = max(D, S), min(D, S)
     uds, ubs = ud - us, min(B - us, 0)
     ugst = (G - us - vt + k2 * ubs) * k5
@@ -481,12 +483,12 @@ def channel(D, G, S, B, W, L, beta, vt, k2, k5):
 )
 def test_field_effect_transistors(mosfets, potentials):
     found = mosfets(**dict(zip("DGSB", potentials, strict=True)))
-    n = channel(*potentials, 17.5e-6, 4.5e-6, 0.041e-3, 0.8, 1.144, 0.7311)
-    p = -channel(*(-v for v in potentials), 17.5e-6, 3.9e-6, 0.0105e-3, 1.0, 0.41, 0.839)
+    n = channel(potentials, 17.5e-6, 4.5e-6, 0.041e-3, 0.8, 1.144, 0.7311)
+    p = -channel([-v for v in potentials], 17.5e-6, 3.9e-6, 0.0105e-3, 1.0, 0.41, 0.839)
     above = 350 - 300.15
     beta = 0.041e-3 * (350 / 300.15) ** -1.5
     vt, k2 = 0.8 * (1 - 6.96e-3 * above), 1.144 * (1 + 6e-4 * above)
-    hot = channel(*potentials, 17.5e-6, 4.5e-6, beta, vt, k2, 0.7311)
+    hot = channel(potentials, 17.5e-6, 4.5e-6, beta, vt, k2, 0.7311)
     for name, expected in (("n", n), ("p", p), ("hot", hot)):
         assert found[f"{name}.D.i"] == pytest.approx(expected, abs=1e-18)
         assert found[f"{name}.S.i"] == pytest.approx(-expected, abs=1e-18)
@@ -507,8 +509,10 @@ def bipolars():
     return currents(ac.compile(Pins("CBES", **transistors)), names)
 
 
-def ebers_moll(C, B, E, S, rates, vt=0.02585, saturation=1e-16, bf=50, br=0.1):
+def ebers_moll(potentials, rates, vt=0.02585, saturation=1e-16, bf=50, br=0.1):
     """Currents into collector, base, emitter and substrate of an NPN transistor."""
+
+    C, B, E, _ = potentials
 
     def junction(v, conductance, transit, capacity, diffusion, exponent):
         growth = exlin(max(v / vt, -100), 40)
@@ -534,11 +538,11 @@ def ebers_moll(C, B, E, S, rates, vt=0.02585, saturation=1e-16, bf=50, br=0.1):
 def test_bipolar_transistors(bipolars, potentials):
     rates = dict(zip("CBES", (1e6, -2e6, 3e6, 5e5), strict=True))
     found = bipolars(rates, **dict(zip("CBES", potentials, strict=True)))
-    n = ebers_moll(*potentials, rates)
-    p = [-i for i in ebers_moll(*(-v for v in potentials), {k: -v for k, v in rates.items()})]
+    n = ebers_moll(potentials, rates)
+    p = [-i for i in ebers_moll([-v for v in potentials], {k: -v for k, v in rates.items()})]
     ratio, vt = 350 / 300.15, nature.k * 350 / nature.q
     saturation = 1e-16 * ratio**3 * np.exp((ratio - 1) * 1.11 / vt)
-    hot = ebers_moll(*potentials, rates, vt, saturation, 50 * ratio**0.5, 0.1 * ratio**0.5)
+    hot = ebers_moll(potentials, rates, vt, saturation, 50 * ratio**0.5, 0.1 * ratio**0.5)
     for name, expected in (("n", n), ("p", p), ("hot", hot)):
         values = [found[f"{name}.{pin}.i"] for pin in "CBES"]
         assert values == pytest.approx(expected, rel=1e-6, abs=1e-15)
@@ -952,7 +956,13 @@ def bench():
     }  # fmt: skip
     system = ac.compile(Bench())
     return ac.simulate(
-        system, t=(0, 2), inputs=inputs, saveat=np.linspace(0, 2, 41), rtol=1e-8, atol=1e-10
+        system,
+        t=(0, 2),
+        inputs=inputs,
+        saveat=np.linspace(0, 2, 41),
+        solver="tsit5",
+        rtol=1e-8,
+        atol=1e-10,
     )
 
 
@@ -1004,7 +1014,7 @@ def test_an_inductor_saturates(bench):
     i, Lact = np.asarray(bench["saturating.i"]), np.asarray(bench["saturating.Lact"])
     assert np.allclose(Lact * i, flux, atol=1e-6)
     assert Lact[0] == pytest.approx(2)
-    Ipar = brentq(lambda x: 0.5 + 1.5 * x * np.arctan(1 / x) - 1, 1e-3, 10)
+    Ipar: Any = brentq(lambda x: 0.5 + 1.5 * x * np.arctan(1 / x) - 1, 1e-3, 10)
     assert np.allclose(Lact[1:], 0.5 + 1.5 * Ipar / i[1:] * np.arctan(i[1:] / Ipar))
 
 

@@ -99,7 +99,7 @@ def test_every_class_is_documented_and_in_the_table():
 @pytest.mark.parametrize("name", DEFAULTS)
 def test_names_and_defaults_are_those_of_the_standard_library(name):
     cls = getattr(fluid, name)
-    if issubclass(cls, fluid.bases.PartialMedium):
+    if "medium" in cls._declared:
         assert cls._declared["medium"].default == fluid.Medium()
     for key, default in DEFAULTS[name].items():
         assert cls._declared[key].default == (None if default is ... else default), key
@@ -345,7 +345,7 @@ def bench(system):
         "source.ambientPressure": lambda t: 30 * jnp.cos(np.pi * t),
         "linear.y": 1.0, "exponential.y": 3.0,
     }  # fmt: skip
-    solution = ac.simulate(system, t=(0, 1), dt=0.01, inputs=inputs, rtol=1e-8, atol=1e-8)
+    solution = ac.simulate(system, t=(0, 1), dt=0.01, inputs=inputs)
     return solution.to_dict(OBSERVED.split())  # by one program
 
 

@@ -60,6 +60,11 @@ def test_a_whole_array_is_not_copied():
     assert found.read(ARRAYS) is ARRAYS[0]
 
 
+def test_nothing_to_read():
+    nothing = np.empty(0, dtype=np.int64)
+    assert gather(nothing, nothing, SIZES).read(ARRAYS).shape == (0,)
+
+
 def test_runs_are_bounded():
     found = read([(0, i) for i in (5, 3, 1, 4, 2, 0, 9, 7, 8, 6, 1, 5, 2, 9)])
     assert isinstance(found, Take)

@@ -438,7 +438,8 @@ class Bench(ac.Component):
 @pytest.fixture(scope="module")
 def bench():
     system = ac.compile(Bench())
-    return ac.simulate(system, t=(0, 1), saveat=np.linspace(0, 1, 21), rtol=1e-8, atol=1e-12)
+    times = np.linspace(0, 1, 21)
+    return ac.simulate(system, t=(0, 1), saveat=times, solver="tsit5", rtol=1e-8, atol=1e-12)
 
 
 def test_a_coil_is_an_inductor(bench):

@@ -207,7 +207,7 @@ def bench(system):
         "convection.Gc": 2.0, "resistor.Rc": 0.25, "to_T.f": lambda t: -4 * t,
         "to_Q.p": lambda t: 300 + t**2, "to_Q.pder": lambda t: 2 * t,
     }  # fmt: skip
-    solution = ac.simulate(system, t=(0, 1), dt=0.01, inputs=inputs, rtol=1e-9, atol=1e-9)
+    solution = ac.simulate(system, t=(0, 1), dt=0.01, inputs=inputs)
     return solution.to_dict()  # all variables by one program
 
 

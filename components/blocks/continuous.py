@@ -1,10 +1,10 @@
 """Continuous blocks with states; integrators, controllers, filters come from their own modules."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import acausal as ac
 
+from .canonical import canonical_form, dot
 from .controllers import PI, PID, LimPID
 from .filters import CriticalDamping, Filter, LowpassButterworth
 from .integrators import Der, Derivative, Integrator, LimIntegrator
@@ -87,14 +87,7 @@ class TransferFunction(SISO):
                 f"TransferFunction: the numerator has {len(self.b)} coefficients, the denominator "
                 f"{len(self.a)}; it must not have fewer"
             )
-        a, b = self.a, (*[0] * (len(self.a) - len(self.b)), *self.b)
-        d = b[0] / a[0]
-        if self.x:
-            yield ac.Eq(ac.der(self.x[0]), (self.u - _dot(a[1:], self.x)) / a[0])
-        for x, before in zip(self.x[1:], self.x[:-1], strict=True):
-            yield ac.Eq(ac.der(x), before)
-        residues = [bi - d * ai for ai, bi in zip(a[1:], b[1:], strict=True)]
-        yield ac.Eq(self.y, _dot(residues, self.x) + d * self.u)
+        yield from canonical_form(self.u, self.y, self.x, self.b, self.a)
 
     def initial_equations(self) -> Iterator[ac.Eq]:
         match self.initType:
@@ -141,16 +134,12 @@ class StateSpace(MIMO):
 
     def equations(self) -> Iterator[ac.Eq]:
         for x, a, b in zip(self.x, self.A, self.B, strict=True):
-            yield ac.Eq(ac.der(x), _dot(a, self.x) + _dot(b, self.u))
+            yield ac.Eq(ac.der(x), dot(a, self.x) + dot(b, self.u))
         for y, c, d in zip(self.y, self.C, self.D, strict=True):
-            yield ac.Eq(y, _dot(c, self.x) + _dot(d, self.u))
+            yield ac.Eq(y, dot(c, self.x) + dot(d, self.u))
 
     def initial_equations(self) -> Iterator[ac.Eq]:
         if self.initType == "SteadyState":
             yield from (ac.Eq(ac.der(x), 0) for x in self.x)
         elif self.initType == "InitialState":
             yield from (ac.Eq(x, s) for x, s in zip(self.x, self.x_start, strict=True))
-
-
-def _dot(a: Any, b: Any) -> Any:
-    return sum(x * y for x, y in zip(a, b, strict=True))

@@ -1,10 +1,13 @@
-"""Limits and dead zones."""
+"""Limits, dead zones and an approximate delay."""
 
 from collections.abc import Iterator
+from math import factorial
+from typing import Any
 
 import acausal as ac
 
-from .interfaces import SISO
+from .canonical import canonical_form
+from .interfaces import INIT, SISO, PartialStart
 
 
 class Limiter(SISO):
@@ -44,3 +47,65 @@ class DeadZone(SISO):
     def equations(self) -> Iterator[ac.Eq]:
         beyond = ac.maximum(self.u - self.uMax, 0) + ac.minimum(self.u - self.uMin, 0)
         yield ac.Eq(self.y, beyond)
+
+
+class SlewRateLimiter(PartialStart, SISO):
+    """Follows the input no faster than allowed: ``der(y) = min(max((u - y)/Td, Falling), Rising)``.
+
+    ``SteadyState``: the output starts at the input, ``y = u``. ``strict`` has no effect.
+    """
+
+    Rising = ac.Parameter(1.0, unit="1/s", min=0, doc="greatest slope")
+    Falling = ac.Parameter(lambda self: -self.Rising, unit="1/s", max=0, doc="smallest slope")
+    Td = ac.Parameter(0.001, unit="s", min=0, doc="time constant of the derivative")
+    initType = ac.Option("SteadyState", choices=INIT, doc="type of initialization")
+    strict = ac.Option(False, doc="without effect")
+    y = ac.Output(start="y_start", state="prefer", doc="output signal")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        slope = (self.u - self.y) / self.Td
+        limited = ac.minimum(ac.maximum(slope, self.Falling), self.Rising)
+        yield ac.Eq(ac.der(self.y), limited)
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        if self.initType == "SteadyState":
+            yield ac.Eq(self.y, self.u)
+        else:
+            yield from super().initial_equations()
+
+
+class PadeDelay(SISO):
+    """Padé approximation of ``y(t) = u(t - delayTime)``, with denominator of order ``n``, numerator ``m``.
+
+    The coefficients of ``s**k`` are ``c(k, m) (-delayTime)**k`` above and ``c(k, n) delayTime**k`` below, where
+    ``c(k, p) = (n+m-k)! p!/((n+m)! k! (p-k)!)``. The states ``x`` are those of `TransferFunction`; they start
+    at rest, so that ``y = u``. ``balance``, the scaling of the states, has no effect.
+    """
+
+    delayTime = ac.Parameter(unit="s", min=0, doc="delay of the output")
+    n = ac.Option(1, doc="order of the denominator")
+    m = ac.Option(None, doc="order of the numerator, at most n; n by default")
+    balance = ac.Option(False, doc="without effect")
+    x = ac.Variable(shape="n", doc="states in controller canonical form")
+
+    def _coefficients(self, order: int, of: int, delay: Any) -> list[Any]:
+        """Coefficients of a polynomial of that order, highest power first; ``of`` is the other's order."""
+        return [
+            factorial(order + of - k)
+            * factorial(order)
+            / (factorial(order + of) * factorial(k) * factorial(order - k))
+            * delay**k
+            for k in range(order, -1, -1)
+        ]
+
+    def equations(self) -> Iterator[ac.Eq]:
+        m = self.n if self.m is None else self.m
+        if not 1 <= m <= self.n:
+            raise ac.DeclarationError(f"PadeDelay: m={m} must lie between 1 and n={self.n}")
+        above = self._coefficients(m, self.n, -self.delayTime)
+        below = self._coefficients(self.n, m, self.delayTime)
+        yield from canonical_form(self.u, self.y, self.x, above, below)
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        for x in self.x:
+            yield ac.Eq(ac.der(x), 0)

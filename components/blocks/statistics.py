@@ -1,6 +1,7 @@
 """Mean, variance and standard deviation of a signal since the start."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
 
@@ -48,7 +49,7 @@ class Variance(SISO):
         yield ac.Eq(ac.der(self.var), ac.where(begun, (deviation**2 - self.var) / elapsed, 0))
         yield from self._output(ac.where(begun, ac.maximum(self.var, 0), 0))
 
-    def _output(self, variance: ac.Eq) -> Iterator[ac.Eq]:
+    def _output(self, variance: Any) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, variance)
 
     def initial_equations(self) -> Iterator[ac.Eq]:
@@ -58,5 +59,5 @@ class Variance(SISO):
 class StandardDeviation(Variance):
     """Square root of the `Variance` of the input since ``t_0`` [s]."""
 
-    def _output(self, variance: ac.Eq) -> Iterator[ac.Eq]:
+    def _output(self, variance: Any) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.sqrt(variance))

@@ -19,22 +19,37 @@ EXTRAPOLATION: dict[str, Literal["hold", "linear", "periodic"]] = {
     "HoldLastPoint": "hold",
     "LastTwoPoints": "linear",
     "Periodic": "periodic",
+    "NoExtrapolation": "hold",
 }
 
 
-def _interpolant(
+def interpolant(
     points: Any, smoothness: str, extrapolation: str, what: str, _key: Any = None
 ) -> ac.Signal:
     """A signal through rows ``(t, y)``; a repeated time is a jump, a single row a constant."""
-    rows = np.asarray(points, dtype=float)
-    if len(rows) == 1:
-        rows = np.concatenate([rows, rows + np.array([1.0, 0.0])])
-    ts = rows[:, 0].copy()
+    points = np.asarray(points, dtype=float)
+    if len(points) == 1:
+        points = np.concatenate([points, points + np.array([1.0, 0.0])])
+    ts = points[:, 0].copy()
     for i in np.flatnonzero(np.diff(ts) == 0)[::-1]:
         ts[i] = np.nextafter(min(ts[i], ts[i + 1]), -np.inf)
     return ac.Signal(
-        ts, rows[:, 1], SMOOTHNESS[smoothness], EXTRAPOLATION[extrapolation], name=what
+        ts, points[:, 1], SMOOTHNESS[smoothness], EXTRAPOLATION[extrapolation], name=what
     )
+
+
+def rows(component: Any) -> np.ndarray:
+    """A component's option ``table`` as an array with at least two columns.
+
+    Raises:
+        DeclarationError: if it is none.
+    """
+    table = component.table
+    if table is None or np.ndim(table) != 2 or np.shape(table)[1] < 2:
+        raise ac.DeclarationError(
+            f"{type(component).__name__} needs table=[[t, y, ...], ...], got {table!r}"
+        )
+    return np.asarray(table, dtype=float)
 
 
 class _TimeTable(ac.Component):
@@ -49,11 +64,7 @@ class _TimeTable(ac.Component):
     shiftTime = ac.Parameter(lambda self: self.startTime, unit="s", doc="time of the table's zero")
 
     def _rows(self) -> np.ndarray:
-        if self.table is None or np.ndim(self.table) != 2 or np.shape(self.table)[1] < 2:
-            raise ac.DeclarationError(
-                f"{type(self).__name__} needs table=[[t, y, ...], ...], got {self.table!r}"
-            )
-        return np.asarray(self.table, dtype=float)
+        return rows(self)
 
     def _equation(self, y: Any, offset: Any, column: Any) -> ac.Eq:
         value = column((ac.time - self.shiftTime) / self.timeScale)
@@ -71,37 +82,39 @@ class TimeTable(SO, _TimeTable):
     column = ac.Module("_column")
 
     def _column(self, key: Any) -> ac.Signal:
-        return _interpolant(self._rows(), "LinearSegments", "LastTwoPoints", "table", key)
+        return interpolant(self._rows(), "LinearSegments", "LastTwoPoints", "table", key)
 
     def equations(self) -> Iterator[ac.Eq]:
         yield self._equation(self.y, self.offset, self.column)
 
 
-class CombiTimeTable(MO, _TimeTable):
-    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``.
+class PartialColumns(ac.Component):
+    """What tables with several columns of values share.
 
     ``smoothness``: ``LinearSegments``, ``ConstantSegments``, or ``ContinuousDerivative``, a cubic
     Hermite spline (its slopes are those of parabolas through three neighbours; Modelica's are
-    Akima's). ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints`` or ``Periodic``. ``columns`` counts
-    from 1, the column of times; by default all others are outputs. A time that stands twice is a jump.
-    Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
+    Akima's). ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints``, ``Periodic``, or
+    ``NoExtrapolation``, which holds the last point too (Modelica stops there). ``columns`` counts from 1,
+    the column of times or arguments; by default all others are outputs. A time or argument that stands twice
+    is a jump. Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
     """
 
+    table = ac.Option(None, doc="rows of the argument and values")
     columns = ac.Option(None, doc="columns of the table that are outputs, counted from 1")
     smoothness = ac.Option("LinearSegments", choices=tuple(SMOOTHNESS), doc="kind of interpolation")
     extrapolation = ac.Option(
         "LastTwoPoints", choices=tuple(EXTRAPOLATION), doc="what holds outside of the table"
     )
-    offset = ac.Parameter([0.0], shape=":", doc="offsets of the outputs, or one for all")
+    tableOnFile = ac.Option(False, choices=(False,), doc="tables on files are not read")
+    verboseRead = ac.Option(True, doc="without effect")
+    verboseExtrapolation = ac.Option(False, doc="without effect")
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
-        self.column = [ac.Module(partial(self._column, i)) for i in range(self.nout)]
+        self.column: Any = [ac.Module(partial(self._column, i)) for i in range(len(self._columns))]
 
-    @property
-    def nout(self) -> int:
-        """Number of outputs."""
-        return len(self._columns)
+    def _rows(self) -> np.ndarray:
+        return rows(self)
 
     @property
     def _columns(self) -> Sequence[int]:
@@ -117,7 +130,22 @@ class CombiTimeTable(MO, _TimeTable):
     def _column(self, i: int, key: Any) -> ac.Signal:
         points = self._rows()[:, [0, self._columns[i] - 1]]
         what = f"column {self._columns[i]} of the table"
-        return _interpolant(points, self.smoothness, self.extrapolation, what, key)
+        return interpolant(points, self.smoothness, self.extrapolation, what, key)
+
+
+class CombiTimeTable(PartialColumns, MO, _TimeTable):
+    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``.
+
+    See `PartialColumns` for the kinds of interpolation and extrapolation.
+    """
+
+    timeEvents = ac.Option("Always", doc="without effect")
+    offset = ac.Parameter([0.0], shape=":", doc="offsets of the outputs, or one for all")
+
+    @property
+    def nout(self) -> int:
+        """Number of outputs."""
+        return len(self._columns)
 
     def equations(self) -> Iterator[ac.Eq]:
         offsets = self.offset if len(self.offset) > 1 else self.offset * self.nout

@@ -131,7 +131,5 @@ class IntegerTable(_Table):
 
     def _points(self) -> np.ndarray:
         if self.table is None or np.ndim(self.table) != 2 or np.shape(self.table)[1] != 2:
-            raise ac.DeclarationError(
-                f"IntegerTable needs table=[[t, y], ...], got {self.table!r}"
-            )
+            raise ac.DeclarationError(f"IntegerTable needs table=[[t, y], ...], got {self.table!r}")
         return np.asarray(self.table, dtype=float)

@@ -1,4 +1,5 @@
 """Unit conversions: ``To_...`` from the unit of the SI, ``From_...`` back to it."""
+# ruff: noqa: N801 (Modelica's names)
 
 from collections.abc import Iterator
 from typing import ClassVar

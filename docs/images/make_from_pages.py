@@ -1,7 +1,9 @@
 """Make the pictures that the code of the pages saves: python docs/images/make_from_pages.py [page.md ...]."""
 
 import os
+import shutil
 import sys
+import tempfile
 from pathlib import Path
 from types import ModuleType
 
@@ -19,13 +21,17 @@ PAGES = ("getting-started.md", "quarter-vehicle.md")
 
 
 def main() -> None:
-    """Run the pages here, so that every ``savefig`` of theirs lands among the images."""
-    os.chdir(HERE)
-    for name in sys.argv[1:] or PAGES:
-        page = ModuleType(name.partition(".")[0])
-        sys.modules[page.__name__] = page
-        for block in blocks(HERE.parent / name):
-            exec(compile(block, name, "exec"), vars(page))
+    """Run the pages in an empty folder and take the pictures that they leave there."""
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for name in sys.argv[1:] or PAGES:
+            page = ModuleType(name.partition(".")[0])
+            sys.modules[page.__name__] = page
+            for block in blocks(HERE.parent / name):
+                exec(compile(block, name, "exec"), vars(page))
+        for picture in Path(folder).glob("*.png"):
+            shutil.copy(picture, HERE)
+        os.chdir(HERE)
 
 
 if __name__ == "__main__":

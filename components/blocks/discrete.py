@@ -1,0 +1,35 @@
+"""Sampled blocks (`Modelica.Blocks.Discrete`): their names are known, but they are refused."""
+
+from .interfaces import NeedsDiscreteStates
+
+
+class Sampler(NeedsDiscreteStates):
+    """The input at sample times."""
+
+
+class ZeroOrderHold(NeedsDiscreteStates):
+    """The input at sample times, held in between."""
+
+
+class FirstOrderHold(NeedsDiscreteStates):
+    """Straight on from the last two samples."""
+
+
+class UnitDelay(NeedsDiscreteStates):
+    """The previous sample."""
+
+
+class TransferFunction(NeedsDiscreteStates):
+    """A transfer function in z."""
+
+
+class StateSpace(NeedsDiscreteStates):
+    """A state space system in z."""
+
+
+class TriggeredSampler(NeedsDiscreteStates):
+    """The input at the times of a trigger."""
+
+
+class TriggeredMax(NeedsDiscreteStates):
+    """The greatest absolute value at the times of a trigger."""
