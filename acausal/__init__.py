@@ -68,17 +68,13 @@ from acausal.neural import (
     OffsetCorrected,
     remove_offset,
 )
-from acausal.regularizers import (
-    SmallCorrection,
-    ZeroCrossing,
-)
 from acausal.signals import (
     Signal,
 )
 from acausal.simulate import (
     simulate,
 )
-from acausal.solution import (
+from acausal.simulation.solution import (
     Solution,
 )
 from acausal.symbols import (
@@ -98,6 +94,10 @@ from acausal.symbols import (
 from acausal.system import (
     System,
     compile,
+)
+from acausal.training.regularizers import (
+    SmallCorrection,
+    ZeroCrossing,
 )
 
 __version__ = "0.1.0"

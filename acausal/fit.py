@@ -15,17 +15,17 @@ from numpy.typing import ArrayLike
 
 from acausal.data import Data
 from acausal.errors import TrainingError
-from acausal.history import History
-from acausal.losses import Loss
 from acausal.neural import remove_offset
-from acausal.pose import Start, pose
-from acausal.problem import Problem, modified
-from acausal.progress import Observer, display
-from acausal.regularizers import Regularizer
-from acausal.solvers import Solver
-from acausal.trainer import Trainer, begin
-from acausal.training import Trained
-from acausal.training import train as run
+from acausal.simulation.solvers import Solver
+from acausal.training.history import History
+from acausal.training.loop import Trained
+from acausal.training.loop import train as run
+from acausal.training.losses import Loss
+from acausal.training.pose import Start, pose
+from acausal.training.problem import Problem, modified
+from acausal.training.progress import Observer, display
+from acausal.training.regularizers import Regularizer
+from acausal.training.trainer import Trainer, begin
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -75,7 +75,7 @@ def fit(
         gamma: the γ of modifiers without their own.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
             (M, k), (M, k), (k,); averaged over a batch's sequences.
-        regularizers: penalties, see `acausal.regularizers`; any function (params, context) -> scalar.
+        regularizers: penalties, see `acausal.training.regularizers`; any function (params, context) -> scalar.
         sequence_length: in seconds; ``None`` takes the whole record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.

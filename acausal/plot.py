@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from acausal.fit import Fit, Seen
-    from acausal.history import History
+    from acausal.training.history import History
 
 TRUTH = "#22303c"
 LEARNED = ("#1f77b4", "#d1603d", "#3d8c5a", "#8a5a9e", "#b8860b", "#417f8a")

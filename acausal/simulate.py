@@ -9,14 +9,14 @@ import diffrax as dfx
 import numpy as np
 from numpy.typing import ArrayLike
 
-from acausal import inputs as drives
-from acausal import solvers
-from acausal.adaptive import Tolerance, simulate_adaptive
 from acausal.data import Data
 from acausal.errors import DataError
-from acausal.fixed import grid, simulate_fixed
-from acausal.run import Run
-from acausal.solution import Solution
+from acausal.simulation import inputs as drives
+from acausal.simulation import solvers
+from acausal.simulation.adaptive import Tolerance, simulate_adaptive
+from acausal.simulation.fixed import grid, simulate_fixed
+from acausal.simulation.run import Run
+from acausal.simulation.solution import Solution
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -55,7 +55,7 @@ def simulate(
             `Data` record gives the inputs it has. Samples that fall on the steps' ends cost nothing.
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values.
-        solver: a name (`acausal.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
+        solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it is Kvaerno5 if the Jacobian at the start has damped modes so fast that stability
             would cost Tsit5 more than 5000 steps (not examined while JAX traces, and above 300 states).
         rtol: relative tolerance of an adaptive step.

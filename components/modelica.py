@@ -240,14 +240,6 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
             "GenericHystPreisachEverett"
         ),
     ),
-    f"{_FLUX}.Shapes.HysteresisAndMagnets": (
-        "magnetic",
-        _words(
-            "GenericHystTellinenSoft GenericHystTellinenHard GenericHystTellinenEverett "
-            "GenericHystTellinenTable GenericHystPreisachEverett GenericHystTellinenPermanentMagnet "
-            "GenericLinearPermanentMagnet"
-        ),
-    ),
     f"{_FLUX}.Sources": (
         "magnetic",
         _words(

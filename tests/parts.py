@@ -52,6 +52,22 @@ class Equations(ac.Component):
         yield from self._stated(self)
 
 
+class Pendulum(Equations):
+    """A unit pendulum in Cartesian coordinates; index 3."""
+
+    def __init__(self, **starts: Any) -> None:
+        super().__init__("x y v w f", _pendulum)
+        self.modify(**starts)
+
+
+def _pendulum(s: Any) -> Iterator[ac.Eq]:
+    yield ac.Eq(ac.der(s.x), s.v)
+    yield ac.Eq(ac.der(s.y), s.w)
+    yield ac.Eq(ac.der(s.v), -s.f * s.x)
+    yield ac.Eq(ac.der(s.w), -s.f * s.y - 9.81)
+    yield ac.Eq(s.x**2 + s.y**2, 1)
+
+
 # -- electrical ---------------------------------------------------------------------------------------
 
 

@@ -8,14 +8,15 @@ import optax
 import pytest
 
 import acausal as ac
-from acausal import losses, training
-from acausal.integrate import integrate
-from acausal.modifiers import modifiers
-from acausal.pose import pose
-from acausal.problem import modified
-from acausal.record import sequences
-from acausal.regularizers import Context
-from acausal.trainer import Trainer, advance, begin
+from acausal.simulation.integrate import integrate
+from acausal.training import loop as training
+from acausal.training import losses
+from acausal.training.modifiers import modifiers
+from acausal.training.pose import pose
+from acausal.training.problem import modified
+from acausal.training.record import sequences
+from acausal.training.regularizers import Context
+from acausal.training.trainer import Trainer, advance, begin
 from tests.oscillator import force, learned, plain, record
 
 CUBIC = 80.0
@@ -312,7 +313,7 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
         lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700])
     )
     good = jax.tree.map(lambda a: a[np.array([0, 2])], bad)
-    from acausal.trainer import _gradient  # the part under test is not public
+    from acausal.training.trainer import _gradient  # the part under test is not public
 
     _, mixed, mask = _gradient(posed, trainer, state.trainable, bad)
     _, alone, _ = _gradient(posed, trainer, state.trainable, good)

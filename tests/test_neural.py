@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.arguments import arguments, calls
 from acausal.neural import Fused, arranged, networks
+from acausal.training.arguments import arguments, calls
 from tests.oscillator import learned
 
 

@@ -25,6 +25,7 @@ from tests.parts import (
     Mass,
     Model,
     NonlinearResistor,
+    Pendulum,
     Position,
     Resistor,
     SignalVoltage,
@@ -197,22 +198,6 @@ def test_a_voltage_on_a_capacitor_is_differentiated():
 
 
 # -- higher index -----------------------------------------------------------------------------------------------
-
-
-def pendulum(s):
-    yield Eq(der(s.x), s.v)
-    yield Eq(der(s.y), s.w)
-    yield Eq(der(s.v), -s.f * s.x)
-    yield Eq(der(s.w), -s.f * s.y - 9.81)
-    yield Eq(s.x**2 + s.y**2, 1)
-
-
-class Pendulum(Equations):
-    """A unit pendulum in Cartesian coordinates; index 3."""
-
-    def __init__(self, **starts):
-        super().__init__("x y v w f", pendulum)
-        self.modify(**starts)
 
 
 def test_the_pendulum_in_cartesian_coordinates():

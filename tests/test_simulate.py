@@ -6,7 +6,7 @@ import pytest
 
 import acausal as ac
 from acausal.data import Data
-from acausal.solvers import RK4, SOLVERS
+from acausal.simulation.solvers import RK4, SOLVERS
 from tests.oscillator import C, M, force, plain, record, undamped
 
 OMEGA = np.sqrt(C / M)

@@ -1,4 +1,4 @@
-"""Sampled blocks (`Modelica.Blocks.Discrete`): their names are known, but they are refused."""
+"""Sampled blocks (`Modelica.Blocks.Discrete`), which are refused for want of discrete states."""
 
 from .interfaces import NeedsDiscreteStates
 

@@ -1,4 +1,4 @@
-"""Blocks that remember or wait for events: their names are known, but they are refused."""
+"""Blocks that remember or wait for events, which are refused for want of discrete states."""
 
 from .interfaces import NeedsDiscreteStates
 

@@ -94,8 +94,9 @@ class GeneralForceToPositionAdaptor(ac.Component):
 class GeneralPositionToForceAdaptor(ac.Component):
     """A flange as signals, motion in, force out: ``flange.s = p``, ``f = -flange.f``.
 
-    ``f`` [N] drives what is connected to the flange. With ``use_pder`` and ``use_pder2`` the inputs ``pder`` and ``pder2`` are taken for the derivatives
-    of ``p`` wherever the model needs them; without, ``p`` is differentiated.
+    ``f`` [N] drives what is connected to the flange. With ``use_pder`` and ``use_pder2`` the inputs
+    ``pder`` and ``pder2`` are taken for the derivatives of ``p`` wherever the model needs them;
+    without, ``p`` is differentiated.
     """
 
     use_pder = ac.Option(True, doc="whether the speed is an input")

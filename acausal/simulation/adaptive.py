@@ -10,10 +10,10 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from acausal import inputs, solvers
 from acausal.errors import SimulationError
-from acausal.run import Run
-from acausal.solution import Solution
+from acausal.simulation import inputs, solvers
+from acausal.simulation.run import Run
+from acausal.simulation.solution import Solution
 from acausal.tracing import traced
 
 Tolerance = float | Array

@@ -10,8 +10,8 @@ import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal import inputs
 from acausal.errors import SimulationError
+from acausal.simulation import inputs
 from acausal.tracing import traced
 
 if TYPE_CHECKING:

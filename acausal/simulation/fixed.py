@@ -9,11 +9,11 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from acausal import inputs, solvers
 from acausal.errors import DataError, SimulationError
-from acausal.integrate import Steps, integrate
-from acausal.run import Run
-from acausal.solution import Solution
+from acausal.simulation import inputs, solvers
+from acausal.simulation.integrate import Steps, integrate
+from acausal.simulation.run import Run
+from acausal.simulation.solution import Solution
 from acausal.tracing import traced
 
 if TYPE_CHECKING:

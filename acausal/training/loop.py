@@ -14,10 +14,10 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError
-from acausal.history import History, Log
-from acausal.problem import Problem, Trainable
-from acausal.progress import Observer, Progress
-from acausal.trainer import CHUNK, State, Trainer, advance
+from acausal.training.history import History, Log
+from acausal.training.problem import Problem, Trainable
+from acausal.training.progress import Observer, Progress
+from acausal.training.trainer import CHUNK, State, Trainer, advance
 
 LOOK = 0.5
 """Seconds between two looks at the training, about."""

@@ -10,8 +10,8 @@ from jax import Array, lax
 
 from acausal.data import Data
 from acausal.errors import DataError
-from acausal.inputs import Samples
-from acausal.integrate import Steps
+from acausal.simulation.inputs import Samples
+from acausal.simulation.integrate import Steps
 
 
 class Record(eqx.Module):

@@ -10,14 +10,15 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from acausal import losses, solvers
-from acausal import modifiers as parameter_modifiers
 from acausal.data import Data
 from acausal.errors import DataError, TrainingError, listing, nearest
 from acausal.neural import networks
-from acausal.problem import Problem
-from acausal.record import lay_out, sequences
-from acausal.regularizers import Context, Regularizer, label
+from acausal.simulation import solvers
+from acausal.training import losses
+from acausal.training import modifiers as parameter_modifiers
+from acausal.training.problem import Problem
+from acausal.training.record import lay_out, sequences
+from acausal.training.regularizers import Context, Regularizer, label
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -6,7 +6,7 @@ from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from acausal.history import Divergence
+from acausal.training.history import Divergence
 
 SHOWN = 5
 """Divergences that are shown one by one; later ones are only counted."""

@@ -10,14 +10,14 @@ import jax
 import jax.numpy as jnp
 from jax import Array
 
-from acausal.arguments import arguments
-from acausal.integrate import integrate
-from acausal.losses import Loss
-from acausal.modifiers import Modifiers
 from acausal.neural import arranged
-from acausal.record import Batch, Record, Sequences
-from acausal.regularizers import Context, Regularizer
-from acausal.solvers import Solver
+from acausal.simulation.integrate import integrate
+from acausal.simulation.solvers import Solver
+from acausal.training.arguments import arguments
+from acausal.training.losses import Loss
+from acausal.training.modifiers import Modifiers
+from acausal.training.record import Batch, Record, Sequences
+from acausal.training.regularizers import Context, Regularizer
 
 if TYPE_CHECKING:
     from acausal.system import System

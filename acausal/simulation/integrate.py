@@ -16,8 +16,8 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.inputs import Drive, Samples
-from acausal.solvers import Solver
+from acausal.simulation.inputs import Drive, Samples
+from acausal.simulation.solvers import Solver
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -1,0 +1,1 @@
+"""What `acausal.simulate` is made of: inputs, solvers, fixed and adaptive steps, and the solution."""
