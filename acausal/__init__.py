@@ -10,6 +10,8 @@ from acausal.analyse import (
 )
 from acausal.component import (
     Component,
+)
+from acausal.connector import (
     Connector,
 )
 from acausal.data import (

@@ -3,139 +3,33 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 import numpy as np
-import sympy as sp
 
+from acausal.connector import Connector, check_name
 from acausal.errors import ConnectionError, DeclarationError, nearest
+from acausal.modifying import start_of, value_of
 from acausal.symbols import (
     STATE_SELECT,
     Declaration,
     Eq,
-    Flow,
     Input,
     Module,
     ModuleReference,
     Option,
     Output,
     Parameter,
-    Potential,
     Reference,
     Start,
     Variable,
+    elements,
 )
 
 Signal = Reference
 """A causal input or output, as an endpoint of a connection."""
-
-
-class Connector:
-    """A set of variables through which a component meets others; one class per domain.
-
-    Subclasses declare `Potential` and `Flow` variables, and may say how a two-port of the domain names
-    its parts, so that generic elements fit in:
-
-    Attributes:
-        pair: names of a two-port's two connectors.
-        across: name of the difference of the potentials, ``through`` of the flow between them.
-        across_unit: unit of the difference, where it differs from the potential's.
-        rate: name of the derivative of ``across`` in domains whose potential is a position, else ``None``.
-        second_minus_first: whether ``across`` is the second potential minus the first (as in mechanics) or
-            the first minus the second.
-    """
-
-    pair: ClassVar[tuple[str, str]] = ("port_a", "port_b")
-    across: ClassVar[str] = "across"
-    through: ClassVar[str] = "through"
-    across_unit: ClassVar[str | None] = None
-    rate: ClassVar[str | None] = None
-    second_minus_first: ClassVar[bool] = False
-
-    declarations: ClassVar[dict[str, Variable]] = {}
-
-    def __init__(self, *, when: str | None = None) -> None:
-        self._when = when
-        self._name = ""
-        self._owner: Component | None = None
-        self._references: dict[str, Any] = {}
-        if not self.declarations:
-            raise DeclarationError(f"connector class {type(self).__name__} declares no variables")
-
-    def __init_subclass__(cls) -> None:
-        declarations = dict(cls.declarations)
-        for name, value in vars(cls).items():
-            if isinstance(value, Input | Output) or (
-                isinstance(value, Declaration | Connector) and not isinstance(value, Variable)
-            ):
-                raise DeclarationError(
-                    f"{cls.__name__}.{name}: a connector is made of Potential, Flow and Variable; "
-                    f"declare the {type(value).__name__} in the component"
-                )
-            if isinstance(value, Variable):
-                sizes = value.shape or ()
-                if not all(isinstance(n, int) for n in sizes):
-                    raise DeclarationError(
-                        f"{cls.__name__}.{name}: the sizes of a connector's variables are integers"
-                    )
-                _check_name(cls, name, value.name)
-                names = element_names(name, cast(tuple[int, ...] | None, value.shape))
-                declarations |= dict.fromkeys(names, value)
-        cls.declarations = declarations
-
-    def __set_name__(self, owner: type, name: str) -> None:
-        self._name = name
-
-    def __get__(self, instance: Any, owner: type) -> Self:
-        return self if instance is None else cast(Self, instance._read(self))
-
-    def _bind(self, owner: Component, name: str) -> Self:
-        bound = type(self)(when=self._when)
-        bound._owner, bound._name = owner, name
-        return bound
-
-    def _read(self, declaration: Declaration) -> Any:
-        if self._owner is None:
-            raise DeclarationError(
-                f"connector class {type(self).__name__} is used outside of a component"
-            )
-        name = declaration.name
-        if name not in self._references:
-            shape = cast(tuple[int, ...] | None, declaration.shape)
-            path = f"{self._name}.{name}"
-            self._references[name] = _elements(self._owner, path, declaration, shape)
-        return self._references[name]
-
-    @classmethod
-    def kind(cls) -> tuple[tuple[str, type, str], ...]:
-        """What must agree for two connectors to be joined: names, roles and units of their variables."""
-        return tuple((n, _role(d), d.unit) for n, d in cls.declarations.items())
-
-    @classmethod
-    def potential(cls) -> str:
-        """Name of the (only or first) potential."""
-        return next(n for n, d in cls.declarations.items() if isinstance(d, Potential))
-
-    @classmethod
-    def flow(cls) -> str:
-        """Name of the (only or first) flow."""
-        return next(n for n, d in cls.declarations.items() if isinstance(d, Flow))
-
-    @classmethod
-    def carried(cls, enters: Self, leaves: Self) -> Iterable[Eq]:
-        """How a two-port passes on what its flow carries: equations, in domains with further potentials and flows."""
-        return ()
-
-    def __repr__(self) -> str:
-        where = f"{self._owner._path()}." if self._owner is not None and self._owner._path() else ""
-        return f"{where}{self._name} ({type(self).__name__})"
-
-
-def _role(declaration: Variable) -> type:
-    return next(r for r in (Potential, Flow, Input, Output, Variable) if isinstance(declaration, r))
 
 
 _OWN = frozenset(
@@ -217,9 +111,8 @@ class Component:
                         "so that every model gets its own"
                     )
                 if isinstance(value, Declaration | Connector):
-                    _check_name(
-                        base, name, value._name if isinstance(value, Connector) else value.name
-                    )
+                    declared_as = value._name if isinstance(value, Connector) else value.name
+                    check_name(base, name, declared_as, _is_taken)
                     declared[name] = value
                 elif name in declared:
                     del declared[name]
@@ -287,7 +180,7 @@ class Component:
         elif isinstance(declared, Module):
             value = ModuleReference(Reference(self, name, declared))
         else:
-            value = _elements(self, name, declared, self._shape(name, declared))
+            value = elements(self, name, declared, self._shape(name, declared))
         self.__dict__[name] = value
         return value
 
@@ -413,7 +306,7 @@ class Component:
                         raise DeclarationError(
                             f"{where} has no '{key}': {nearest(key, declaration.declarations)}"
                         )
-                    self._restart(f"{name}.{key}", _start(f"{where}.{key}", start))
+                    self._restart(f"{name}.{key}", start_of(f"{where}.{key}", start))
             case Option():
                 if declaration.choices is not None and value not in declaration.choices:
                     choices = ", ".join(map(repr, declaration.choices))
@@ -422,7 +315,7 @@ class Component:
                     raise DeclarationError(f"{where}={value!r}: True or False is needed")
                 self._options[name] = value
             case Variable():
-                self._restart(name, _start(where, value))
+                self._restart(name, start_of(where, value))
             case Module():
                 if not callable(value) and not isinstance(value, ModuleReference):
                     raise DeclarationError(
@@ -430,7 +323,7 @@ class Component:
                     )
                 self._modifiers[name] = value
             case Parameter():
-                self._modifiers[name] = _value(where, declaration, value)
+                self._modifiers[name] = value_of(where, declaration, value)
                 if declaration.shape is not None:  # its size may have changed
                     self.__dict__.pop(name, None)
                     if name in self._dynamic:
@@ -476,23 +369,8 @@ class Component:
         self._connections.append((a, b))
 
 
-def element_names(name: str, shape: tuple[int, ...] | None) -> list[str]:
-    """Names of a variable's elements as in Modelica, ``y[1]``, ``A[1,2]``; of a scalar its own name."""
-    if shape is None:
-        return [name]
-    return [f"{name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
-
-
-def _elements(
-    owner: Component, name: str, declaration: Declaration, shape: tuple[int, ...] | None
-) -> Any:
-    """A reference, or nested tuples of references."""
-    references = iter([Reference(owner, path, declaration) for path in element_names(name, shape)])
-
-    def nested(sizes: tuple[int, ...]) -> Any:
-        return tuple(nested(sizes[1:]) for _ in range(sizes[0])) if sizes else next(references)
-
-    return nested(shape or ())
+def _is_taken(name: str) -> bool:
+    return name in _OWN or hasattr(Component, name)
 
 
 def _is_list_of_parts(value: Any) -> bool:
@@ -504,104 +382,8 @@ def _is_list_of_parts(value: Any) -> bool:
     )
 
 
-def _check_name(cls: type, name: str, declared: str) -> None:
-    """A declaration's name must be its own, and may not hide what the framework needs."""
-    if declared != name:
-        raise DeclarationError(
-            f"{cls.__name__}: '{name}' and '{declared}' are one declaration; make a second one"
-        )
-    if name == "time":
-        raise DeclarationError(f"{cls.__name__}: 'time' is the time; choose another name")
-    if name in _OWN or hasattr(Component, name):
-        raise DeclarationError(
-            f"{cls.__name__}: '{name}' is an attribute of every component; choose another name"
-        )
-
-
 def _is_signal(value: Any) -> bool:
     return isinstance(value, Reference) and isinstance(value.declaration, Input | Output)
-
-
-def _start(where: str, value: Any) -> Start:
-    if isinstance(value, Start):
-        for element in np.ravel(np.asarray(value.value, dtype=object)):
-            _check_start(where, element)
-        return value
-    if isinstance(value, Mapping):
-        try:
-            return _start(where, Start(**value))
-        except TypeError:
-            raise DeclarationError(
-                f"{where}: a start has value, fixed, nominal and state"
-            ) from None
-    raise DeclarationError(f"{where} is a variable; give its start as ac.Start({value!r})")
-
-
-def _check_start(where: str, value: Any) -> None:
-    """A start is a finite number or an expression of parameters."""
-    if value is None:
-        return
-    if isinstance(value, sp.Expr) and not value.is_number:
-        if all(
-            isinstance(r, Reference) and isinstance(r.declaration, Parameter)
-            for r in value.free_symbols
-        ):
-            return
-        raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
-    if isinstance(value, str) or not _is_finite(value):
-        raise DeclarationError(f"{where}: a start is a finite number, got {value!r}")
-
-
-def _is_finite(value: Any) -> bool:
-    try:
-        return math.isfinite(float(value))
-    except (TypeError, ValueError):
-        return False
-
-
-def _value(where: str, declaration: Parameter, value: Any) -> Any:
-    if declaration.shape is not None:
-        return _values(where, declaration, value)
-    return _number(where, declaration, value)
-
-
-def _values(where: str, declaration: Parameter, value: Any) -> np.ndarray:
-    """A vector or matrix of values; its size is checked when the sizes are settled."""
-    values = np.asarray(value, dtype=object)
-    checked = [_number(f"{where}[{i}]", declaration, v) for i, v in enumerate(values.flat, start=1)]
-    result = np.empty(values.size, dtype=object)
-    result[:] = checked
-    return result.reshape(values.shape)
-
-
-def _number(where: str, declaration: Parameter, value: Any) -> Any:
-    if isinstance(value, sp.Expr) and not value.is_number:
-        foreign = [r for r in value.free_symbols if not isinstance(r, Reference)]
-        unsteady = [
-            r
-            for r in value.free_symbols
-            if isinstance(r, Reference) and not isinstance(r.declaration, Parameter)
-        ]
-        if foreign or unsteady:
-            raise DeclarationError(
-                f"{where} = {value}: only parameters may stand in a parameter's value"
-            )
-        return value
-    try:
-        number = float("" if isinstance(value, str | bool) else value)
-    except (TypeError, ValueError):
-        raise DeclarationError(
-            f"{where}={value!r}: a number or an expression of parameters is needed"
-        ) from None
-    if not math.isfinite(number):
-        raise DeclarationError(f"{where}={number}: a finite number is needed")
-    low, high = declaration.min, declaration.max
-    if (low is not None and number < low) or (high is not None and number > high):
-        bound = f"at least {low:g}" if low is not None and number < low else f"at most {high:g}"
-        raise DeclarationError(
-            f"{where}={number:g} is out of range: {bound} {declaration.unit}".rstrip()
-        )
-    return number
 
 
 def _condition(when: str) -> str:

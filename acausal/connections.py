@@ -15,13 +15,14 @@ import sympy as sp
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from acausal.component import Component, Connector, _label
+from acausal.component import Component, _label
+from acausal.connector import Connector
 from acausal.errors import ConnectionError
 from acausal.symbols import Flow, Input, Output
 from acausal.template import EquationGroup, Integers, Template, slot
 
 if TYPE_CHECKING:
-    from acausal.flatten import Layout
+    from acausal.layout import Layout
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import networkx as nx
 
-from acausal.component import Component, Connector
+from acausal.component import Component
+from acausal.connector import Connector
 from acausal.symbols import Module, Reference
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -19,10 +20,10 @@ from acausal.generate import Program, chosen_module
 from acausal.lower import evaluate
 from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import ReducedModel
+from acausal.solve import newton
 from acausal.symbols import time
 from acausal.template import EquationGroup
 
-TOLERANCE = 1e-8
 MAX_STEPS = 50
 
 
@@ -130,7 +131,7 @@ class Initializer:
         def residual(z: Any, packed: Packed, x: Any) -> Any:
             return self._residuals(conditions, packed, x.at[free].set(z), u, t0)
 
-        frozen, start = jax.lax.stop_gradient((packed, x))
+        frozen, start = _stop_gradient((packed, x))
         z0 = x[free]
         z = _least_change(lambda z: residual(z, frozen, start), jax.lax.stop_gradient(z0))
         slope = jax.jacfwd(lambda z: residual(z, frozen, start))(z)
@@ -213,19 +214,14 @@ class Initializer:
         return value(jnp.asarray(t0, dtype=float), x)
 
 
+def _stop_gradient(tree: Any) -> Any:
+    return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
+
+
 def _least_change(residual: Any, z0: Any) -> Any:
     """Gauss-Newton with the smallest steps: a root near the guess also where there are many."""
-
-    def step(state: Any) -> Any:
-        z, r, k = state
-        z = z - jnp.linalg.pinv(jax.jacfwd(residual)(z)) @ r
-        return z, residual(z), k + 1
-
-    def unfinished(state: Any) -> Any:
-        _, r, k = state
-        return (jnp.max(jnp.abs(r), initial=0.0) > TOLERANCE) & (k < MAX_STEPS)
-
-    return jax.lax.while_loop(unfinished, step, (z0, residual(z0), 0))[0]
+    smallest = lambda z, r: jnp.linalg.pinv(jax.jacfwd(residual)(z)) @ r  # noqa: E731
+    return newton(residual, z0, smallest, MAX_STEPS)[0]
 
 
 def initializer(

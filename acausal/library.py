@@ -21,7 +21,8 @@ from importlib.metadata import entry_points
 from types import ModuleType
 from typing import Any
 
-from acausal.component import Component, Connector
+from acausal.component import Component
+from acausal.connector import Connector
 from acausal.errors import nearest
 from acausal.symbols import Input, Output
 

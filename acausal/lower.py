@@ -166,7 +166,7 @@ def _power(node: sp.Pow, visit: Visit) -> Any:
     return jnp.power(base, visit(exponent))
 
 
-def _piecewise(node: sp.Piecewise, visit: Visit) -> Any:
+def _piecewise(node: Any, visit: Visit) -> Any:
     cases: list[tuple[Any, Any]] = []
     earlier: Any = False
     for value, condition in node.args:
@@ -179,7 +179,7 @@ def _piecewise(node: sp.Piecewise, visit: Visit) -> Any:
     return result
 
 
-def _case(value: sp.Expr, holds: Any, visit: Visit) -> Any:
+def _case(value: Any, holds: Any, visit: Visit) -> Any:
     """A case that gradients pass only where it holds, as elsewhere its slope may be infinite."""
     if not _is_steep(value):
         return visit(value)

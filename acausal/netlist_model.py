@@ -9,7 +9,8 @@ from typing import Any, cast
 
 import sympy as sp
 
-from acausal.component import Component, Connector
+from acausal.component import Component
+from acausal.connector import Connector
 from acausal.errors import nearest
 from acausal.symbols import Eq, ModuleReference, der
 

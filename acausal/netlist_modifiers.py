@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
-from acausal.component import Component, Connector
+from acausal.component import Component
+from acausal.connector import Connector
 from acausal.errors import nearest, shortened
 from acausal.netlist_file import NetlistError, kind, within
 from acausal.netlist_model import START_KEYS, arguments_of

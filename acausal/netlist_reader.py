@@ -14,7 +14,8 @@ from typing import Any, cast
 import sympy as sp
 
 from acausal import library
-from acausal.component import Component, Connector
+from acausal.component import Component
+from acausal.connector import Connector
 from acausal.errors import DeclarationError, nearest, shortened
 from acausal.expressions import parse_equation
 from acausal.library import Library

@@ -12,7 +12,8 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.component import Component, Connector
+from acausal.component import Component
+from acausal.connector import Connector
 from acausal.errors import ModelError
 from acausal.library import Library
 from acausal.netlist_file import EXPERIMENT_KEYS, NetlistError, within

@@ -7,10 +7,12 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import optimistix as optx
+
+TOLERANCE = 1e-10
 
 Block = Callable[[Any], tuple[Any, Any]]
 """From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
+Residual = Callable[[Any], Any]
 
 
 def solve_linear(block: Block, guess: Any) -> Any:
@@ -26,12 +28,63 @@ def solve_nonlinear(block: Block, guess: Any) -> Any:
 
     Gradients follow from the implicit function theorem.
     """
-    solver = optx.Newton(rtol=1e-10, atol=1e-10)
-    solution = optx.root_find(
-        lambda tears, _: block(tears)[1], solver, guess, max_steps=100, throw=False
-    )
-    converged = solution.result == optx.RESULTS.successful
-    return jnp.where(converged, block(solution.value)[0], jnp.nan)
+
+    def residual(tears: Any) -> Any:
+        return block(tears)[1]
+
+    def step(function: Residual) -> Callable[[Any, Any], Any]:
+        return lambda z, r: _solve(jax.jacfwd(function)(z), r)
+
+    def solve(function: Residual, start: Any) -> Any:
+        root, converged = newton(function, start, step(function))
+        return jnp.where(converged, root, jnp.nan)
+
+    def tangent(linear: Residual, y: Any) -> Any:
+        return step(linear)(jnp.zeros_like(y), y)
+
+    return block(jax.lax.custom_root(residual, guess, solve, tangent))[0]
+
+
+def newton(
+    residual: Residual, guess: Any, step: Callable[[Any, Any], Any], max_steps: int = 300
+) -> tuple[Any, Any]:
+    """A root near a guess by Newton's method, and whether it was reached.
+
+    A step that does not make the residual smaller is halved until it does.
+
+    Arguments:
+        step: from the point and its residual, what Newton's method subtracts.
+    """
+
+    def advance(state: Any) -> Any:
+        z, r, _, k = state
+        full = step(z, r)
+
+        def too_far(trial: Any) -> Any:
+            dz, new = trial
+            return ~(_size(new) < _size(r)) & ~_is_tiny(dz, z)
+
+        def halve(trial: Any) -> Any:
+            return trial[0] / 2, residual(z - trial[0] / 2)
+
+        dz, new = jax.lax.while_loop(too_far, halve, (full, residual(z - full)))
+        return z - dz, new, _is_tiny(full, z), k + 1
+
+    def unfinished(state: Any) -> Any:
+        _, r, arrived, k = state
+        return ~arrived & (_size(r) > 0) & (k < max_steps)
+
+    start = guess, residual(guess), jnp.array(False), 0
+    z, r, arrived, _ = jax.lax.while_loop(unfinished, advance, start)
+    return z, arrived | (_size(r) == 0)
+
+
+def _size(residual: Any) -> Any:
+    return jnp.max(jnp.abs(residual), initial=0.0)
+
+
+def _is_tiny(step: Any, at: Any) -> Any:
+    return jnp.all(jnp.abs(step) <= TOLERANCE * (jnp.abs(at) + TOLERANCE))
 
 
 def _solve(a: Any, b: Any) -> Any:

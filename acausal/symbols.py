@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import count
 from typing import TYPE_CHECKING, Any, Literal, overload
 
+import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError
@@ -276,3 +277,22 @@ def references(expression: sp.Expr) -> Iterator[Reference]:
         if isinstance(node, Reference):
             seen.setdefault(node)
     return iter(seen)
+
+
+def element_names(name: str, shape: tuple[int, ...] | None) -> list[str]:
+    """Names of a variable's elements as in Modelica, ``y[1]``, ``A[1,2]``; of a scalar its own name."""
+    if shape is None:
+        return [name]
+    return [f"{name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
+
+
+def elements(
+    owner: Component, name: str, declaration: Declaration, shape: tuple[int, ...] | None
+) -> Any:
+    """A reference, or nested tuples of references."""
+    references = iter([Reference(owner, path, declaration) for path in element_names(name, shape)])
+
+    def nested(sizes: tuple[int, ...]) -> Any:
+        return tuple(nested(sizes[1:]) for _ in range(sizes[0])) if sizes else next(references)
+
+    return nested(shape or ())

@@ -187,7 +187,10 @@ PARTIAL = {
     "ConditionalHeatPort", "CurrentSource", "FourPin", "IdealSemiconductor", "IdealSwitch", "OnePort",
     "TwoPin", "TwoPort", "VoltageSource", "PartialOpAmp",
 }  # fmt: skip
-UNAVAILABLE = {"IdealThyristor", "IdealTriac"}
+UNAVAILABLE = {
+    "IdealThyristor", "IdealTriac", "OpenerWithArc", "CloserWithArc", "ControlledOpenerWithArc",
+    "ControlledCloserWithArc", "AD_Converter", "DA_Converter",
+}  # fmt: skip
 
 TABLES = [(el, DEFAULTS), (oc, CIRCUITS)]
 CLASSES = [(module, name, table[name]) for module, table in TABLES for name in table]

@@ -255,7 +255,9 @@ def test_writing_is_the_inverse_of_reading(text: str) -> None:
     first = parse(text, lookup)
     if not isinstance(first, sp.Expr):
         return
-    names = {r: sp.Symbol(r.path if r.owner is MODEL else f"sine.{r.path}") for r in references(first)}
+    names = {
+        r: sp.Symbol(r.path if r.owner is MODEL else f"sine.{r.path}") for r in references(first)
+    }
     again = parse(written(first.xreplace(names)), lookup)
     values = {MODEL.a: 3.1, MODEL.b: -0.7, MODEL.sine.f: 2.3}
     one = float(first.xreplace(values))

@@ -244,7 +244,7 @@ def test_what_x0_gives_overrides_fixed_starts():
 
 def test_gradients_go_through_the_initialization():
     component = Initial(
-        "x y", lambda s: [Eq(der(s.x), s.y - s.p * s.x**3), Eq(der(s.y), s.x - s.q * s.y)],
+        "x y", lambda s: [Eq(der(s.x), s.y - s.p * s.x**3), Eq(der(s.y), -s.x - s.q * s.y)],
         lambda s: [Eq(der(s.x), 0.5), Eq(der(s.y), -0.25)],
         p=2.0, q=1.5,
     )  # fmt: skip

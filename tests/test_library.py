@@ -21,7 +21,10 @@ MSL = Library(components)
     [
         ("Modelica.Mechanics.Translational.Components.Mass", tl.Mass),
         ("Modelica.Mechanics.Translational.Interfaces.Flange_b", tl.Flange),
-        ("Modelica.Thermal.HeatTransfer.Celsius.FixedTemperature", thermal.celsius.FixedTemperature),
+        (
+            "Modelica.Thermal.HeatTransfer.Celsius.FixedTemperature",
+            thermal.celsius.FixedTemperature,
+        ),
         ("Modelica.Thermal.HeatTransfer.Sources.FixedTemperature", thermal.FixedTemperature),
         ("Modelica.Blocks.Interfaces.RealInput", ac.Input),
         ("acausal.components.translational.Mass", tl.Mass),
@@ -115,9 +118,7 @@ def test_every_class_of_the_catalog_that_exists_is_what_its_name_says() -> None:
 def test_the_catalog_lists_a_class_once() -> None:
     names = [(package, n) for package, (_, names) in components.CATALOG.items() for n in names]
     assert len(names) == len(set(names))
-    places = [
-        (place, n) for package, (place, names) in components.CATALOG.items() for n in names
-    ]
+    places = [(place, n) for package, (place, names) in components.CATALOG.items() for n in names]
     twice = {pair for pair in places if places.count(pair) > 1}
     assert twice == {("blocks", "Edge")}, "two Modelica classes in one Python place"
 

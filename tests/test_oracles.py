@@ -70,7 +70,9 @@ def test_oracle(name: str, record_property: Any) -> None:
     assert not wrong
 
 
-@pytest.mark.skipif(not FOLDER.is_dir(), reason="the reference trajectories lie in ../shared/oracles")
+@pytest.mark.skipif(
+    not FOLDER.is_dir(), reason="the reference trajectories lie in ../shared/oracles"
+)
 @pytest.mark.parametrize("name", sorted(DISCRETE))
 def test_discrete_states_are_refused(name: str) -> None:
     with pytest.raises(ac.ModelError, match="needs discrete states, which acausal does not have"):

@@ -95,6 +95,7 @@ class OpAmpDetailed(ac.Component):
     x = ac.Variable(unit="V", doc="integral of the unbounded slew rate")
     v_out = ac.Variable(unit="V", doc="potential of the output")
     i_out = ac.Variable(unit="A", doc="current into the output")
+    s = ac.Variable(unit="A", doc="position on the characteristic of the output")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.v_pos, self.p_supply.v)
@@ -147,8 +148,10 @@ class OpAmpDetailed(ac.Component):
         yield ac.Eq(ac.der(self.v_source), rate)
         yield ac.Eq(self.v_out, self.outp.v)
         yield ac.Eq(self.i_out, self.outp.i)
-        current = (self.v_out - self.v_source) / self.Rout
-        yield ac.Eq(self.i_out, _bounded(current, -ac.Abs(self.Imaxso), ac.Abs(self.Imaxsi)))
+        # i_out and v_out both as functions of s, which is 0 where v_out = v_source: Newton's method starts there
+        current = _bounded(self.s, -ac.Abs(self.Imaxso), ac.Abs(self.Imaxsi))
+        yield ac.Eq(self.i_out, current)
+        yield ac.Eq(self.v_out, self.v_source + self.Rout * (2 * self.s - current))
 
 
 def _bounded(value: Any, low: Any, high: Any) -> Any:

@@ -7,6 +7,16 @@ import acausal as ac
 
 from .ideal_amplifiers import IdealizedOpAmpLimited, IdealOpAmp, IdealOpAmp3Pin, IdealOpAmpLimited
 from .interfaces import IdealSemiconductor, OnePort, TwoPort
+from .refused import (
+    AD_Converter,
+    CloserWithArc,
+    ControlledCloserWithArc,
+    ControlledOpenerWithArc,
+    DA_Converter,
+    IdealThyristor,
+    IdealTriac,
+    OpenerWithArc,
+)
 from .switches import (
     TRUE,
     ControlledIdealClosingSwitch,
@@ -20,10 +30,15 @@ from .switches import (
 )
 
 __all__ = [
+    "AD_Converter",
+    "CloserWithArc",
+    "ControlledCloserWithArc",
     "ControlledIdealClosingSwitch",
     "ControlledIdealIntermediateSwitch",
     "ControlledIdealOpeningSwitch",
     "ControlledIdealTwoWaySwitch",
+    "ControlledOpenerWithArc",
+    "DA_Converter",
     "IdealClosingSwitch",
     "IdealDiode",
     "IdealGTOThyristor",
@@ -38,6 +53,7 @@ __all__ = [
     "IdealTwoWaySwitch",
     "IdealizedOpAmpLimited",
     "Idle",
+    "OpenerWithArc",
     "Short",
 ]
 
@@ -58,24 +74,6 @@ class IdealGTOThyristor(IdealSemiconductor):
     @property
     def _blocks(self) -> Any:
         return (self.s < 0) | (self.fire <= TRUE)
-
-
-class IdealThyristor(IdealSemiconductor):
-    """Not available: a thyristor remembers that it was fired."""
-
-    def __init__(self, **modifiers: Any) -> None:
-        raise ac.DeclarationError(
-            "IdealThyristor needs discrete states, which acausal does not have yet"
-        )
-
-
-class IdealTriac(ac.Component):
-    """Not available: a triac remembers that it was fired."""
-
-    def __init__(self, **modifiers: Any) -> None:
-        raise ac.DeclarationError(
-            "IdealTriac needs discrete states, which acausal does not have yet"
-        )
 
 
 class IdealTransformer(TwoPort):

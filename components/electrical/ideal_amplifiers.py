@@ -94,7 +94,8 @@ class IdealizedOpAmpLimited(_Limited):
 
     The supply is ``Vps`` and ``Vns`` [V], or with ``useSupply`` the potentials of the pins ``s_p`` and
     ``s_n``, between which the power for the output is taken: ``i_s = p_s/(vps - vns)``. ``strict`` and
-    ``homotopyType`` have no effect.
+    ``homotopyType`` have no effect. The law has no memory: a Schmitt trigger, which is in one of two states
+    by its past, cannot be made of it.
     """
 
     V0 = ac.Parameter(15000.0, doc="no-load gain")

@@ -1,0 +1,250 @@
+"""Attributes of a laid out model: starts of variables, values of parameters, modules."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from acausal.component import Component
+from acausal.errors import DeclarationError
+from acausal.layout import Form, Layout, members_of_forms
+from acausal.symbols import (
+    STATE_SELECT,
+    Declaration,
+    ModuleReference,
+    Parameter,
+    Start,
+    Variable,
+    element_names,
+    references,
+)
+from acausal.template import Binding, Integers
+
+
+def _tiled(
+    layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: Any
+) -> np.ndarray:
+    """Spread per-form local values over all instances."""
+    flat = np.empty(int(base[-1]), dtype=dtype)
+    for members, values in zip(members_of_forms(layout), local, strict=True):
+        if len(values):
+            flat[base[members][:, None] + np.arange(len(values))] = np.asarray(values, dtype=dtype)
+    return flat
+
+
+def variable_attributes(layout: Layout) -> tuple[Any, ...]:
+    """Start, fixed, nominal and state attributes of all variables, and starts that are expressions."""
+    base = layout.variable_base
+
+    def declared(attribute: str, dtype: Any) -> np.ndarray:
+        local = [
+            [form.prototype._attribute(d, attribute) for _, d in form.variables]
+            for form in layout.forms
+        ]
+        return _tiled(
+            layout,
+            base,
+            [[0.0 if isinstance(v, sp.Expr | tuple) else v for v in row] for row in local],
+            dtype,
+        )
+
+    start, fixed, nominal = (
+        declared("start", float),
+        declared("fixed", bool),
+        declared("nominal", float),
+    )
+    rank = [[_rank(form.prototype, d) for _, d in form.variables] for form in layout.forms]
+    state = _tiled(layout, base, rank, float)
+    given = np.zeros(len(start), dtype=bool)
+    starts: list[Binding] = []
+    named = [
+        [(i, path, d) for i, (path, d) in enumerate(f.variables) if isinstance(d.start, str)]
+        for f in layout.forms
+    ]
+    for number, component in enumerate(layout.components):
+        for index, path, d in named[layout.form_of[number]]:
+            if component._modifiers.get(d.name, Start()).value is not None:
+                continue
+            variable = int(base[number]) + index
+            given[variable] = d.start in component._modifiers
+            starts.append(
+                _binding(
+                    layout, variable, _start_element(getattr(component, d.start), path, d.name)
+                )
+            )
+        if not component._modifiers:
+            continue
+        form = layout.form(number)
+        for name, modifier in component._modifiers.items():
+            if not isinstance(modifier, Start):
+                continue
+            for index in _indices(form, name):
+                variable = int(base[number]) + index
+                if modifier.fixed is not None:
+                    fixed[variable] = modifier.fixed
+                if modifier.nominal is not None:
+                    nominal[variable] = modifier.nominal
+                if modifier.state is not None:
+                    state[variable] = STATE_SELECT.index(modifier.state) + 0.5
+                if modifier.value is not None:
+                    given[variable] = True
+                    value = _start_element(modifier.value, form.variables[index][0], name)
+                    if isinstance(value, sp.Expr) and not value.is_number:
+                        starts.append(_binding(layout, variable, value))
+                    else:
+                        start[variable] = float(value)
+    return start, fixed, nominal, state, given, tuple(starts)
+
+
+def _rank(prototype: Component, variable: Variable) -> float:
+    """How much a variable is wanted as a state; half a rank more where its option was set by hand."""
+    by_hand = variable.state in prototype._options
+    return STATE_SELECT.index(prototype._attribute(variable, "state")) + 0.5 * by_hand
+
+
+def _indices(form: Form, name: str) -> Iterator[int]:
+    """Local indices of a variable, all elements of a vector among them."""
+    if name in form.variable_index:
+        yield form.variable_index[name]
+    else:
+        yield from (i for path, i in form.variable_index.items() if path.startswith(f"{name}["))
+
+
+def _start_element(value: Any, path: str, name: str) -> Any:
+    if path == name or not isinstance(value, list | tuple | np.ndarray):
+        return value
+    element: Any = value
+    try:
+        for i in path[len(name) + 1 : -1].split(","):
+            element = element[int(i) - 1]
+    except (IndexError, TypeError):
+        raise DeclarationError(f"the start of '{name}' has no element for {path}") from None
+    return element
+
+
+def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], np.ndarray]:
+    """Values of all parameters, the bound ones, and which are folded to zero."""
+    base = layout.parameter_base
+    local = [[_default(form, path, d) for path, d in form.parameters] for form in layout.forms]
+    value = _tiled(layout, base, local, float)
+    folded = value == 0.0
+    bindings: list[Binding] = []
+    for number, component in enumerate(layout.components):
+        form = layout.form(number)
+        for name, given in component._modifiers.items():
+            if isinstance(given, Start) or name in form.module_index:
+                continue
+            declared = cast(Declaration, component._declared.get(name) or component._dynamic[name])
+            shape = component._shape(name, declared)
+            values = np.asarray(given, dtype=object)
+            if values.shape not in ((), shape):
+                raise DeclarationError(
+                    f"{component._label()}.{name} needs {_sizes(shape)} values, got {_sizes(values.shape)}"
+                )
+            elements = np.broadcast_to(values, shape or ()).flat
+            for path, element in zip(element_names(name, shape), elements, strict=True):
+                if path not in form.parameter_index:
+                    continue  # the options left no use for it
+                index = int(base[number]) + form.parameter_index[path]
+                folded[index] = False
+                if isinstance(element, sp.Expr) and not element.is_number:
+                    value[index] = np.nan
+                    bindings.append(_binding(layout, index, element))
+                else:
+                    value[index] = float(element)
+    bindings += _default_bindings(layout, value, {b.target for b in bindings})
+    bound = {b.target for b in bindings}
+    missing = [int(i) for i in np.flatnonzero(np.isnan(value)) if int(i) not in bound]
+    if missing:
+        names = [layout.parameter(i) for i in missing[:12]]
+        local_name = names[0].rpartition(".")[2]
+        raise DeclarationError(
+            f"parameter without a value: {', '.join(repr(n) for n in names)}; "
+            f"give it where the component is made ({local_name}=...)"
+        )
+    return value, tuple(bindings), folded
+
+
+def _sizes(shape: tuple[int, ...] | None) -> str:
+    return " by ".join(str(n) for n in shape or (1,))
+
+
+def _default(form: Form, path: str, declaration: Parameter) -> float:
+    default = declaration.default
+    if default is None or callable(default) or isinstance(default, str):
+        return np.nan
+    if declaration.shape is not None and declaration.name in form.prototype._modifiers:
+        return np.nan  # all instances of the form have such an array of their own
+    if declaration.shape is not None:
+        index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
+        default = np.broadcast_to(
+            np.asarray(default, dtype=float),
+            form.prototype._shape(declaration.name, declaration) or (),
+        )[index]
+    return float(default)
+
+
+def _default_bindings(layout: Layout, value: np.ndarray, bound: set[int]) -> list[Binding]:
+    """Defaults that are functions of the component: ``Parameter(lambda self: 2 * self.m)``."""
+    bindings: list[Binding] = []
+    for number, members in enumerate(members_of_forms(layout)):
+        computed = [
+            (i, d)
+            for i, (_, d) in enumerate(layout.forms[number].parameters)
+            if callable(d.default)
+        ]
+        for member in members if computed else ():
+            component = layout.components[member]
+            for i, declaration in computed:
+                index = int(layout.parameter_base[member]) + i
+                if not np.isnan(value[index]) or index in bound:
+                    continue
+                default = declaration.default(component)
+                if isinstance(default, sp.Expr) and not default.is_number:
+                    bindings.append(_binding(layout, index, default))
+                else:
+                    value[index] = float(default)
+    return bindings
+
+
+def _binding(layout: Layout, target: int, expression: sp.Expr) -> Binding:
+    symbols: list[sp.Symbol] = []
+    arguments: list[int] = []
+    names: dict[sp.Symbol, sp.Symbol] = {}
+    for reference in references(expression):
+        number = layout.position.get(id(reference.owner))
+        if number is None:
+            raise DeclarationError(
+                f"a value refers to '{reference.path}' of {reference.owner._label()}, which is not part of the model"
+            )
+        names[reference] = sp.Symbol(f"p{len(symbols)}", real=True)
+        symbols.append(names[reference])
+        index = layout.form(number).parameter_index[reference.path]
+        arguments.append(int(layout.parameter_base[number]) + index)
+    named: Any = expression.xreplace(names)
+    return Binding(target, named, tuple(symbols), tuple(arguments))
+
+
+def module_values(layout: Layout) -> tuple[Any, ...]:
+    """Value or factory of every module; an int refers to another module."""
+    values: list[Any] = []
+    for number, component in enumerate(layout.components):
+        for name, declaration in layout.form(number).modules:
+            value = component._modifiers.get(name, declaration.default)
+            if value is None:
+                raise DeclarationError(
+                    f"{component._label()} has no module '{name}'; give {name}=..."
+                )
+            if isinstance(value, str):
+                value = getattr(component, value)
+            if isinstance(value, ModuleReference):  # a module of an enclosing component
+                owner = layout.position[id(value.symbol.owner)]
+                value = (
+                    int(layout.module_base[owner])
+                    + layout.form(owner).module_index[value.symbol.path]
+                )
+            values.append(value)
+    return tuple(values)

@@ -1,0 +1,35 @@
+"""Ideal elements that remember or wait for events, which are refused for want of discrete states."""
+
+from acausal.components.blocks.interfaces import NeedsDiscreteStates
+
+
+class IdealThyristor(NeedsDiscreteStates):
+    """Ideal thyristor: it conducts from when it is fired until the current vanishes."""
+
+
+class IdealTriac(NeedsDiscreteStates):
+    """Two ideal thyristors in opposite directions."""
+
+
+class OpenerWithArc(NeedsDiscreteStates):
+    """Contact that a signal opens, with an arc after it opens."""
+
+
+class CloserWithArc(NeedsDiscreteStates):
+    """Contact that a signal closes, with an arc after it opens."""
+
+
+class ControlledOpenerWithArc(NeedsDiscreteStates):
+    """Contact that a pin opens, with an arc after it opens."""
+
+
+class ControlledCloserWithArc(NeedsDiscreteStates):
+    """Contact that a pin closes, with an arc after it opens."""
+
+
+class AD_Converter(NeedsDiscreteStates):  # noqa: N801 (Modelica's name)
+    """Converter from a voltage to digital signals, triggered by an edge."""
+
+
+class DA_Converter(NeedsDiscreteStates):  # noqa: N801
+    """Converter from digital signals to a voltage, triggered by an edge."""
