@@ -230,11 +230,16 @@ class Torn:
     residuals: tuple[int, ...]
 
 
-def tear(incidence: Incidence, solvable: Callable[[int, int], bool], n_variables: int) -> Torn:
+def tear(
+    incidence: Incidence,
+    solvable: Callable[[int, int], bool],
+    n_variables: int,
+    better: Callable[[int], bool] = lambda variable: False,
+) -> Torn:
     """Choose tearing variables of a block greedily (Cellier & Kofman 2006, section 7.6).
 
     Equations with one unknown left that they can be solved for are assigned; when none is left, the
-    variable that stands in most open equations is torn.
+    variable that stands in most open equations is torn, and of these one that is ``better``.
     """
     equations_of: list[list[int]] = [[] for _ in range(n_variables)]
     for e, row in enumerate(incidence):
@@ -246,7 +251,8 @@ def tear(incidence: Incidence, solvable: Callable[[int, int], bool], n_variables
     used = [False] * len(incidence)
     ready = [e for e, count in enumerate(open_variables) if count == 1]
     heapify(ready)
-    candidates = [(-count, v) for v, count in enumerate(open_equations)]
+    later = [not better(v) for v in range(n_variables)]
+    candidates = [(-count, later[v], v) for v, count in enumerate(open_equations)]
     heapify(candidates)
     tears: list[int] = []
     assigned: list[tuple[int, int]] = []
@@ -268,11 +274,11 @@ def tear(incidence: Incidence, solvable: Callable[[int, int], bool], n_variables
             for v in dict.fromkeys(incidence[e]):
                 open_equations[v] -= 1
                 if not known[v]:
-                    heappush(candidates, (-open_equations[v], v))
+                    heappush(candidates, (-open_equations[v], later[v], v))
             assigned.append((e, rest[0]))
             settle(rest[0])
         while candidates:
-            count, variable = heappop(candidates)
+            count, _, variable = heappop(candidates)
             if not known[variable] and -count == open_equations[variable]:
                 tears.append(variable)
                 settle(variable)

@@ -83,6 +83,7 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
     variables: dict[sp.Symbol, tuple[int, tuple[tuple[str, ...], int]]] = {}
     parameters: dict[sp.Symbol, tuple[tuple[str, ...], int]] = {}
     modules: dict[sp.Symbol, tuple[tuple[str, ...], int]] = {}
+    of_parts: dict[Any, Any] = {}
     for symbol in _symbols(residual):
         if symbol == time:
             continue
@@ -93,8 +94,11 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
             raise DeclarationError(f"{where}: '{reference}' is not declared")
         chain = _chain(owner, reference, where)
         local = layout.form(layout.position[id(reference.owner)])
-        named = slot(".".join((*chain, reference.path)), order)
+        path = ".".join((*chain, reference.path))
+        named = slot(path, order)
         names[symbol] = named
+        if chain:
+            of_parts[reference] = slot(path)
         match reference.declaration:
             case Variable():
                 variables[named] = order, (chain, local.variable_index[reference.path])
@@ -108,12 +112,19 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
         orders=tuple(order for order, _ in variables.values()),
         parameters=tuple(parameters),
         modules=tuple(modules),
-        origin=where,
+        origin=f"{type(owner).__name__}: {_with_names(equation, of_parts)}",
     )
     slots = _Slots(
         tuple(w for _, w in variables.values()), tuple(parameters.values()), tuple(modules.values())
     )
     return template, slots
+
+
+def _with_names(equation: Eq, names: dict[Any, Any]) -> Eq:
+    """The equation with dotted names for what belongs to parts."""
+    if not names:
+        return equation
+    return Eq(equation.lhs.xreplace(names), equation.rhs.xreplace(names))
 
 
 class _Derived(sp.Symbol):

@@ -112,8 +112,18 @@ def loop_of(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) 
         column = stated.variables.index(unknown)
         return column not in stated.vanishing and derive.is_safely_solvable(stated.template, column)
 
+    nonlinear = {
+        code
+        for e in equations
+        for column, code in enumerate(e.variables)
+        if code >= 0 and derive.solve(e.template, column) is None
+    }  # Newton's method finds these best where it moves them itself
     loop = Loop(
-        BlockShape(equations, n_unknowns, graph.tear(incidence, solvable, n_unknowns)),
+        BlockShape(
+            equations,
+            n_unknowns,
+            graph.tear(incidence, solvable, n_unknowns, nonlinear.__contains__),
+        ),
         matrix([b.unknowns for b in blocks]),
         matrix([b.externals for b in blocks]),
         matrix([b.parameters for b in blocks]),

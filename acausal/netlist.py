@@ -49,8 +49,8 @@ def load(path: str | Path, libraries: Sequence[ModuleType] = ()) -> Netlist:
         ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
             that does not exist, an expression that is malformed.
     """
-    path = Path(path)
-    return build(netlist_file.read(path), path.name, _libraries(libraries))
+    path, known = Path(path), _libraries(libraries)
+    return build(netlist_file.read(path), path.name, known)
 
 
 def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = ()) -> None:

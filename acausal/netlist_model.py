@@ -38,6 +38,8 @@ class Netlist(Component):
         """What the file connects, and how many connections that made."""
         self._made: dict[str, dict[str, Any]] = {}
         """The arguments that each part was made with."""
+        self._named: dict[str, str] = {}
+        """The name that the file has for the class of a part or connector."""
         self._placed: list[str] = []
         """Connectors that stand among the components."""
 

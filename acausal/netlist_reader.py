@@ -53,7 +53,7 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
         _connector(scope, name, entry, f"{where}: connectors.{shortened(name)}")
     _declare(scope, document, where)
     for name, entry in as_object(document, "components", where).items():
-        _modify(scope, name, entry, f"{where}: components.{name}")
+        _modify(scope, name, entry, f"{where}: components.{shortened(name)}")
     for number, pair in enumerate(as_list(document, "connections", where)):
         _connect(model, pair, f"{where}: connections[{number}]")
     for number, text in enumerate(as_list(document, "initial_equations", where)):
@@ -75,10 +75,12 @@ def _declare(scope: Scope, document: Mapping[str, Any], where: str) -> None:
             _parameter(scope, name, parameters[name], f"{where}: parameters.{shortened(name)}")
             continue
         made = [
-            _part(scope, key, entry, f"{where}: components.{key}") for key, entry in parts[name]
+            _part(scope, key, entry, f"{where}: components.{shortened(key)}")
+            for key, entry in parts[name]
         ]
         alone = parts[name][0][0] == name
-        _assign(model, name, made[0] if alone else made, f"{where}: components.{name}")
+        place = f"{where}: components.{shortened(name)}"
+        _assign(model, name, made[0] if alone else made, place)
     # ... but keep them as the file has them
     model._texts = {("", name): model._texts["", name] for name in parameters}
     keys = [key for entries in parts.values() for key, _ in entries]
@@ -180,6 +182,7 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
                 f"{where}: unknown key '{shortened(name)}'; {nearest(name, ('class', 'with'))}"
             )
     cls = scope.find(entry.get("class"), f"{where}.class")
+    scope.model._named[key] = entry["class"]
     if not issubclass(cls, Component):
         scope.model._placed.append(key)
         return cls()
@@ -223,6 +226,7 @@ def _connector(scope: Scope, name: str, entry: Any, where: str) -> None:
                 f"{where}: unknown key '{shortened(key)}'; {nearest(key, ('class', 'unit'))}"
             )
     cls = scope.find(attributes.get("class"), f"{where}.class")
+    scope.model._named[name] = attributes["class"]
     if issubclass(cls, Component):
         raise NetlistError(f"{where}: {cls.__name__} is a component, no connector")
     if "unit" not in attributes:

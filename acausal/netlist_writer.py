@@ -7,6 +7,7 @@ written and how it differs from a fresh one; any other part is written as a subs
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, cast
 
 import numpy as np
@@ -41,8 +42,13 @@ class Writer:
     def __init__(self, libraries: tuple[Library, ...]) -> None:
         self.libraries = libraries
 
-    def model(self, model: Component) -> dict[str, Any]:
+    def model(
+        self, model: Component, said: Mapping[str, Any] = MappingProxyType({})
+    ) -> dict[str, Any]:
         """The document of a composite.
+
+        Arguments:
+            said: modifiers of its parts that the enclosing model's file states already.
 
         Raises:
             NetlistError: in one sentence, for what a file cannot hold.
@@ -53,7 +59,10 @@ class Writer:
         experiment = read._experiment if read else {}
         connectors = self._connectors(model)
         placed = {n: {"class": connectors.pop(n)} for n in (read._placed if read else ())}
-        parts = {name: self._part(model, name, part) for name, part in model._children.items()}
+        parts = {
+            name: self._part(model, name, part, _inner(said, name))
+            for name, part in model._children.items()
+        }
         sections = {
             "parameters": self._parameters(model),
             "connectors": connectors,
@@ -109,9 +118,10 @@ class Writer:
         for name, declared in model._declarations():
             where = f"{model._label()}.{name}"
             if isinstance(declared, Connector):
-                found[name] = self._class(type(declared), where)
+                found[name] = self._class(type(declared), where, _known(model, name))
             elif isinstance(declared, Input | Output) and declared.shape is None:
-                kind = self._class(Input if isinstance(declared, Input) else Output, where)
+                role = Input if isinstance(declared, Input) else Output
+                kind = self._class(role, where, _known(model, name))
                 found[name] = {"class": kind, "unit": declared.unit} if declared.unit else kind
             elif isinstance(declared, Variable | Module) and not isinstance(model, Netlist):
                 raise NetlistError(
@@ -122,15 +132,23 @@ class Writer:
 
     # -- parts ---------------------------------------------------------------------------------------
 
-    def _part(self, model: Component, name: str, part: Component) -> dict[str, Any]:
+    def _part(
+        self, model: Component, name: str, part: Component, said: Mapping[str, Any]
+    ) -> dict[str, Any]:
         texts: Mapping[tuple[str, str], tuple[Any, Any]]
         texts = model._texts if isinstance(model, Netlist) else {}
         cls = None if isinstance(part, Netlist) else self._public(type(part))
         if cls is not None:
-            entry: dict[str, Any] = {"class": self._class(cls, part._label())}
-            changed = self._modifiers(model, part, cls)
+            known = _known(model, name)
+            entry: dict[str, Any] = {"class": self._class(cls, part._label(), known)}
+            changed = self._modifiers(model, part, cls, said)
         elif part._children:
-            entry = self.model(part)
+            kept = {
+                key: raw
+                for (owner, key), (raw, before) in texts.items()
+                if owner == name and _same(before, state(part, key))
+            }
+            entry = self.model(part, {**said, **kept})
             changed = {
                 key: self._json(model, value, f"{part._label()}.{key}")
                 for key, value in part._modifiers.items()
@@ -148,7 +166,9 @@ class Writer:
                 given[key] = changed[key]
         return {**entry, "with": given} if given else entry
 
-    def _modifiers(self, model: Component, part: Component, cls: Any) -> dict[str, Any]:
+    def _modifiers(
+        self, model: Component, part: Component, cls: Any, said: Mapping[str, Any]
+    ) -> dict[str, Any]:
         """What a part of a library must be given to become what it is."""
         made = model._made.get(part._name) if isinstance(model, Netlist) else None
         arguments = made or self._arguments(part, cls)
@@ -161,7 +181,7 @@ class Writer:
             for key, value in arguments.items()
             if not isinstance(cls._declared.get(key), Option) or value != cls._declared[key].default
         }
-        return found | self._differences(model, part, fresh, (part, fresh))
+        return found | self._differences(model, part, fresh, (part, fresh), said)
 
     def _arguments(self, part: Component, cls: Any) -> dict[str, Any]:
         """Options, vectors, and arguments of the class that became attributes of the part's own class."""
@@ -182,6 +202,7 @@ class Writer:
         part: Component,
         fresh: Component,
         roots: tuple[Component, Component],
+        said: Mapping[str, Any],
     ) -> dict[str, Any]:
         """Modifiers that make a fresh part, and the parts within, equal to this one."""
         alike = [(n, type(c)) for n, c in part._children.items()] == [
@@ -200,6 +221,8 @@ class Writer:
         given = {**part._options, **part._modifiers}
         before = {**fresh._options, **fresh._modifiers}
         for key, value in given.items():
+            if key in said or key.partition(".")[0] in said:
+                continue
             if key in before and _comparable(roots[0], value) == _comparable(roots[1], before[key]):
                 continue
             text = self._json(model, value, f"{part._label()}.{key}", part._declared.get(key))
@@ -209,7 +232,9 @@ class Writer:
             else:
                 found[key] = text
         for name, child in part._children.items():
-            inner = self._differences(model, child, fresh._children[name], roots)
+            inner = self._differences(
+                model, child, fresh._children[name], roots, _inner(said, name)
+            )
             if inner:
                 found[name] = inner
         return found
@@ -222,8 +247,11 @@ class Writer:
                 return base
         return None
 
-    def _class(self, cls: type, where: str) -> str:
+    def _class(self, cls: type, where: str, known: str | None = None) -> str:
+        """The name of a class: the one that the file has for it, if it still means that class."""
         for library in self.libraries:
+            if known is not None and library.find(known) is cls:
+                return known
             name = library.name_of(cls)
             if name is not None:
                 return name
@@ -266,6 +294,15 @@ class Writer:
             for key, value in given.items()
             if value is not None and key != "stateSelect"
         } | state
+
+
+def _inner(said: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    inner = said.get(name, {})
+    return cast(Mapping[str, Any], inner) if isinstance(inner, Mapping) else {}
+
+
+def _known(model: Component, name: str) -> str | None:
+    return model._named.get(name) if isinstance(model, Netlist) else None
 
 
 def _check_statements(model: Component) -> None:

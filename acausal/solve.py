@@ -8,7 +8,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-TOLERANCE = 1e-10
+TOLERANCE, STALLED = 1e-10, 1e-6
+"""Relative size of the last step, and of one that rounding keeps from making the residual smaller."""
 
 Block = Callable[[Any], tuple[Any, Any]]
 """From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
@@ -50,7 +51,8 @@ def newton(
 ) -> tuple[Any, Any]:
     """A root near a guess by Newton's method, and whether it was reached.
 
-    A step that does not make the residual smaller is halved until it does.
+    A step that does not make the residual smaller is halved until it does. Where no part of it does, but the
+    step is small, rounding is all that is left.
 
     Arguments:
         step: from the point and its residual, what Newton's method subtracts.
@@ -62,13 +64,14 @@ def newton(
 
         def too_far(trial: Any) -> Any:
             dz, new = trial
-            return ~(_size(new) < _size(r)) & ~_is_tiny(dz, z)
+            return ~(_size(new) < _size(r)) & ~_is_tiny(dz, z) & jnp.all(jnp.isfinite(dz))
 
         def halve(trial: Any) -> Any:
             return trial[0] / 2, residual(z - trial[0] / 2)
 
         dz, new = jax.lax.while_loop(too_far, halve, (full, residual(z - full)))
-        return z - dz, new, _is_tiny(full, z), k + 1
+        stalled = _is_tiny(dz, z) & _is_tiny(full, z, STALLED)
+        return z - dz, new, _is_tiny(full, z) | stalled, k + 1
 
     def unfinished(state: Any) -> Any:
         _, r, arrived, k = state
@@ -83,8 +86,8 @@ def _size(residual: Any) -> Any:
     return jnp.max(jnp.abs(residual), initial=0.0)
 
 
-def _is_tiny(step: Any, at: Any) -> Any:
-    return jnp.all(jnp.abs(step) <= TOLERANCE * (jnp.abs(at) + TOLERANCE))
+def _is_tiny(step: Any, at: Any, tolerance: float = TOLERANCE) -> Any:
+    return jnp.all(jnp.abs(step) <= tolerance * (jnp.abs(at) + tolerance))
 
 
 def _solve(a: Any, b: Any) -> Any:

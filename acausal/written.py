@@ -33,7 +33,7 @@ class _Printer(StrPrinter):
             text = self._print(inverse)
             plain = inverse.is_Symbol or text.startswith("sqrt(")
             return f"1/{text}" if plain else f"1/({text})"
-        base, exponent = (self.parenthesize(p, 1000, strict=False) for p in (expr.base, expr.exp))
+        base, exponent = (self.parenthesize(p, 1000, strict=True) for p in (expr.base, expr.exp))
         return f"{base}^{exponent}"
 
     def _print_Float(self, expr: sp.Float) -> str:
@@ -75,6 +75,16 @@ class _Printer(StrPrinter):
 
     def _print_Or(self, expr: Any) -> str:
         return f"({' or '.join(self._print(a) for a in expr.args)})"
+
+    def _print_ITE(self, expr: Any) -> str:
+        condition, yes, no = expr.args
+        return self._print(sp.Or(sp.And(condition, yes), sp.And(sp.Not(condition), no)))
+
+    def _print_BooleanTrue(self, expr: Any) -> Any:
+        return "true"
+
+    def _print_BooleanFalse(self, expr: Any) -> Any:
+        return "false"
 
     def _print_Not(self, expr: Any) -> str:
         return f"(not {self._print(expr.args[0])})"

@@ -40,7 +40,9 @@ def page() -> str:
     for package, classes in rows.items():
         count = Counter(kind(text) for _, text in classes)
         total += count
-        lines.append(f"| `{package}` | {count['there']} | {count['discrete']} | {count['not there']} |")
+        lines.append(
+            f"| `{package}` | {count['there']} | {count['discrete']} | {count['not there']} |"
+        )
     lines.append(f"| all | {total['there']} | {total['discrete']} | {total['not there']} |")
     for package, classes in rows.items():
         lines += ["", f"## {package}", "", "| class | here |", "|---|---|"]

@@ -18,6 +18,8 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     reports = [r for kind in ("passed", "failed") for r in terminalreporter.getreports(kind)]
     rows = [value for r in reports for key, value in r.user_properties if key == "oracle"]
     if rows:
-        terminalreporter.section("largest errors against reference trajectories, relative to the range")
+        terminalreporter.section(
+            "largest errors against reference trajectories, relative to the range"
+        )
         for name, column, error in sorted(map(tuple, rows)):
             terminalreporter.write_line(f"{name:<52} {column:<30} {error:.1e}")

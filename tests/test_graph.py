@@ -258,6 +258,14 @@ def test_a_ring_is_torn_once():
     assert len(torn.tears) == 1
 
 
+def test_of_equals_the_better_one_is_torn():
+    n = 5
+    for wanted in range(n):
+        ring = [[i, (i + 1) % n] for i in range(n)]
+        torn = tear(ring, lambda e, v: True, n, wanted.__eq__)
+        assert torn.tears == (wanted,)
+
+
 def test_what_cannot_be_solved_is_torn():
     torn = tear([[0, 1], [0, 1]], lambda e, v: False, 2)
     assert torn.tears == (0, 1)

@@ -40,7 +40,9 @@ def test_the_equations_are_those_of_the_paper(learned: bool) -> None:
     force = c_s * (z_w - z_b) + d_s * (v_w - v_b) + extra
     tyre = c_t * (z_r - z_w) + d_t * (u - v_w)
     expected = [v_b, force / m_b, v_w, (tyre - force) / m_w, u]
-    assert [sp.simplify(a - b) for a, b in zip(right_hand_sides(system), expected, strict=True)] == [0] * 5
+    assert [
+        sp.simplify(a - b) for a, b in zip(right_hand_sides(system), expected, strict=True)
+    ] == [0] * 5
 
 
 def test_the_road_is_rough_as_the_norm_says() -> None:
@@ -58,7 +60,9 @@ def test_the_ride_is_the_papers(measured: Ride) -> None:
     assert (clean["wheel.v"] - clean["body.v"]).std() == pytest.approx(0.14, abs=0.005)
     assert (clean["wheel.s"] - clean["body.s"]).std() == pytest.approx(5.9e-3, abs=0.6e-3)
     base = ac.compile(linear())
-    assert loss(base, base.parameters(), measured.measured, measured) == pytest.approx(0.44, abs=0.01)
+    assert loss(base, base.parameters(), measured.measured, measured) == pytest.approx(
+        0.44, abs=0.01
+    )
 
 
 def test_a_perfect_model_is_left_with_the_noise(measured: Ride) -> None:
@@ -70,9 +74,15 @@ def test_a_perfect_model_is_left_with_the_noise(measured: Ride) -> None:
 def test_true_forces_are_the_formulas() -> None:
     forces = true_forces()
     z, v = np.linspace(-0.015, 0.015, 7), np.linspace(-0.4, 0.4, 9)
-    np.testing.assert_allclose(forces[SPRING](z), (607 * (z + 0.0078)) ** 2 - (607 * 0.0078) ** 2, atol=1e-12)
+    np.testing.assert_allclose(
+        forces[SPRING](z), (607 * (z + 0.0078)) ** 2 - (607 * 0.0078) ** 2, atol=1e-12
+    )
     stribeck = v / (np.sqrt(2) * 0.02)
-    friction = np.sqrt(2 * np.e) * 10 * np.exp(-(stribeck**2)) * stribeck + 30 * np.tanh(v / 0.002) + 150 * v
+    friction = (
+        np.sqrt(2 * np.e) * 10 * np.exp(-(stribeck**2)) * stribeck
+        + 30 * np.tanh(v / 0.002)
+        + 150 * v
+    )
     np.testing.assert_allclose(forces[DAMPER](v), friction, atol=1e-12)
 
 

@@ -433,6 +433,20 @@ def test_a_nonlinear_loop_and_its_implicit_gradient():
     )
 
 
+@pytest.mark.parametrize("voltage", [-5.0, 0.5, 50.0])
+def test_a_steep_diode_converges_from_afar(voltage):
+    system = ac.compile(
+        model(
+            "v.p - r.p", "r.n - d.p", "d.n - v.n - g.p",
+            v=SignalVoltage(), r=Resistor(R=100.0), d=Diode(I_s=1e-12, V_t=0.026), g=Ground(),
+        )
+    )  # fmt: skip
+    names = ["d.v", "d.i"]
+    v, i = system.observe(names, 0.0, jnp.zeros(0), [voltage], system.parameters())
+    assert float(v + 100 * i) == pytest.approx(voltage)
+    assert float(i) == pytest.approx(1e-12 * np.expm1(v / 0.026), rel=1e-6, abs=1e-15)
+
+
 def test_equal_loops_are_solved_side_by_side():
     few, many = ac.compile(diode_circuit(2)), ac.compile(diode_circuit(40))
     assert sizes(few) == [(3, 1, 2)]

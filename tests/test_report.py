@@ -20,7 +20,10 @@ def test_a_page_holds_all_it_was_given(tmp_path: Path) -> None:
     page.table(["name", "value"], [["a", 1], ["b", 2]], [True, False])
     x, t = sp.symbols("body.s time")
     force = sp.Function("spring.net")(x)
-    page.equations([sp.Eq(sp.Derivative(x, t), force / 2, evaluate=False)], {"body.s": "z_b", "spring.net": "F"})
+    page.equations(
+        [sp.Eq(sp.Derivative(x, t), force / 2, evaluate=False)],
+        {"body.s": "z_b", "spring.net": "F"},
+    )
     figure, ax = plt.subplots()
     ax.plot([0, 1])
     page.figure(figure, "a picture", tmp_path / "picture.png")
