@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -72,7 +72,10 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
             given[variable] = d.start in component._modifiers
             starts.append(
                 _binding(
-                    layout, variable, _start_element(getattr(component, d.start), path, d.name)
+                    layout,
+                    variable,
+                    _start_element(getattr(component, d.start), path, d.name),
+                    layout.variable,
                 )
             )
         if not component._modifiers:
@@ -93,7 +96,7 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
                     given[variable] = True
                     value = _start_element(modifier.value, form.variables[index][0], name)
                     if isinstance(value, sp.Expr) and not value.is_number:
-                        starts.append(_binding(layout, variable, value))
+                        starts.append(_binding(layout, variable, value, layout.variable))
                     else:
                         start[variable] = float(value)
     return start, fixed, nominal, state, given, tuple(starts)
@@ -152,7 +155,7 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
                 folded[index] = False
                 if isinstance(element, sp.Expr) and not element.is_number:
                     value[index] = np.nan
-                    bindings.append(_binding(layout, index, element))
+                    bindings.append(_binding(layout, index, element, layout.parameter))
                 else:
                     value[index] = float(element)
     bindings += _default_bindings(layout, value, {b.target for b in bindings})
@@ -204,13 +207,16 @@ def _default_bindings(layout: Layout, value: np.ndarray, bound: set[int]) -> lis
                     continue
                 default = declaration.default(component)
                 if isinstance(default, sp.Expr) and not default.is_number:
-                    bindings.append(_binding(layout, index, default))
+                    bindings.append(_binding(layout, index, default, layout.parameter))
                 else:
                     value[index] = float(default)
     return bindings
 
 
-def _binding(layout: Layout, target: int, expression: sp.Expr) -> Binding:
+def _binding(
+    layout: Layout, target: int, expression: sp.Expr, name: Callable[[int], str]
+) -> Binding:
+    """A value given by parameters; ``name`` tells the target's name for a message."""
     symbols: list[sp.Symbol] = []
     arguments: list[int] = []
     names: dict[sp.Symbol, sp.Symbol] = {}
@@ -218,7 +224,8 @@ def _binding(layout: Layout, target: int, expression: sp.Expr) -> Binding:
         number = layout.position.get(id(reference.owner))
         if number is None:
             raise DeclarationError(
-                f"a value refers to '{reference.path}' of {reference.owner._label()}, which is not part of the model"
+                f"'{name(target)}' refers to '{reference.path}' of {reference.owner._label()}, which is not "
+                "part of the model; assign that component to an attribute, or give a number"
             )
         names[reference] = sp.Symbol(f"p{len(symbols)}", real=True)
         symbols.append(names[reference])

@@ -149,6 +149,10 @@ class Component:
                     )
                 for x, y in zip(a, b, strict=True):
                     self.connect(x, y)
+            elif isinstance(a, Sequence):
+                raise _unlike_sizes(a, b)
+            elif isinstance(b, Sequence):
+                raise _unlike_sizes(b, a)
             else:
                 self._join(a, b)
 
@@ -364,7 +368,8 @@ class Component:
             raise ConnectionError(f"{_label(a)} is connected to itself")
         if isinstance(a, Connector) and a.kind() != b.kind():
             raise ConnectionError(
-                f"unlike connectors: {_label(a)} and {_label(b)}; only connectors of one domain can be joined"
+                f"unlike connectors: {_label(a)} and {_label(b)} carry {_carried(a)} and {_carried(b)}; "
+                "only connectors of one domain can be joined"
             )
         self._connections.append((a, b))
 
@@ -388,6 +393,18 @@ def _is_signal(value: Any) -> bool:
 
 def _condition(when: str) -> str:
     return f"{when.removeprefix('not ')}={not when.startswith('not ')}"
+
+
+def _unlike_sizes(vector: Sequence[Any], single: Any) -> ConnectionError:
+    names = f"{_label(vector[0])} is" if vector else "an empty vector has no"
+    return ConnectionError(
+        f"{names} an element of a vector of {len(vector)}, {_label(single)} is single; connect one element"
+    )
+
+
+def _carried(connector: Connector) -> str:
+    """The variables of a connector with their units, for a message."""
+    return ", ".join(f"{name} [{d.unit or '1'}]" for name, d in connector.declarations.items())
 
 
 def _label(end: Any) -> str:

@@ -20,9 +20,10 @@ def differentiate(template: Template) -> tuple[Template, tuple[tuple[int, bool],
         The new template and, per variable slot, (column of the old template, whether differentiated).
     """
     slots = list(template.variables)
-    rates = [_fresh(f"der({s.name})", slots) for s in slots]
+    taken = set(slots)
+    rates = [_fresh(f"der({s.name})", taken) for s in slots]
     terms = [template.residual.diff(time)]
-    terms += [template.residual.diff(s) * r for s, r in zip(slots, rates, strict=True)]
+    terms += [slope(template, i) * r for i, r in enumerate(rates)]
     residual = sp.Add(*terms)
     present = residual.free_symbols
     kept = [(i, False) for i, s in enumerate(slots) if s in present]
@@ -39,7 +40,7 @@ def differentiate(template: Template) -> tuple[Template, tuple[tuple[int, bool],
     return derivative, tuple(kept)
 
 
-def _fresh(name: str, taken: list[sp.Symbol]) -> sp.Symbol:
+def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:
     """A slot of that name, or nearly: the derivative in a slot may stand there with the other sign."""
     symbol = sp.Symbol(name, real=True)
     return _fresh(f"{name}'", taken) if symbol in taken else symbol
@@ -48,24 +49,32 @@ def _fresh(name: str, taken: list[sp.Symbol]) -> sp.Symbol:
 @cache
 def slope(template: Template, column: int) -> sp.Expr:
     """Partial derivative of the residual with respect to a variable slot."""
-    return template.residual.diff(template.variables[column])
+    symbol = template.variables[column]
+    return sp.Add(*(term.diff(symbol) for term in _terms_of(template)[symbol]))
 
 
 @cache
-def _decides(template: Template, column: int) -> bool:
-    """Whether the slot decides a case or a step: there the residual jumps without a slope that tells."""
-    symbol = template.variables[column]
+def _terms_of(template: Template) -> dict[sp.Symbol, list[sp.Expr]]:
+    """The terms of the residual that each symbol stands in (a balance of flows may have thousands)."""
+    found: dict[sp.Symbol, list[sp.Expr]] = {s: [] for s in template.variables}
+    for term in sp.Add.make_args(template.residual):
+        for symbol in term.free_symbols:
+            found.setdefault(symbol, []).append(term)
+    return found
+
+
+@cache
+def _deciding(template: Template) -> set[sp.Symbol]:
+    """The symbols that decide a case or a step: there the residual jumps without a slope that tells."""
     places = template.residual.atoms(Relational, sp.Function)
-    return any(
-        symbol in place.free_symbols for place in places if not isinstance(place, sp.Piecewise)
-    )
+    return set().union(*(p.free_symbols for p in places if not isinstance(p, sp.Piecewise)))
 
 
 @cache
 def solve(template: Template, column: int) -> sp.Expr | None:
     """The slot as an explicit expression of the others; None where it does not stand linearly."""
     symbol, coefficient = template.variables[column], slope(template, column)
-    if coefficient == 0 or symbol in coefficient.free_symbols or _decides(template, column):
+    if coefficient == 0 or symbol in coefficient.free_symbols or symbol in _deciding(template):
         return None
     rest: Any = template.residual.xreplace({symbol: sp.S.Zero})
     if rest.has(sp.nan, sp.zoo, sp.oo):
@@ -90,6 +99,6 @@ def is_safely_solvable(template: Template, column: int) -> bool:
 def is_linear(template: Template, columns: tuple[int, ...]) -> bool:
     """Whether the residual is affine in these slots together."""
     symbols = {template.variables[c] for c in columns}
-    return not any(
-        slope(template, c).free_symbols & symbols or _decides(template, c) for c in columns
-    )
+    if symbols & _deciding(template):
+        return False
+    return not any(slope(template, c).free_symbols & symbols for c in columns)

@@ -8,6 +8,7 @@ from acausal import graph
 from acausal.aliases import AliasFree
 from acausal.errors import listing
 from acausal.flatten import FlatModel
+from acausal.symbols import Potential
 
 
 def explain_singularity(
@@ -32,9 +33,8 @@ def explain_singularity(
         return None
     unknowns = model.n_variables - len(model.inputs)
     parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
-    missing = [
-        _name(model, aliases, bottoms[i]) for i in (found.unmatched_variables if found else ())
-    ]
+    unmatched = [bottoms[i] for i in (found.unmatched_variables if found else ())]
+    missing = [_name(model, aliases, node) for node in unmatched]
     surplus = [origins[e] for e in (found.unmatched_equations if found else ())]
     related = [origins[e] for e in (found.equations if found else ()) if origins[e] not in surplus]
     if missing:
@@ -46,7 +46,9 @@ def explain_singularity(
         parts.append(
             f"together with: {listing(dict.fromkeys(equation_name(model, o) for o in related), 6)}"
         )
-    return "; ".join(parts) + ". " + _mend(bool(missing), bool(surplus or aliases.redundant))
+    floating = any(_is_potential(model, node) for node in unmatched)
+    excess = bool(surplus or aliases.redundant)
+    return "; ".join(parts) + ". " + _mend(bool(missing), excess, floating)
 
 
 def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
@@ -64,9 +66,17 @@ def equation_name(model: FlatModel, origin: tuple[str, int]) -> str:
     return f"{path} ({text})" if path else text
 
 
-def _mend(missing: bool, surplus: bool) -> str:
-    if missing and surplus:
-        return "Are two sources or fixed points joined rigidly, or is a Fixed (a ground, a reference) missing?"
-    if missing:
-        return "Is a connector left unconnected, a Fixed (a ground, a reference) missing, or an equation forgotten?"
-    return "Are two sources or fixed points joined rigidly, or is an equation stated twice?"
+def _is_potential(model: FlatModel, node: int) -> bool:
+    if node >= model.n_variables:
+        return False
+    return isinstance(model.layout.variable_declaration(node), Potential)
+
+
+def _mend(missing: bool, surplus: bool, floating: bool) -> str:
+    if not missing:
+        return "Are two sources or fixed points joined rigidly, or is an equation stated twice?"
+    if floating:
+        return "Is a Fixed (a ground, a reference) missing, or a connector left unconnected?"
+    if surplus:
+        return "Are two sources or fixed points joined rigidly, in parallel or in series?"
+    return "Is a connector left unconnected, or an equation forgotten?"

@@ -140,7 +140,7 @@ class Equations:
         found: set[tuple[int, int]] = set()
         at = Point(np.ones(1), parameters)
         for template, members in self._by_template(range(len(self.template))):
-            for column in range(len(template.variables)):
+            for column in range(len(template.variables)) if template.parameters else ():
                 if constant(template, column) and not derive.slope(template, column).is_Number:
                     own = np.asarray([self.parameters[e] for e in members], dtype=np.int64)
                     nowhere = np.zeros((len(members), len(template.variables)), dtype=np.int64)

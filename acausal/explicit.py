@@ -14,16 +14,21 @@ from acausal import derive
 from acausal.reduce import Assignment, Loop, ReducedModel
 from acausal.symbols import ModuleCall
 from acausal.symbols import time as internal_time
+from acausal.template import Integers
 
 MAX_LOOP = 6
 time = sp.Symbol("time")
 
 
 def explicit_equations(
-    reduced: ReducedModel, aliases_of_parameters: Any
+    reduced: ReducedModel, parameter_target: Integers, module_target: Integers
 ) -> tuple[sp.Equality, ...]:
-    """``der(state) = ...`` for every state, in order, then the equations of loops left implicit."""
-    writer = _Writer(reduced, aliases_of_parameters)
+    """``der(state) = ...`` for every state, in order, then the equations of loops left implicit.
+
+    Arguments:
+        parameter_target: for every parameter the one by whose name it goes; ``module_target`` likewise.
+    """
+    writer = _Writer(reduced, parameter_target, module_target)
     rates: list[Any] = [
         sp.Eq(
             sp.Derivative(writer.symbol(int(s)), time), sign * writer.value(int(r)), evaluate=False
@@ -36,9 +41,12 @@ def explicit_equations(
 class _Writer:
     """Writes nodes as expressions, each once."""
 
-    def __init__(self, reduced: ReducedModel, parameter_target: Any) -> None:
+    def __init__(
+        self, reduced: ReducedModel, parameter_target: Integers, module_target: Integers
+    ) -> None:
         self.reduced = reduced
         self.parameter_target = parameter_target
+        self.module_target = module_target
         self.implicit: list[Any] = []
         self._values: dict[int, sp.Expr] = {reduced.aliases.zero: sp.S.Zero}
         self._known = {*reduced.states.tolist(), *reduced.inputs.tolist()}
@@ -90,7 +98,7 @@ class _Writer:
         for symbol, p in zip(template.parameters, parameters, strict=True):
             names[symbol] = sp.Symbol(layout.parameter(int(self.parameter_target[p])))
         for symbol, m in zip(template.modules, modules, strict=True):
-            names[symbol] = sp.Symbol(layout.module(int(m)))
+            names[symbol] = sp.Symbol(layout.module(int(self.module_target[m])))
         return names
 
     def _write_loop(self, loop: Loop, row: int) -> None:

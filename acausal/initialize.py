@@ -22,7 +22,7 @@ from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import ReducedModel
 from acausal.solve import newton
 from acausal.symbols import time
-from acausal.template import EquationGroup
+from acausal.template import Binding, EquationGroup
 
 MAX_STEPS = 50
 
@@ -82,17 +82,10 @@ class Initializer:
             if name not in self.names:
                 raise DataError(f"x0: '{name}' is not a state; {nearest(name, self.names)}")
         u = jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
-        starts = self._starts(packed)
-        x = (
-            jnp.stack(
-                [
-                    jnp.asarray(given.get(n, s), dtype=float)
-                    for n, s in zip(self.names, starts, strict=True)
-                ]
-            )
-            if starts
-            else jnp.zeros(0)
-        )
+        x = self._starts(packed, self.start_of)
+        for i, name in enumerate(self.names):
+            if name in given:
+                x = x.at[i].set(given[name])
         told = np.asarray([n in given for n in self.names], dtype=bool)
         conditions = [c for c in self.conditions if c.node not in self.reduced.states[told]]
         free = ~told & ~self.fixed
@@ -100,34 +93,48 @@ class Initializer:
             return x
         if given and not free.any():
             return x
-        return self._satisfy(packed, x, np.flatnonzero(free), conditions, u, t0)
+        moved = tuple(np.flatnonzero(free).tolist())
+        x, rest = self._satisfied(packed, x, moved, tuple(conditions), u, jnp.asarray(t0, float))
+        self._check(conditions, rest)
+        return x
 
-    def _starts(self, packed: Packed) -> list[Any]:
-        return [sign * self._start(packed, variable) for variable, sign in self.start_of]
+    @cached_property
+    def _bindings(self) -> dict[int, Binding]:
+        return {b.target: b for b in self.reduced.model.starts}
 
-    def _start(self, packed: Packed, variable: int) -> Any:
-        model = self.reduced.model
-        if variable >= model.n_variables:
-            return 0.0
-        for binding in model.starts:
-            if binding.target == variable:
-                position = self.parameters.position  # -1: folded, or bound to what is folded
-                values = {
-                    s: packed.values[position[a]] if position[a] >= 0 else 0.0
-                    for s, a in zip(binding.symbols, binding.arguments, strict=True)
-                }
-                return evaluate(binding.expression, values)
-        return float(model.start[variable])
+    def _starts(self, packed: Packed, members: Sequence[tuple[int, int]]) -> Any:
+        """Start values of variables, each with its sign; those of one expression side by side."""
+        model, n = self.reduced.model, self.reduced.model.n_variables
+        number = [model.start[v] if v < n else 0.0 for v, _ in members]
+        x = jnp.asarray(np.asarray(number, dtype=float))
+        groups: dict[Any, list[tuple[int, tuple[int, ...]]]] = {}
+        for row, (variable, _) in enumerate(members):
+            if (b := self._bindings.get(variable)) is not None:
+                groups.setdefault((b.expression, b.symbols), []).append((row, b.arguments))
+        for (expression, symbols), found in groups.items():
+            rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
+            position = self.parameters.position[arguments]  # -1: folded, or bound to what is folded
+            read = jnp.where(position >= 0, packed.values[position], 0.0)
+            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, read.T, strict=True))))
+        return x * np.asarray([sign for _, sign in members], dtype=float)
+
+    @cached_property
+    def _satisfied(self) -> Any:
+        """`_satisfy`, compiled once for every choice of what is free."""
+        return eqx.filter_jit(self._satisfy)
 
     def _satisfy(
         self,
         packed: Packed,
         x: Any,
-        free: np.ndarray,
-        conditions: Sequence[Condition],
+        moved: tuple[int, ...],
+        conditions: tuple[Condition, ...],
         u: Any,
-        t0: float,
-    ) -> Any:
+        t0: Any,
+    ) -> tuple[Any, Any]:
+        """States that satisfy the conditions, and by how much they do not; ``moved`` are free to move."""
+        free = np.asarray(moved, dtype=np.int64)
+
         def residual(z: Any, packed: Packed, x: Any) -> Any:
             return self._residuals(conditions, packed, x.at[free].set(z), u, t0)
 
@@ -135,11 +142,9 @@ class Initializer:
         z0 = x[free]
         z = _least_change(lambda z: residual(z, frozen, start), jax.lax.stop_gradient(z0))
         slope = jax.jacfwd(lambda z: residual(z, frozen, start))(z)
-        inverse = jnp.linalg.pinv(slope)
-        moved = z0 - jax.lax.stop_gradient(z0)
-        result = z + moved - inverse @ (residual(z, packed, x) + slope @ moved)
-        self._check(conditions, residual(z, frozen, start))
-        return x.at[free].set(result)
+        step = z0 - jax.lax.stop_gradient(z0)
+        correction = jnp.linalg.pinv(slope) @ (residual(z, packed, x) + slope @ step)
+        return x.at[free].set(z + step - correction), residual(z, frozen, start)
 
     def _check(self, conditions: Sequence[Condition], rest: Any) -> None:
         if isinstance(rest, Tracer):
@@ -169,7 +174,7 @@ class Initializer:
         if conditions:
             values = self.program.values([c.node for c in conditions], t0, x, u, packed)
             signs = np.asarray([c.sign for c in conditions])
-            starts = jnp.stack([jnp.asarray(self._start(packed, c.variable)) for c in conditions])
+            starts = self._starts(packed, [(c.variable, 1) for c in conditions])
             parts.append(signs * values - starts)
         parts += [self._initial(group, packed, x, u, t0) for group in self.reduced.model.initial]
         return jnp.concatenate(parts)

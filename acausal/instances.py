@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import traceback
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -58,10 +60,13 @@ def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list
         return list(equations())
     except (TypeError, ValueError) as error:
         reason = str(error).partition("\n")[0]
+        frames = traceback.extract_tb(error.__traceback__)
+        own = [f for f in frames if "site-packages" not in f.filename and f.filename != __file__]
+        line = f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
         raise DeclarationError(
-            f"{component._label()}: its equations cannot be read ({reason}). Yield ac.Eq(left, right) from the "
+            f"{component._label()}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from the "
             "method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
-        ) from error
+        ) from None
 
 
 def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slots]:

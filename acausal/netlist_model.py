@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import Any, cast
 
 import sympy as sp
@@ -22,58 +23,77 @@ STEP = re.compile(rf"([A-Za-z]\w*)|{INDEX}", re.ASCII)
 PATH = re.compile(rf"[A-Za-z]\w*({INDEX})?(\.[A-Za-z]\w*({INDEX})?)*", re.ASCII)
 
 
+@dataclass
+class FileRecord:
+    """What a file says about a model beyond its parts and connections.
+
+    Attributes:
+        title: name of the model.
+        experiment: keys of the file that are not part of the model.
+        initial: initial equations, as text and as equation.
+        bindings: variables that are given a value.
+        steady: parameters that are found at the initial time.
+        texts: (part, modifier) -> what stands there and the state it led to; part "" are the model's parameters.
+        wires: pairs that are connected, and how many connections each pair made.
+        made: by part, the arguments that it was made with.
+        named: the names that classes of parts and connectors have in the file.
+        placed: connectors that stand among the components.
+    """
+
+    title: str = ""
+    experiment: dict[str, Any] = field(default_factory=dict[str, Any])
+    initial: list[tuple[str, Eq]] = field(default_factory=list[tuple[str, Eq]])
+    bindings: list[Eq] = field(default_factory=list[Eq])
+    steady: list[str] = field(default_factory=list[str])
+    texts: dict[tuple[str, str], tuple[Any, Any]] = field(
+        default_factory=dict[tuple[str, str], tuple[Any, Any]]
+    )
+    wires: list[tuple[list[str], int]] = field(default_factory=list[tuple[list[str], int]])
+    made: dict[str, dict[str, Any]] = field(default_factory=dict[str, dict[str, Any]])
+    named: dict[str, str] = field(default_factory=dict[str, str])
+    placed: list[str] = field(default_factory=list[str])
+
+
 class Netlist(Component):
     """A model read from a file: a component whose equations are those of the file."""
 
+    _file: FileRecord
+
     def __init__(self) -> None:
         super().__init__()
-        self._title = ""
-        self._experiment: dict[str, Any] = {}
-        self._initial: list[tuple[str, Eq]] = []
-        self._bindings: list[Eq] = []
-        self._steady: list[str] = []
-        self._texts: dict[tuple[str, str], tuple[Any, Any]] = {}
-        """(part, modifier) -> what the file says and the state it led to; part "" are the model's parameters."""
-        self._wires: list[tuple[list[str], int]] = []
-        """What the file connects, and how many connections that made."""
-        self._made: dict[str, dict[str, Any]] = {}
-        """The arguments that each part was made with."""
-        self._named: dict[str, str] = {}
-        """The name that the file has for the class of a part or connector."""
-        self._placed: list[str] = []
-        """Connectors that stand among the components."""
+        self.__dict__["_file"] = FileRecord()
 
     @property
     def document(self) -> dict[str, Any]:
         """The keys of the file that are not part of the model: times of an experiment, notes."""
-        return self._experiment
+        return self._file.experiment
 
     def equations(self) -> Iterator[Eq]:
         """Variables that the file gives a value; parameters found at the initial time stay as they are."""
-        yield from self._bindings
-        for name in self._steady:
+        yield from self._file.bindings
+        for name in self._file.steady:
             yield Eq(der(getattr(self, name)), 0)
 
     def initial_equations(self) -> Iterator[Eq]:
         """The initial equations of the file."""
-        yield from (equation for _, equation in self._initial)
+        yield from (equation for _, equation in self._file.initial)
 
     def _label(self) -> str:
-        return super()._label() if self._path() else self._title or "Netlist"
+        return super()._label() if self._path() else self._file.title or "Netlist"
 
     def remember(self, part: str, key: str, raw: Any) -> None:
         """Note what the file says about a modifier of a part ("" for the model itself)."""
         owner = attribute(self, part) if part else self
-        self._texts[part, key] = raw, state(owner, key)
+        self._file.texts[part, key] = raw, state(owner, key)
 
     def tell_apart(self) -> None:
         """Make the equations of the file part of what tells this model from others with the same parts."""
-        initial = tuple(text for text, _ in self._initial)
-        self._constants["equations of the file"] = (*map(str, self._bindings), *initial)
+        initial = tuple(text for text, _ in self._file.initial)
+        self._constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
 
     def settle(self) -> None:
         """Take the present state as what the file led to, after an enclosing file has modified this model."""
-        for (part, key), (raw, _) in list(self._texts.items()):
+        for (part, key), (raw, _) in list(self._file.texts.items()):
             self.remember(part, key, raw)
         for child in self._children.values():
             if isinstance(child, Netlist):

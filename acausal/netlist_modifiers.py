@@ -101,4 +101,4 @@ def _bind(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None
             raise NetlistError(f"{where} has {len(variables)} elements, not {len(values)}")
         pairs = list(zip(variables, values, strict=True))
     for left, right in pairs:
-        scope.model._bindings.append(within(where, lambda a=left, b=right: Eq(a, b)))
+        scope.model._file.bindings.append(within(where, lambda a=left, b=right: Eq(a, b)))

@@ -46,8 +46,8 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
     """
     _check_keys(document, where)
     model = Netlist()
-    model._title = document.get("model", "")
-    model._experiment = {k: document[k] for k in EXPERIMENT_KEYS if k in document}
+    model._file.title = document.get("model", "")
+    model._file.experiment = {k: document[k] for k in EXPERIMENT_KEYS if k in document}
     scope = Scope(model, libraries)
     for name, entry in as_object(document, "connectors", where).items():
         _connector(scope, name, entry, f"{where}: connectors.{shortened(name)}")
@@ -82,7 +82,7 @@ def _declare(scope: Scope, document: Mapping[str, Any], where: str) -> None:
         place = f"{where}: components.{shortened(name)}"
         _assign(model, name, made[0] if alone else made, place)
     # ... but keep them as the file has them
-    model._texts = {("", name): model._texts["", name] for name in parameters}
+    model._file.texts = {("", name): model._file.texts["", name] for name in parameters}
     keys = [key for entries in parts.values() for key, _ in entries]
     model._children = {key: model._children[key] for key in keys if key in model._children}
     names = dict.fromkeys((*parameters, *model._dynamic))
@@ -138,7 +138,7 @@ def _parameter(scope: Scope, name: str, raw: Any, where: str) -> None:
         _assign(model, name, Variable(unit=declared.get("unit", ""), state="prefer"), where)
         if value is not None:
             within(where, lambda: model.modify(**{name: Start(value)}))
-        model._steady.append(name)
+        model._file.steady.append(name)
     elif number or value is None:
         _assign(model, name, Parameter(**declared), where)
         if number:
@@ -182,16 +182,16 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
                 f"{where}: unknown key '{shortened(name)}'; {nearest(name, ('class', 'with'))}"
             )
     cls = scope.find(entry.get("class"), f"{where}.class")
-    scope.model._named[key] = entry["class"]
+    scope.model._file.named[key] = entry["class"]
     if not issubclass(cls, Component):
-        scope.model._placed.append(key)
+        scope.model._file.placed.append(key)
         return cls()
     arguments = {
         name: _argument(scope, cls._declared.get(name), raw, f"{where}.with.{shortened(name)}")
         for name, raw in given.items()
         if is_structural(cls, name)
     }
-    scope.model._made[key] = arguments
+    scope.model._file.made[key] = arguments
     return within(where, lambda: _make(cls, arguments))
 
 
@@ -226,7 +226,7 @@ def _connector(scope: Scope, name: str, entry: Any, where: str) -> None:
                 f"{where}: unknown key '{shortened(key)}'; {nearest(key, ('class', 'unit'))}"
             )
     cls = scope.find(attributes.get("class"), f"{where}.class")
-    scope.model._named[name] = attributes["class"]
+    scope.model._file.named[name] = attributes["class"]
     if issubclass(cls, Component):
         raise NetlistError(f"{where}: {cls.__name__} is a component, no connector")
     if "unit" not in attributes:
@@ -264,14 +264,14 @@ def _connect(model: Netlist, pair: Any, where: str) -> None:
             if end is None:
                 raise NetlistError(f"{where}: there is no '{shortened(text)}'; {hint(model, text)}")
         within(where, lambda: model.connect(*found))
-    model._wires.append((list(ends), len(model._connections) - count))
+    model._file.wires.append((list(ends), len(model._connections) - count))
 
 
 def _initial(scope: Scope, text: Any, where: str) -> None:
     if not isinstance(text, str):
         raise NetlistError(f"{where}: an equation is a text 'left = right', not {kind(text)}")
     left, right = within(where, lambda: parse_equation(text, scope.lookup))
-    scope.model._initial.append((text, within(where, lambda: Eq(left, right))))
+    scope.model._file.initial.append((text, within(where, lambda: Eq(left, right))))
 
 
 # -- names and checks --------------------------------------------------------------------------------

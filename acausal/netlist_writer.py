@@ -56,9 +56,9 @@ class Writer:
         read = model if isinstance(model, Netlist) else None
         if read is None:
             _check_statements(model)
-        experiment = read._experiment if read else {}
+        experiment = read._file.experiment if read else {}
         connectors = self._connectors(model)
-        placed = {n: {"class": connectors.pop(n)} for n in (read._placed if read else ())}
+        placed = {n: {"class": connectors.pop(n)} for n in (read._file.placed if read else ())}
         parts = {
             name: self._part(model, name, part, _inner(said, name))
             for name, part in model._children.items()
@@ -68,10 +68,10 @@ class Writer:
             "connectors": connectors,
             "components": {**placed, **parts},
             "connections": _connections(model),
-            "initial_equations": [text for text, _ in read._initial] if read else [],
+            "initial_equations": [text for text, _ in read._file.initial] if read else [],
         }
-        document: dict[str, Any] = {"model": read._title if read else type(model).__name__}
-        if read and not read._title:
+        document: dict[str, Any] = {"model": read._file.title if read else type(model).__name__}
+        if read and not read._file.title:
             del document["model"]
         document |= {key: experiment[key] for key in LEADING if key in experiment}
         document |= {key: section for key, section in sections.items() if section}
@@ -81,8 +81,8 @@ class Writer:
 
     def _parameters(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        texts = model._texts if isinstance(model, Netlist) else {}
-        steady = model._steady if isinstance(model, Netlist) else []
+        texts = model._file.texts if isinstance(model, Netlist) else {}
+        steady = model._file.steady if isinstance(model, Netlist) else []
         for (part, name), (raw, before) in texts.items():
             if not part:
                 kept = _same(before, state(model, name)) or name in steady
@@ -136,7 +136,7 @@ class Writer:
         self, model: Component, name: str, part: Component, said: Mapping[str, Any]
     ) -> dict[str, Any]:
         texts: Mapping[tuple[str, str], tuple[Any, Any]]
-        texts = model._texts if isinstance(model, Netlist) else {}
+        texts = model._file.texts if isinstance(model, Netlist) else {}
         cls = None if isinstance(part, Netlist) else self._public(type(part))
         if cls is not None:
             known = _known(model, name)
@@ -170,7 +170,7 @@ class Writer:
         self, model: Component, part: Component, cls: Any, said: Mapping[str, Any]
     ) -> dict[str, Any]:
         """What a part of a library must be given to become what it is."""
-        made = model._made.get(part._name) if isinstance(model, Netlist) else None
+        made = model._file.made.get(part._name) if isinstance(model, Netlist) else None
         arguments = made or self._arguments(part, cls)
         try:
             fresh = cls(**arguments)
@@ -302,7 +302,7 @@ def _inner(said: Mapping[str, Any], name: str) -> Mapping[str, Any]:
 
 
 def _known(model: Component, name: str) -> str | None:
-    return model._named.get(name) if isinstance(model, Netlist) else None
+    return model._file.named.get(name) if isinstance(model, Netlist) else None
 
 
 def _check_statements(model: Component) -> None:
@@ -319,8 +319,8 @@ def _connections(model: Component) -> list[list[str]]:
     found: list[list[str]] = []
     count = 0
     if isinstance(model, Netlist):
-        found = [list(pair) for pair, _ in model._wires]
-        count = sum(made for _, made in model._wires)
+        found = [list(pair) for pair, _ in model._file.wires]
+        count = sum(made for _, made in model._file.wires)
     where = model._label()
     return found + [
         [_path(model, end, where) for end in pair] for pair in model._connections[count:]

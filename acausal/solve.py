@@ -87,7 +87,7 @@ def _size(residual: Any) -> Any:
 
 
 def _is_tiny(step: Any, at: Any, tolerance: float = TOLERANCE) -> Any:
-    return jnp.all(jnp.abs(step) <= tolerance * (jnp.abs(at) + tolerance))
+    return jnp.all(jnp.abs(step) < tolerance * (jnp.abs(at) + tolerance))
 
 
 def _solve(a: Any, b: Any) -> Any:

@@ -94,7 +94,7 @@ class System:
         Symbols bear dotted names; networks are functions named by their parameter. Unknowns of nonlinear
         loops keep their names, and the loops' equations follow at the end.
         """
-        return explicit_equations(self.reduced, parameter_aliases(self.flat))
+        return explicit_equations(self.reduced, parameter_aliases(self.flat), self.layout.module_of)
 
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""

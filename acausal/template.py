@@ -34,6 +34,14 @@ class Template:
     origin: str
 
     @cached_property
+    def _hash(self) -> int:
+        return hash((self.residual, self.variables, self.orders, self.parameters, self.modules))
+
+    def __hash__(self) -> int:
+        """Computed once: templates with many slots are looked up often."""
+        return self._hash
+
+    @cached_property
     def key(self) -> tuple[Any, ...]:
         """Two templates with one key are one equation, whatever class it came from."""
         names = [*self.variables, *self.parameters, *self.modules]

@@ -118,7 +118,7 @@ def test_every_class_of_the_catalog_that_exists_is_what_its_name_says() -> None:
 def test_the_catalog_lists_a_class_once() -> None:
     names = [(p, n) for p, (_, names) in components.CATALOG.items() for n in names]
     assert len(names) == len(set(names))
-    places = [(place, n) for package, (place, names) in components.CATALOG.items() for n in names]
+    places = [(p, n) for p, names in components.CATALOG.values() for n in names]
     twice = {pair for pair in places if places.count(pair) > 1}
     assert twice == {("blocks", "Edge")}, "two Modelica classes in one Python place"
 
