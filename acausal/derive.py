@@ -54,7 +54,7 @@ def slope(template: Template, column: int) -> sp.Expr:
 
 
 @cache
-def _terms_of(template: Template) -> dict[sp.Symbol, list[sp.Expr]]:
+def _terms_of(template: Template) -> dict[Any, list[sp.Expr]]:
     """The terms of the residual that each symbol stands in (a balance of flows may have thousands)."""
     found: dict[sp.Symbol, list[sp.Expr]] = {s: [] for s in template.variables}
     for term in sp.Add.make_args(template.residual):
@@ -64,7 +64,7 @@ def _terms_of(template: Template) -> dict[sp.Symbol, list[sp.Expr]]:
 
 
 @cache
-def _deciding(template: Template) -> set[sp.Symbol]:
+def _deciding(template: Template) -> set[Any]:
     """The symbols that decide a case or a step: there the residual jumps without a slope that tells."""
     places = template.residual.atoms(Relational, sp.Function)
     return set().union(*(p.free_symbols for p in places if not isinstance(p, sp.Piecewise)))

@@ -86,7 +86,7 @@ def test_wheel_holds_each_module_once_and_nothing_else(wheel: Path) -> None:
     expected = sorted(
         f"{package}/{path.relative_to(folder).as_posix()}"
         for package, folder in FOLDERS.items()
-        for path in (*python_files(folder), folder / "py.typed")
+        for path in (*python_files(folder), folder / "py.typed", *folder.glob("*.schema.json"))
     )
     assert modules(wheel) == expected
 
