@@ -56,7 +56,7 @@ def slope(template: Template, column: int) -> sp.Expr:
 @cache
 def _terms_of(template: Template) -> dict[Any, list[sp.Expr]]:
     """The terms of the residual that each symbol stands in (a balance of flows may have thousands)."""
-    found: dict[sp.Symbol, list[sp.Expr]] = {s: [] for s in template.variables}
+    found: dict[Any, list[sp.Expr]] = {s: [] for s in template.variables}
     for term in sp.Add.make_args(template.residual):
         for symbol in term.free_symbols:
             found.setdefault(symbol, []).append(term)
