@@ -73,7 +73,8 @@ def simulate(
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     ends = None if dt is None else grid(start, end, dt)
-    drive = drives.read(system.inputs, inputs, ends)
+    known = _in_model_units(system, inputs) if isinstance(inputs, Data) else inputs
+    drive = drives.read(system.inputs, known, ends)
     packed = system.pack(params)
     x_start = system.initial_state(packed, x0, drives.evaluate(drive, start), start)
     run = Run(system, packed, x_start, drive, start, end)
@@ -84,6 +85,11 @@ def simulate(
     chosen = _automatic(run) if solver == "auto" else solvers.named(solver)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
     return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, adjoint)
+
+
+def _in_model_units(system: System, record: Data) -> Data:
+    """The inputs among a record's signals, in the model's units."""
+    return record.select(n for n in system.inputs if n in record.signals).for_system(system)
 
 
 def _automatic(run: Run) -> solvers.Solver:
