@@ -52,8 +52,12 @@ class Library:
     def written_names(self) -> dict[type, str]:
         """The name that a class is written with: Modelica's where there is one."""
         found: dict[type, str] = {}
-        for modelica, path in self.modelica_names.items():
-            found.setdefault(self._python(path), modelica)
+        named = [(modelica, self._python(p), p) for modelica, p in self.modelica_names.items()]
+        for modelica, cls, path in named:  # first where it is defined, then where it is shown, too
+            if cls.__module__.startswith(path.rpartition(".")[0]):
+                found.setdefault(cls, modelica)
+        for modelica, cls, _ in named:
+            found.setdefault(cls, modelica)
         return found
 
     def find(self, name: str) -> Any:

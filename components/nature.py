@@ -16,3 +16,6 @@ F = 9.648533212331e4
 
 mu_0 = 4 * pi * 1.00000000055e-7
 """Magnetic constant [H/m]."""
+
+g_n = 9.80665
+"""Standard acceleration of gravity on earth [m/s2]."""

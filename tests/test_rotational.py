@@ -24,6 +24,7 @@ NOMINAL = {"tau_nominal": ..., "TorqueDirection": True, "w_nominal": ..., "useSu
 DEFAULTS = {
     "Fixed": {"phi0": 0},
     "Inertia": {"J": ...},
+    "Coupling": {},
     "Disc": {"deltaPhi": 0},
     "Spring": {"c": ..., "phi_rel0": 0},
     "Damper": {"d": ..., "useHeatPort": False, **RELATIVE},

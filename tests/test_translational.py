@@ -10,6 +10,7 @@ import pytest
 from scipy.special import expit
 
 import acausal as ac
+from acausal.components import rotational
 from acausal.components import translational as tl
 from acausal.components.thermal import HeatPort
 from acausal.flatten import flatten
@@ -32,6 +33,13 @@ DEFAULTS: dict[str, dict[str, Any]] = {
         "useSupport": False, "useHeatPort": False, "smoothness": "LinearSegments",
     },
     "IdealGear": {"ratio": ..., "useSupport": False},
+    "IdealGearR2T": {"ratio": ..., "useSupportR": False, "useSupportT": False},
+    "IdealRollingWheel": {"radius": ..., "useSupportR": False, "useSupportT": False},
+    "Vehicle": {
+        "m": ..., "g": 9.80665, "J": ..., "R": ..., "A": ..., "Cd": ..., "rho": 1.2, "useWindInput": False,
+        "vWindConstant": 0, "useCrInput": False, "CrConstant": 0.015, "vReg": 1e-3,
+        "useInclinationInput": False, "inclinationConstant": 0,
+    },
     "RollingResistance": {
         "fWeight": ..., "useCrInput": False, "CrConstant": 0.01, "useInclinationInput": False,
         "inclinationConstant": 0, "reg": "Exp", "v0": 0.1, "useSupport": False,
@@ -137,6 +145,9 @@ def test_every_class_has_as_many_equations_as_unknowns(name):
         tl.IdealGear(ratio=2, useSupport=True),
         tl.SupportFriction(useSupport=True),
         tl.RollingResistance(fWeight=1, useCrInput=True, useInclinationInput=True),
+        tl.Vehicle(
+            m=1, J=1, R=1, A=1, Cd=1, useWindInput=True, useCrInput=True, useInclinationInput=True
+        ),
         tl.InitializeFlange(use_a_start=False),
         tl.GeneralForceToPositionAdaptor(use_pder2=False),
         tl.GeneralForceToPositionAdaptor(use_pder=False),
@@ -574,3 +585,30 @@ def test_a_filtered_position_follows_closely(drives):
 def test_a_filtered_speed_is_a_first_order_lag(drives):
     t = drives.t
     assert np.allclose(drives["masses[8].v"], t - (1 - np.exp(-t)), atol=1e-6)
+
+
+def test_a_vehicle_accelerates_as_its_resistances_say():
+    vehicle = tl.Vehicle(
+        m=1000, J=10, R=0.5, A=2, Cd=0.3, vWindConstant=5, CrConstant=0.01, inclinationConstant=0.1,
+        v=ac.Start(20.0, fixed=True),
+    )  # fmt: skip
+
+    class Drive(ac.Component):
+        def __init__(self):
+            super().__init__()
+            self.vehicle = vehicle
+            self.torque = rotational.ConstantTorque(tau_constant=800)
+            self.connect(self.torque.flange, vehicle.flangeR)
+
+    system = ac.compile(Drive())
+    x0 = np.asarray(system.initial_state()).copy()
+    x0[list(system.states).index("vehicle.windSpeed.v")] = 5.0
+    found = system.observe(
+        ["vehicle.a", "vehicle.v", "vehicle.inertia.w", "vehicle.fDrag.f"],
+        0.0, jnp.asarray(x0), None, system.parameters(),
+    )  # fmt: skip
+    alpha, weight = np.arctan(0.1), 1000 * 9.80665
+    drag = 0.3 * 1.2 * 2 / 2 * (20 - 5) ** 2
+    force = 800 / 0.5 - drag - 0.01 * weight * np.cos(alpha) - weight * np.sin(alpha)
+    a = force / (1000 + 10 / 0.5**2)
+    assert np.allclose(found, [a, 20, 40, drag])

@@ -7,11 +7,16 @@ inertia = rot.Inertia(J=1.0)
 ```
 """
 
+from acausal.components import (
+    translational as translational,
+)  # comes first: its vehicle has our wheels
+
 from .components import (
     AngleToTorqueAdaptor,
     BearingFriction,
     Brake,
     Clutch,
+    Coupling,
     Damper,
     Disc,
     ElastoBacklash,
@@ -89,6 +94,7 @@ __all__ = [
     "Clutch",
     "ConstantSpeed",
     "ConstantTorque",
+    "Coupling",
     "Damper",
     "Disc",
     "EddyCurrentTorque",

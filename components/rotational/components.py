@@ -29,6 +29,7 @@ __all__ = [
     "BearingFriction",
     "Brake",
     "Clutch",
+    "Coupling",
     "Damper",
     "Disc",
     "ElastoBacklash",
@@ -97,3 +98,20 @@ class Disc(PartialTwoFlanges):
         yield ac.Eq(self.flange_a.phi, self.phi - self.deltaPhi / 2)
         yield ac.Eq(self.flange_b.phi, self.phi + self.deltaPhi / 2)
         yield ac.Eq(0, self.flange_a.tau + self.flange_b.tau)
+
+
+class Coupling(PartialTwoFlanges):
+    """Ideal coupling of two shafts face to face: ``flange_a.phi + flange_b.phi = 0``.
+
+    Both flanges take the same torque ``tau = flange_a.tau = flange_b.tau``; ``w = der(flange_a.phi)``.
+    """
+
+    w = ac.Variable(unit="rad/s", doc="speed of flange_a")
+    tau = ac.Variable(unit="N.m", doc="torque of both flanges")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.flange_a.phi + self.flange_b.phi, 0)
+        yield ac.Eq(self.flange_a.tau, self.flange_b.tau)
+        yield ac.Eq(self.w, ac.der(self.flange_a.phi))
+        yield ac.Eq(self.tau, self.flange_a.tau)

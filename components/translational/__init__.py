@@ -69,6 +69,7 @@ from .sources import (
     SignForce,
     Speed,
 )
+from .vehicle import IdealGearR2T, IdealRollingWheel, Vehicle
 
 __all__ = [
     "AccSensor",
@@ -90,6 +91,8 @@ __all__ = [
     "GeneralForceToPositionAdaptor",
     "GeneralPositionToForceAdaptor",
     "IdealGear",
+    "IdealGearR2T",
+    "IdealRollingWheel",
     "InitializeFlange",
     "InverseSpeedDependentForce",
     "LinearSpeedDependentForce",
@@ -125,4 +128,5 @@ __all__ = [
     "SpringDamper",
     "Support",
     "SupportFriction",
+    "Vehicle",
 ]
