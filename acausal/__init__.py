@@ -4,6 +4,7 @@ import jax as _jax
 
 _jax.config.update("jax_enable_x64", True)
 
+from acausal import networks
 from acausal.analyse import (
     Linearization,
     linearize,
@@ -65,9 +66,13 @@ from acausal.netlist import (
 from acausal.netlist_file import (
     NetlistError,
 )
-from acausal.neural import (
+from acausal.networks.mlp import (
     MLP,
+)
+from acausal.networks.zero import (
     OffsetCorrected,
+)
+from acausal.neural import (
     remove_offset,
 )
 from acausal.signals import (
@@ -155,6 +160,7 @@ __all__ = [
     "log",
     "maximum",
     "minimum",
+    "networks",
     "pi",
     "prescribed",
     "remove_offset",

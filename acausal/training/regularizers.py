@@ -1,7 +1,8 @@
 """Regularizers: what training wants of a model beside fitting the data.
 
 A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace. Outputs of networks are
-taken relative to their ``output_scale``, so that weights are pure numbers.
+taken relative to their ``output_scale``, so that weights are pure numbers. Of a network that is an energy its law
+counts, the slope.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import jax.numpy as jnp
 from jax import Array
 
 from acausal.errors import TrainingError, nearest
-from acausal.neural import output_scale
+from acausal.neural import inputs, law, output_scale
 
 
 class Context(eqx.Module):
@@ -61,10 +62,11 @@ class ZeroCrossing(eqx.Module):
             given = jnp.asarray(self.secondary[name], float)
             others = given[:, None] if given.ndim == 1 else given
         else:
-            others = context.arguments[name][:, 1:]
+            others = context.arguments[name][:, inputs(network) :]
         if others.shape[1] == 0:
             others = others[:1]
-        force = jax.vmap(lambda row: network(jnp.zeros(()), *row))(others)
+        zeros = [jnp.zeros(())] * inputs(network)
+        force = jax.vmap(lambda row: law(network)(*zeros, *row))(others)
         return jnp.mean((force / output_scale(network)) ** 2)
 
 
@@ -93,7 +95,7 @@ def _sum(terms: list[Array]) -> Array:
 
 
 def _mean_square(network: Any, arguments: Array) -> Array:
-    force = jax.vmap(lambda row: network(*row))(arguments)
+    force = jax.vmap(lambda row: law(network)(*row))(arguments)
     return jnp.mean((force / output_scale(network)) ** 2)
 
 

@@ -1,0 +1,47 @@
+"""Activations by name, and which of them keep what a network promises."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import jax
+import jax.numpy as jnp
+from jax import Array
+
+from acausal.errors import DeclarationError, nearest
+
+ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
+    "relu": jax.nn.relu,
+    "tanh": jnp.tanh,
+    "softplus": jax.nn.softplus,
+    "silu": jax.nn.silu,
+    "gelu": jax.nn.gelu,
+    "elu": jax.nn.elu,
+    "sin": jnp.sin,
+    "identity": lambda x: x,
+}
+"""Activations by name."""
+
+RISING = ("relu", "tanh", "softplus", "elu", "identity")
+"""Those that nowhere fall: what a monotone network is made of."""
+
+SMOOTH = ("tanh", "softplus", "silu", "gelu", "elu", "sin")
+"""Those with a continuous slope, so that a force that is the slope of an energy has no steps."""
+
+SMOOTH_AND_CONVEX = ("softplus", "elu")
+"""Those that rise ever faster, too: what a convex energy is made of."""
+
+
+def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str = "") -> str:
+    """The name of an activation, if it is one of those allowed.
+
+    Raises:
+        DeclarationError: if it is none; ``use`` says for what.
+    """
+    if name not in ACTIVATIONS:
+        raise DeclarationError(f"no activation '{name}': {nearest(name, ACTIVATIONS)}")
+    if name not in allowed:
+        raise DeclarationError(
+            f"activation '{name}' is not made for {use}; take one of {', '.join(allowed)}"
+        )
+    return name

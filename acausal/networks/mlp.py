@@ -1,0 +1,147 @@
+"""The plain network: a multilayer perceptron from scalars to a scalar."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+from acausal.errors import DeclarationError
+from acausal.networks.activations import ACTIVATIONS, checked
+
+SPREAD = 2.0
+"""Bound of the first layer's weights and biases."""
+
+Product = Callable[[Array, Array], Array]
+Scale = float | tuple[float, ...]
+Key = Array | int
+
+
+class Layered(eqx.Module):
+    """Base of networks that are made of layers, so that the products in them can be spelled in several ways."""
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The output, a scalar, for scalar inputs."""
+        return self.evaluate(inputs, jnp.matmul)
+
+    @abstractmethod
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
+        """The output, with a way to spell the product of a matrix and a vector."""
+
+
+class MLP(Layered):
+    """A multilayer perceptron from scalars to a scalar, ``F(x) = output_scale · net(x / input_scale)``.
+
+    With one input and the defaults it is the paper's 1-16-16-1 network: 321 parameters.
+
+    Arguments:
+        in_size: number of scalar inputs.
+        width: neurons in each hidden layer.
+        depth: number of hidden layers.
+        activation: of the hidden layers, by name (`ACTIVATIONS`); the last layer is linear.
+        input_scale: typical magnitude of each input, in its unit (one number for all, or a tuple).
+        output_scale: typical magnitude of the output, in its unit.
+        last_layer: factor on the initial weights of the last layer; a small one starts near F = 0, that is with
+            the model as physics alone gives it.
+        key: a JAX key, or a seed.
+
+    The first layer's weights and biases start uniform in ±2, so that the kinks of its neurons are spread over inputs
+    of a few input scales; hidden weights in ±√(6/width); other biases at zero.
+
+    Raises:
+        DeclarationError: for an unknown activation, a size below one or scales that do not fit.
+    """
+
+    weights: tuple[Array, ...]
+    biases: tuple[Array, ...]
+    in_size: int = eqx.field(static=True)
+    activation: str = eqx.field(static=True)
+    input_scale: Scale = eqx.field(static=True)
+    output_scale: float = eqx.field(static=True)
+
+    def __init__(
+        self,
+        in_size: int = 1,
+        width: int = 16,
+        depth: int = 2,
+        activation: str = "relu",
+        *,
+        input_scale: Scale = 1.0,
+        output_scale: float = 1.0,
+        last_layer: float = 0.1,
+        key: Key,
+    ) -> None:
+        self.activation = checked(activation)
+        check_sizes(in_size, width, depth, input_scale)
+        self.weights, self.biases = layers(in_size, width, depth, last_layer, key)
+        self.in_size = in_size
+        self.input_scale, self.output_scale = input_scale, output_scale
+
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
+        """The output, with a way to spell the product of a matrix and a vector."""
+        if len(inputs) != self.in_size:
+            raise DeclarationError(
+                f"a network of {self.in_size} inputs is called with {len(inputs)}"
+            )
+        activation = ACTIVATIONS[self.activation]
+        h = scaled(inputs, self.input_scale)
+        for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
+            h = activation(product(weight, h) + bias)
+        return self.output_scale * (product(self.weights[-1], h) + self.biases[-1])[0]
+
+    def __repr__(self) -> str:
+        sizes = [self.in_size, *(len(b) for b in self.biases)]
+        return f"MLP({'-'.join(map(str, sizes))}, {self.activation})"
+
+
+def layers(
+    in_size: int, width: int, depth: int, last_layer: float, key: Key
+) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
+    """Fresh weights, of shape (rows, columns), and biases of ``depth`` hidden layers and the last one."""
+    sizes = [in_size, *[width] * depth, 1]
+    keys = jax.random.split(as_key(key), 2 * (depth + 1))
+    limits = [
+        SPREAD / in_size**0.5,
+        *[(6 / width) ** 0.5] * (depth - 1),
+        last_layer * width**-0.5,
+    ][-depth - 1 :]
+    weights = tuple(
+        uniform(k, (rows, columns), limit)
+        for k, columns, rows, limit in zip(keys[::2], sizes, sizes[1:], limits, strict=False)
+    )
+    first, *others = sizes[1:]
+    spread = SPREAD if depth else 0.0
+    return weights, (uniform(keys[1], (first,), spread), *(jnp.zeros(n) for n in others))
+
+
+def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) -> None:
+    """Whether there is a network of these sizes.
+
+    Raises:
+        DeclarationError: if there is none.
+    """
+    if min(in_size, width) < 1 or depth < 0:
+        raise DeclarationError(f"a network of in_size={in_size}, width={width}, depth={depth}")
+    if isinstance(input_scale, tuple) and len(input_scale) != in_size:
+        raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
+
+
+def as_key(key: Key) -> Array:
+    """A JAX key, from a key or a seed."""
+    return jax.random.key(key) if isinstance(key, int) else key
+
+
+def uniform(key: Array, shape: tuple[int, ...], limit: float) -> Array:
+    """Numbers between ±limit."""
+    return jax.random.uniform(key, shape, minval=-limit, maxval=limit, dtype=float)
+
+
+def scaled(inputs: Sequence[ArrayLike], scale: Scale) -> Array:
+    """Inputs over their scales, side by side; in the inputs' own precision."""
+    stacked = jnp.stack([jnp.asarray(x) for x in inputs])
+    return stacked / (jnp.asarray(scale, stacked.dtype) if isinstance(scale, tuple) else scale)

@@ -1,0 +1,70 @@
+"""A network that never falls as its first input rises."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+from acausal.networks.activations import ACTIVATIONS, RISING, checked
+from acausal.networks.mlp import Key, Layered, Product, as_key, layers
+from acausal.networks.secondary import Secondary, shifted
+
+
+class Monotone(Layered):
+    """A network with ``∂F/∂x ≥ 0`` in its first input ``x``, for any weights and any secondary inputs.
+
+    Proof: from layer to layer the weights count by their magnitude, ``h' = ρ(|W| h + b)``, and every activation ρ
+    rises; so does what they are composed of. Secondary inputs only shift the biases (`Secondary`). Every other
+    neuron has the activation turned by half a turn, ``−ρ(−z)``: with ReLUs alone a network of positive weights could
+    only bend upwards (D. Runje, S. M. Shankaranarayana: Constrained monotonic neural networks, ICML 2023).
+
+    Arguments:
+        secondary: number of further inputs.
+        width, depth: neurons in each hidden layer, and hidden layers.
+        activation: one that rises, see `RISING`.
+        last_layer: factor on the initial weights of the last layer.
+        key: a JAX key, or a seed.
+
+    Raises:
+        DeclarationError: for an activation that falls somewhere.
+    """
+
+    weights: tuple[Array, ...]
+    biases: tuple[Array, ...]
+    secondary: Secondary | None
+    activation: str = eqx.field(static=True)
+
+    def __init__(
+        self,
+        secondary: int = 0,
+        width: int = 16,
+        depth: int = 2,
+        activation: str = "tanh",
+        *,
+        last_layer: float = 0.1,
+        key: Key,
+    ) -> None:
+        self.activation = checked(activation, RISING, "a monotone network")
+        own, others = jax.random.split(as_key(key))
+        self.weights, self.biases = layers(1, width, depth, last_layer, own)
+        self.secondary = Secondary(secondary, width, depth, key=others) if secondary else None
+
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
+        """The output, with a way to spell the product of a matrix and a vector."""
+        activation = ACTIVATIONS[self.activation]
+        h = jnp.stack([jnp.asarray(inputs[0])])
+        biases = shifted(self.biases[:-1], self.secondary, inputs[1:], product)
+        for weight, bias in zip(self.weights[:-1], biases, strict=True):
+            h = _turned(activation, product(jnp.abs(weight), h) + bias)
+        return (product(jnp.abs(self.weights[-1]), h) + self.biases[-1])[0]
+
+
+def _turned(activation: Callable[[Array], Array], z: Array) -> Array:
+    """``ρ(z)`` and, of every other neuron, ``−ρ(−z)``."""
+    sign = 1 - 2 * (jnp.arange(z.shape[-1]) % 2).astype(z.dtype)
+    return sign * activation(sign * z)

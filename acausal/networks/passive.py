@@ -1,0 +1,35 @@
+"""Laws whose output never opposes their first input: ``F(x) x ≥ 0``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+START = -2.0
+"""What is added to a network inside a softplus, so that a law begins small: softplus(-2) = 0.13."""
+
+
+class Passive(eqx.Module):
+    """``x softplus(F(x, T))``, in which the second factor is positive whatever the network says."""
+
+    net: Callable[..., Array]
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The output for scalar inputs."""
+        return jnp.asarray(inputs[0]) * jax.nn.softplus(self.net(*inputs) + START)
+
+
+class SameSign(eqx.Module):
+    """A law that has the sign of its first input but for rounding, and here has it to the last bit."""
+
+    net: Callable[..., Array]
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The output for scalar inputs."""
+        value = self.net(*inputs)
+        return jnp.where(value * inputs[0] < 0, jnp.zeros_like(value), value)

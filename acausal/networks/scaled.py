@@ -1,0 +1,60 @@
+"""Laws and energies in physical units, around networks of pure numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+from acausal.networks.mlp import Scale, scaled
+
+REACH = 1e6
+"""So many input scales from zero a law is held at what it is there, so that no input makes it overflow."""
+
+
+class Scaled(eqx.Module):
+    """A law ``F(x) = output_scale · net(x / input_scale)`` of physical quantities."""
+
+    net: Callable[..., Array]
+    input_scale: Scale = eqx.field(static=True, default=1.0)
+    output_scale: float = eqx.field(static=True, default=1.0)
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The output for scalar inputs."""
+        numbers = jnp.clip(scaled(inputs, self.input_scale), -REACH, REACH)
+        return self.output_scale * self.net(*numbers)
+
+
+class Potential(eqx.Module):
+    """An energy ``W(x) = energy_scale · net(x / input_scale)``, whose slope is a law.
+
+    Attributes:
+        energy_scale: magnitude of the energy; that of the law is ``energy_scale / input_scale``.
+        inputs: how many of the first inputs it is differentiated by.
+    """
+
+    net: Callable[..., Array]
+    input_scale: Scale = eqx.field(static=True, default=1.0)
+    energy_scale: float = eqx.field(static=True, default=1.0)
+    inputs: int = eqx.field(static=True, default=1)
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The energy for scalar inputs."""
+        return self.energy_scale * self.net(*scaled(inputs, self.input_scale))
+
+    def law(self, *inputs: ArrayLike) -> Array:
+        """The law ``∂W/∂x``: a scalar, or of shape (inputs,) where there are several."""
+        moved = tuple(jnp.asarray(x) + 0.0 for x in inputs[: self.inputs])
+        others = inputs[self.inputs :]
+        slopes = jax.grad(lambda point: self(*point, *others))(moved)
+        return slopes[0] if self.inputs == 1 else jnp.stack(slopes)
+
+    @property
+    def output_scale(self) -> float:
+        """Magnitude of the law of the first input."""
+        scale = self.input_scale
+        return self.energy_scale / (scale[0] if isinstance(scale, tuple) else scale)

@@ -1,0 +1,37 @@
+"""Laws that look the same from both sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import equinox as eqx
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+
+class Odd(eqx.Module):
+    """``½ (F(x, T) − F(−x, T))``: odd in the first input, and as monotone as ``F`` is."""
+
+    net: Callable[..., Array]
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The output for scalar inputs."""
+        x, *others = inputs
+        return 0.5 * (self.net(x, *others) - self.net(-jnp.asarray(x), *others))
+
+
+class Even(eqx.Module):
+    """``½ (F(x, T) + F(−x, T))``: even in its first inputs together, and as convex as ``F`` is.
+
+    Attributes:
+        inputs: how many change their sign.
+    """
+
+    net: Callable[..., Array]
+    inputs: int = eqx.field(static=True, default=1)
+
+    def __call__(self, *inputs: ArrayLike) -> Array:
+        """The output for scalar inputs."""
+        mirrored = [-jnp.asarray(x) for x in inputs[: self.inputs]]
+        return 0.5 * (self.net(*inputs) + self.net(*mirrored, *inputs[self.inputs :]))
