@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from acausal import graph
 from acausal.aliases import AliasFree
@@ -17,11 +17,13 @@ def explain_singularity(
     incidence: Sequence[Sequence[int]],
     chains: dict[int, int],
     origins: Sequence[tuple[str, int]],
+    combined: Mapping[int, Sequence[int]],
 ) -> str | None:
     """A sentence about a structurally singular model, or None for a sound one.
 
     A variable and its derivatives count as one unknown (``chains``), so that constraints between states,
-    which index reduction resolves, are not mistaken for singularities.
+    which index reduction resolves, are not mistaken for singularities. ``combined`` tells what equations an
+    equation was put together from, besides its own.
     """
     collapsed = [list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in incidence]
     bottoms = list(dict.fromkeys(chains.values()))
@@ -35,8 +37,11 @@ def explain_singularity(
     parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
     unmatched = [bottoms[i] for i in (found.unmatched_variables if found else ())]
     missing = [_name(model, aliases, node) for node in unmatched]
-    surplus = [origins[e] for e in (found.unmatched_equations if found else ())]
-    related = [origins[e] for e in (found.equations if found else ()) if origins[e] not in surplus]
+    unmatched_equations = found.unmatched_equations if found else ()
+    surplus = [origins[e] for e in unmatched_equations]
+    reached = [*(found.equations if found else ())]
+    reached += [other for e in unmatched_equations for other in combined.get(e, ())]
+    related = [origins[e] for e in reached if origins[e] not in surplus]
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
     if surplus or aliases.redundant:

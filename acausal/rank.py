@@ -1,8 +1,10 @@
-"""Independent columns of a sparse matrix: where the structure alone promises too much, numbers decide."""
+"""Independent rows and columns of a sparse matrix: where the structure promises too much, numbers decide."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import Any
 
@@ -82,6 +84,93 @@ def singular(rows: Sequence[int], columns: Sequence[int], values: Sequence[float
         if value:
             scaled[column][row] = value / largest[row]
     return len(independent(enumerate(scaled))[0]) < n
+
+
+def crowded(incidence: Mapping[int, Iterable[int]]) -> list[int]:
+    """The rows that are left when those with a column of their own go, one after the other.
+
+    The others stand in no combination of rows that cancels.
+    """
+    holders: dict[int, dict[int, None]] = {}
+    for name, row in incidence.items():
+        for c in row:
+            holders.setdefault(c, {})[name] = None
+    left = dict.fromkeys(incidence)
+    lonely = [c for c, names in holders.items() if len(names) == 1]
+    while lonely:
+        for name in list(holders[lonely.pop()]):
+            del left[name]
+            for c in incidence[name]:
+                del holders[c][name]
+                if len(holders[c]) == 1:
+                    lonely.append(c)
+    return list(left)
+
+
+def cancelling(rows: Mapping[int, Mapping[int, Any]]) -> list[dict[int, Any]]:
+    """Combinations of rows that cancel: factors by row. Each ends with a row that stands in no other.
+
+    Exact for the numbers of any field (fractions, say, or residues of a prime).
+    """
+    crowd = Counter(c for row in rows.values() for c in row)
+    basis: list[_Reduced] = []
+    basis_of: dict[int, int] = {}
+    found: list[dict[int, Any]] = []
+    for name, row in rows.items():
+        rest, used = dict(row), list[tuple[int, Any]]()
+        waiting = [basis_of[c] for c in rest if c in basis_of]
+        heapify(waiting)
+        while waiting:
+            known = basis[number := heappop(waiting)]
+            factor = rest.pop(known.pivot, None)
+            if not factor:
+                continue
+            used.append((number, factor))
+            for c, value in known.rest.items():
+                if c not in rest and c in basis_of:
+                    heappush(waiting, basis_of[c])
+                rest[c] = rest[c] - factor * value if c in rest else -factor * value
+        rest = {c: value for c, value in rest.items() if value}
+        if rest:
+            pivot = min(rest, key=lambda c: (crowd[c], c))
+            divisor = rest.pop(pivot)
+            basis_of[pivot] = len(basis)
+            reduced = {c: value / divisor for c, value in rest.items()}
+            basis.append(_Reduced(pivot, reduced, name, divisor, tuple(used)))
+        else:
+            found.append({**_in_rows(used, basis), name: next(iter(row.values())) ** 0})
+    return found
+
+
+@dataclass(frozen=True)
+class _Reduced:
+    """``column pivot + rest``: row ``name`` less multiples of earlier ones (``used``), divided by ``divisor``."""
+
+    pivot: int
+    rest: dict[int, Any]
+    name: int
+    divisor: Any
+    used: tuple[tuple[int, Any], ...]
+
+
+def _in_rows(used: Sequence[tuple[int, Any]], basis: Sequence[_Reduced]) -> dict[int, Any]:
+    """Minus the sum of multiples of reduced rows, in terms of the rows that they come from, in their order."""
+    weight = {number: -factor for number, factor in used}
+    waiting = [-number for number in weight]
+    heapify(waiting)
+    found: dict[int, Any] = {}
+    while waiting:
+        number = -heappop(waiting)
+        if not (share := weight.pop(number, None)):
+            continue
+        share = share / basis[number].divisor
+        found[number] = share
+        for earlier, factor in basis[number].used:
+            heappush(waiting, -earlier)
+            weight[earlier] = (
+                weight[earlier] - share * factor if earlier in weight else -share * factor
+            )
+    return {basis[number].name: found[number] for number in sorted(found)}
 
 
 def _columns(matrix: Any, candidates: Sequence[int]) -> dict[int, Column]:

@@ -18,6 +18,7 @@ from acausal.diagnose import explain_singularity
 from acausal.equations import Equations
 from acausal.errors import StructureError, listing
 from acausal.flatten import FlatModel
+from acausal.hidden import expose_constraints
 from acausal.loops import BlockEquation, BlockShape, Loop, block_of, loop_of, matrix
 from acausal.slopes import parameter_values
 from acausal.states import select_states
@@ -125,8 +126,9 @@ def reduce(model: FlatModel) -> ReducedModel:
     """
     aliases = eliminate_aliases(model)
     system = Equations.of(model, aliases)
+    combined = expose_constraints(system)
     problem = explain_singularity(
-        model, aliases, system.incidence, system.chains(), system.origins()
+        model, aliases, system.incidence, system.chains(), system.origins(), combined
     )
     if problem is not None:
         raise StructureError(problem)

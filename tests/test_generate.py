@@ -27,6 +27,7 @@ from tests.parts import (
     SpringDamper,
     model,
 )
+from tests.test_hidden import MODELS
 
 
 def chain(n):
@@ -268,7 +269,8 @@ def test_the_order_of_electrical_parts_changes_nothing(order):
 def text():
     """All that is derived from some models, as text."""
     found = []
-    for made in (Vehicle(NAMES, ("tyre",)), chain(4), ladder(3)):
+    hidden = [make() for make, _ in list(MODELS.values())[-3:]]
+    for made in (Vehicle(NAMES, ("tyre",)), chain(4), ladder(3), *hidden):
         system = ac.compile(made)
         found.append(
             str((system.states, system.inputs, list(system.parameters()), system.equations))

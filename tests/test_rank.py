@@ -2,6 +2,7 @@
 
 import itertools
 import time
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array, eye_array, hstack
 
-from acausal.rank import choose_columns, independent, singular
+from acausal.rank import cancelling, choose_columns, crowded, independent, singular
 
 matrices = st.tuples(st.integers(1, 4), st.integers(1, 6)).flatmap(
     lambda size: st.lists(
@@ -96,3 +97,44 @@ def test_many_constraints_take_linear_time(n):
     assert left == []
     assert chosen[-2:] == [n + 1, n + 3]
     assert time.process_time() - start < 5.0
+
+
+# -- rows that cancel ---------------------------------------------------------------------------------------------
+
+
+def as_rows(matrix):
+    """The entries that are not zero, of the rows that have some."""
+    rows = {
+        i: {c: Fraction(int(v)) for c, v in enumerate(row) if v} for i, row in enumerate(matrix)
+    }
+    return {i: row for i, row in rows.items() if row}
+
+
+@given(matrices)
+def test_all_combinations_that_cancel_are_found(matrix):
+    rows = as_rows(matrix)
+    found = cancelling(rows)
+    assert len(found) == len(rows) - np.linalg.matrix_rank(matrix)
+    for factors in found:
+        total = sum(float(f) * matrix[i] for i, f in factors.items())
+        assert not total.any()
+        assert all(factors.values())
+    last = [list(factors)[-1] for factors in found]
+    assert not any(row in factors for row in last for factors in found if [*factors][-1] != row)
+
+
+@given(matrices)
+def test_rows_that_are_not_crowded_stand_in_no_combination(matrix):
+    rows = as_rows(matrix)
+    inside = crowded(rows)
+    assert {i for factors in cancelling(rows) for i in factors} <= set(inside)
+    assert len(cancelling({i: rows[i] for i in inside})) == len(cancelling(rows))
+
+
+def test_a_chain_has_no_crowd_and_a_ring_is_one():
+    chain = {i: (i, i + 1) for i in range(5)}
+    assert crowded(chain) == []
+    ring = {i: (i, (i + 1) % 5) for i in range(5)} | {5: (2, 7)}
+    assert crowded(ring) == [0, 1, 2, 3, 4]
+    turned = {i: {a: Fraction(1), b: Fraction(-1)} for i, (a, b) in list(ring.items())[:5]}
+    assert cancelling(turned) == [dict.fromkeys(range(5), 1)]

@@ -276,7 +276,7 @@ GALLERY: dict[str, Wrong] = {
     "equations that contradict each other": (
         lambda: own(lambda s: [ac.Eq(s.x + s.y, 1), ac.Eq(2 * s.x + 2 * s.y, 3)], "x y"),
         ac.StructureError,
-        ("repeat or contradict each other", "'x', 'y'", "x + y = 1", "2*x + 2*y = 3"),
+        ("undetermined: 'y'", "2*x + 2*y = 3", "together with: 'Equations: x + y = 1'"),
     ),
     "a mass of zero": (
         lambda: compiled("f.flange - m.flange_a", f=tl.ConstantForce(f_constant=1), m=tl.Mass(m=0)),
