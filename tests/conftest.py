@@ -10,6 +10,7 @@ os.environ.setdefault("MPLBACKEND", "Agg")
 
 # The same examples in every run, and no deadline: the first one compiles.
 hypothesis.settings.register_profile("acausal", deadline=None, derandomize=True)
+hypothesis.settings.register_profile("search", deadline=None, database=None, print_blob=True)
 hypothesis.settings.load_profile("acausal")
 
 

@@ -48,22 +48,34 @@ def worst(system: ac.System, seed: int = 0, points: int = 2, params: Any = None)
 def _all(system: ac.System, packed: Packed) -> Callable[[Any, Any, Any], list[Array]]:
     """Residuals of all groups; compiled, as that is faster than operation by operation."""
 
+    def evaluate_all(t: Any, x: Any, u: Any) -> list[Array]:
+        return flat_residuals(system, packed, t, trajectory(system, packed, t, x, u))
+
+    return jax.jit(evaluate_all, compiler_options={"xla_backend_optimization_level": 0})
+
+
+def trajectory(
+    system: ac.System, packed: Packed, t: Any, x: Any, u: Any, highest: int | None = None
+) -> list[Array]:
+    """Values of all flat variables and of their derivatives in time, up to the ``highest`` that an equation has."""
     resolved = [system.reduced.resolve(v) for v in range(system.flat.n_variables)]
     nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
-    highest = max((n for g in system.flat.groups for n in g.template.orders), default=0)
+    if highest is None:
+        highest = max((n for g in system.flat.groups for n in g.template.orders), default=0)
 
     def every(t: Any, x: Array, u: Array) -> Array:
         return signs * system.program.values(nodes, t, x, u, packed) if nodes else jnp.zeros(0)
 
-    def evaluate_all(t: Any, x: Any, u: Any) -> list[Array]:
-        t, x, u = (jnp.asarray(v, dtype=float) for v in (t, x, u))
-        signals = [every]
-        for _ in range(highest):
-            signals.append(_along(system, packed, signals[-1]))
-        values = [signal(t, x, u) for signal in signals]
-        return [_residual(system, group, packed, t, values) for group in system.flat.groups]
+    t, x, u = (jnp.asarray(v, dtype=float) for v in (t, x, u))
+    signals: list[Signal] = [every]
+    for _ in range(highest):
+        signals.append(_along(system, packed, signals[-1]))
+    return [signal(t, x, u) for signal in signals]
 
-    return jax.jit(evaluate_all, compiler_options={"xla_backend_optimization_level": 0})
+
+def flat_residuals(system: ac.System, packed: Packed, t: Any, values: list[Array]) -> list[Array]:
+    """Residuals of all groups of flat equations for these values and derivatives of the variables."""
+    return [_residual(system, group, packed, t, values) for group in system.flat.groups]
 
 
 def _by_name(system: ac.System, rest: list[Array]) -> dict[str, float]:
