@@ -18,7 +18,7 @@ import sympy as sp
 
 from acausal.errors import StructureError
 from acausal.flatten import FlatModel
-from acausal.template import EquationGroup, Integers, Template
+from acausal.template import EquationGroup, Integers, Template, interned
 
 MAX_DOUBLINGS = 64
 
@@ -353,7 +353,7 @@ def specialised(
         tuple(template.modules[i] for i in modules),
         template.origin,
     )
-    return special, (variables, parameters, modules)
+    return interned(special), (variables, parameters, modules)
 
 
 @cache

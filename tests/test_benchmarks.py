@@ -1,0 +1,56 @@
+"""The benchmarks' models: right, and compiled at a cost that does not depend on their size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks import chain, gears, grid, measure
+from benchmarks.command import growth_exponent
+from benchmarks.measure import Stopwatch
+
+SIZES = {"chain": (20, 200), "gears": (20, 200), "grid": (12, 20)}
+CASES = {"chain": chain.CASE, "gears": gears.CASE, "grid": grid.CASE}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def pair(request):
+    """A case, and for two sizes of it the system and its compiled programs."""
+    case = CASES[request.param]
+    return case, {n: measure.build(case, n, Stopwatch()) for n in SIZES[request.param]}
+
+
+def test_the_generated_code_agrees_with_code_by_hand(pair):
+    case, built = pair
+    for n, (system, rhs, _) in built.items():
+        _, _, difference = measure.beside_code_by_hand(case, n, system, rhs)
+        assert difference < 1e-12
+
+
+def test_programs_do_not_grow_with_the_model(pair):
+    counts = [
+        (measure.instructions(rhs), measure.instructions(gradient))
+        for _, rhs, gradient in pair[1].values()
+    ]
+    assert counts[0] == counts[1]
+
+
+def test_sympy_is_asked_as_often_whatever_the_size(pair):
+    case, built = pair
+    called = [measure.calls(case, n) for n in built]
+    assert called[0]["sympy_calls"] == called[1]["sympy_calls"]
+    unknowns = [system.flat.n_variables for system, *_ in built.values()]
+    more = called[1]["calls"] - called[0]["calls"]
+    assert more < 100 * (unknowns[1] - unknowns[0])
+
+
+def test_python_calls_grow_in_proportion_to_the_model():
+    sizes = (50, 50, 100, 200)  # the first fills caches
+    called = [measure.calls(chain.CASE, n)["calls"] for n in sizes]
+    per_mass = np.diff(called[1:]) / np.diff(sizes[1:])
+    assert per_mass[1] == pytest.approx(per_mass[0], rel=0.01)
+
+
+def test_the_growth_exponent_compares_the_largest_size_with_a_hundredth_of_it():
+    found = {10: {"total_seconds": 7.0}, 100: {"total_seconds": 1.0}, 10000: {"total_seconds": 10}}
+    assert growth_exponent(found) == pytest.approx(0.5)
