@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
-from typing import Any
 
 import numpy as np
-import sympy as sp
 
+from acausal import derive
 from acausal.errors import StructureError
 from acausal.flatten import FlatModel
-from acausal.template import EquationGroup, Integers, Template, interned
+from acausal.template import EquationGroup, Integers, Template
 
 MAX_DOUBLINGS = 64
 
@@ -65,8 +63,8 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
         ]
         pending, changed = [], False
         for piece in pieces:
-            alias = _alias(piece.template)
-            if piece.template.residual == 0:
+            alias = derive.alias(piece.template)
+            if derive.is_void(piece.template):
                 redundant += [(piece.template.origin, int(c)) for c in piece.components]
             elif alias is None:
                 pending.append(piece)
@@ -263,7 +261,7 @@ def specialise(
         kinds, which = kinds[order], np.argsort(order)[which.ravel()]
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        template, columns = specialised(group.template, tuple(int(k) for k in kind))
+        template, columns = derive.specialised(group.template, tuple(int(k) for k in kind))
         rows = np.flatnonzero(which == number)
         pieces.append(
             EquationGroup(
@@ -286,7 +284,8 @@ def _fold(group: EquationGroup, parameters: Integers, folded: np.ndarray) -> lis
     as_it_is = tuple(range(1, len(group.template.variables) + 1))
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        template, columns = specialised(group.template, (*as_it_is, *(int(k) for k in kind)))
+        template, columns = derive.specialised(group.template, (*as_it_is, *(int(k) for k in kind)))
+        assert isinstance(template, Template)  # a total has no derivatives
         orders = tuple(group.template.orders[c] for c in columns[0])
         rows = group.rows(which.ravel() == number)
         pieces.append(
@@ -318,61 +317,6 @@ def _first_equal(rows: Integers) -> Integers:
     first = np.empty_like(rows)
     np.put_along_axis(first, order, np.take_along_axis(order, position, axis=1), axis=1)
     return first
-
-
-@cache
-def specialised(
-    template: Template, pattern: tuple[int, ...]
-) -> tuple[Template, tuple[list[int], ...]]:
-    """The template with slots merged, negated or set to zero, and the columns of the slots that remain."""
-    n = len(template.variables)
-    replaced: dict[sp.Symbol, Any] = {}
-    for symbol, code in zip(template.variables, pattern[:n], strict=True):
-        replaced[symbol] = (
-            sp.S.Zero if code == 0 else sp.sign(code) * template.variables[abs(code) - 1]
-        )
-    for symbol, is_zero in zip(template.parameters, pattern[n:], strict=True):
-        if is_zero:
-            replaced[symbol] = sp.S.Zero
-    replaced = {s: r for s, r in replaced.items() if s != r}
-    residual: Any = template.residual.xreplace(replaced) if replaced else template.residual
-    if residual.has(sp.zoo, sp.nan, sp.oo):
-        zeros = [s.name for s, r in replaced.items() if r == 0 and s in template.parameters]
-        raise StructureError(
-            f"{template.origin}: division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
-        )
-    present = residual.free_symbols
-    variables = [i for i, s in enumerate(template.variables) if s in present]
-    parameters = [i for i, s in enumerate(template.parameters) if s in present]
-    modules = [i for i, s in enumerate(template.modules) if s in present]
-    special = Template(
-        residual,
-        tuple(template.variables[i] for i in variables),
-        (0,) * len(variables),
-        tuple(template.parameters[i] for i in parameters),
-        tuple(template.modules[i] for i in modules),
-        template.origin,
-    )
-    return interned(special), (variables, parameters, modules)
-
-
-@cache
-def _alias(template: Template) -> tuple[int, ...] | None:
-    """``(s,)`` if the template states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
-    if template.parameters or template.modules or not 1 <= len(template.variables) <= 2:
-        return None
-    slopes = [template.residual.diff(s) for s in template.variables]
-    if not all(s.is_number and s != 0 for s in slopes):
-        return None
-    rest = template.residual - sp.Add(
-        *(c * s for c, s in zip(slopes, template.variables, strict=True))
-    )
-    if sp.expand(rest) != 0:
-        return None
-    if len(slopes) == 1:
-        return ()
-    ratio = -slopes[1] / slopes[0]
-    return (int(ratio),) if ratio in (1, -1) else None
 
 
 # -- result -------------------------------------------------------------------------------------------
@@ -470,7 +414,7 @@ def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
         pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(
             group.template.parameters
         )
-        template, _ = specialised(group.template, pattern)
+        template, _ = derive.specialised(group.template, pattern)
         rows = group.rows(which.ravel() == number)
         pieces.append(
             EquationGroup(template, rows.variables, rows.parameters, rows.modules, rows.components)

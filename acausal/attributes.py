@@ -16,12 +16,16 @@ from acausal.symbols import (
     Declaration,
     ModuleReference,
     Parameter,
+    Reference,
     Start,
     Variable,
     element_names,
     references,
 )
 from acausal.template import Binding, Integers
+
+ALONE = sp.Symbol("p0", real=True)
+"""The parameter in the expression that is nothing but a parameter."""
 
 
 def _tiled(
@@ -60,6 +64,7 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
     state = _tiled(layout, base, rank, float)
     given = np.zeros(len(start), dtype=bool)
     starts: list[Binding] = []
+    start_of_form: dict[Any, tuple[int, Binding]] = {}
     named = [
         [(i, path, d) for i, (path, d) in enumerate(f.variables) if isinstance(d.start, str)]
         for f in layout.forms
@@ -70,14 +75,11 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
                 continue
             variable = int(base[number]) + index
             given[variable] = d.start in component._modifiers
-            starts.append(
-                _binding(
-                    layout,
-                    variable,
-                    _start_element(getattr(component, d.start), path, d.name),
-                    layout.variable,
-                )
-            )
+            form = layout.form_of[number], index
+            if form not in start_of_form:
+                value = _start_element(getattr(component, d.start), path, d.name)
+                start_of_form[form] = number, _binding(layout, variable, value, layout.variable)
+            starts.append(_moved(layout, *start_of_form[form], number, variable))
         if not component._modifiers:
             continue
         form = layout.form(number)
@@ -95,7 +97,7 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
                 if modifier.value is not None:
                     given[variable] = True
                     value = _start_element(modifier.value, form.variables[index][0], name)
-                    if isinstance(value, sp.Expr) and not value.is_number:
+                    if _is_bound(value):
                         starts.append(_binding(layout, variable, value, layout.variable))
                     else:
                         start[variable] = float(value)
@@ -153,7 +155,7 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
                     continue  # the options left no use for it
                 index = int(base[number]) + form.parameter_index[path]
                 folded[index] = False
-                if isinstance(element, sp.Expr) and not element.is_number:
+                if _is_bound(element):
                     value[index] = np.nan
                     bindings.append(_binding(layout, index, element, layout.parameter))
                 else:
@@ -191,26 +193,43 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
 
 
 def _default_bindings(layout: Layout, value: np.ndarray, bound: set[int]) -> list[Binding]:
-    """Defaults that are functions of the component: ``Parameter(lambda self: 2 * self.m)``."""
+    """Defaults that are functions of the component: ``Parameter(lambda self: 2 * self.m)``.
+
+    A component's form decides what the function says; it is asked once.
+    """
     bindings: list[Binding] = []
-    for number, members in enumerate(members_of_forms(layout)):
-        computed = [
-            (i, d)
-            for i, (_, d) in enumerate(layout.forms[number].parameters)
-            if callable(d.default)
-        ]
-        for member in members if computed else ():
-            component = layout.components[member]
-            for i, declaration in computed:
-                index = int(layout.parameter_base[member]) + i
-                if not np.isnan(value[index]) or index in bound:
-                    continue
-                default = declaration.default(component)
-                if isinstance(default, sp.Expr) and not default.is_number:
-                    bindings.append(_binding(layout, index, default, layout.parameter))
-                else:
-                    value[index] = float(default)
+    for form, members in zip(layout.forms, members_of_forms(layout), strict=True):
+        for i, (_, declaration) in enumerate(form.parameters):
+            if not callable(declaration.default):
+                continue
+            indices = layout.parameter_base[members] + i
+            left = [
+                (m, k)
+                for m, k in zip(members.tolist(), indices.tolist(), strict=True)
+                if np.isnan(value[k]) and k not in bound
+            ]
+            if not left:
+                continue
+            first, index = left[0]
+            default: Any = declaration.default(layout.components[first])
+            if _is_bound(default):
+                binding = _binding(layout, index, default, layout.parameter)
+                bindings += [_moved(layout, first, binding, m, k) for m, k in left]
+            else:
+                value[[k for _, k in left]] = float(default)
     return bindings
+
+
+def _is_bound(value: Any) -> bool:
+    """Whether a value depends on parameters."""
+    return isinstance(value, Reference) or (isinstance(value, sp.Expr) and not value.is_number)
+
+
+def _moved(layout: Layout, owner: int, binding: Binding, member: int, target: int) -> Binding:
+    """What a component binds to its own parameters, for another component of the same form."""
+    by = int(layout.parameter_base[member] - layout.parameter_base[owner])
+    arguments = tuple(a + by for a in binding.arguments)
+    return Binding(target, binding.expression, binding.symbols, arguments)
 
 
 def _binding(
@@ -220,18 +239,19 @@ def _binding(
     symbols: list[sp.Symbol] = []
     arguments: list[int] = []
     names: dict[sp.Symbol, sp.Symbol] = {}
-    for reference in references(expression):
+    alone = isinstance(expression, Reference)
+    for reference in (expression,) if alone else references(expression):
         number = layout.position.get(id(reference.owner))
         if number is None:
             raise DeclarationError(
                 f"'{name(target)}' refers to '{reference.path}' of {reference.owner._label()}, which is not "
                 "part of the model; assign that component to an attribute, or give a number"
             )
-        names[reference] = sp.Symbol(f"p{len(symbols)}", real=True)
+        names[reference] = ALONE if alone else sp.Symbol(f"p{len(symbols)}", real=True)
         symbols.append(names[reference])
         index = layout.form(number).parameter_index[reference.path]
         arguments.append(int(layout.parameter_base[number]) + index)
-    named: Any = expression.xreplace(names)
+    named: Any = ALONE if alone else expression.xreplace(names)
     return Binding(target, named, tuple(symbols), tuple(arguments))
 
 

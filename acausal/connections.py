@@ -7,11 +7,10 @@ A connector seen from the component that owns it (its *inside*) and from that co
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import sympy as sp
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
@@ -20,6 +19,7 @@ from acausal.connector import Connector
 from acausal.errors import ConnectionError
 from acausal.symbols import Flow, Input, Output
 from acausal.template import EquationGroup, Integers, Template, slot
+from acausal.totals import Statement, balance
 
 if TYPE_CHECKING:
     from acausal.layout import Layout
@@ -90,7 +90,7 @@ def connection_groups(layout: Layout, sets: ConnectionSets) -> tuple[EquationGro
     zero = _unconnected_flows(layout, sets.edges)
     groups = [_group(_equality(), np.asarray(equal, dtype=np.int64).reshape(-1, 2))]
     groups += [_group(_balance(within), np.asarray(rows)) for within, rows in sums.items()]
-    groups.append(_group(_balance((False,)), zero[:, None]))
+    groups.append(_group(balance((1,), "unconnected: no flow"), zero[:, None]))
     return tuple(g for g in groups if len(g))
 
 
@@ -180,7 +180,7 @@ def _unconnected_flows(layout: Layout, edges: Integers) -> Integers:
     return np.sort(np.concatenate(flows)) if flows else np.empty(0, dtype=np.int64)
 
 
-def _group(template: Template, variables: Integers) -> EquationGroup:
+def _group(template: Statement, variables: Integers) -> EquationGroup:
     nothing = np.empty((len(variables), 0), dtype=np.int64)
     return EquationGroup(template, variables, nothing, nothing, -1 - variables[:, -1])
 
@@ -191,10 +191,6 @@ def _equality() -> Template:
     return Template(a - b, (a, b), (0, 0), (), (), "connected: equal potentials")
 
 
-@lru_cache(maxsize=256)
-def _balance(within: tuple[bool, ...]) -> Template:
+def _balance(within: tuple[bool, ...]) -> Statement:
     """Flows out of a node: a connector seen from within counts negatively."""
-    flows = tuple(slot(f"f{i}") for i in range(1, len(within) + 1))
-    total = sp.Add(*(-f if w else f for f, w in zip(flows, within, strict=True)))
-    origin = "connected: flows sum to zero" if len(flows) > 1 else "unconnected: no flow"
-    return Template(total, flows, (0,) * len(flows), (), (), origin)
+    return balance(tuple(-1 if w else 1 for w in within), "connected: flows sum to zero")

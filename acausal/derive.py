@@ -1,4 +1,7 @@
-"""Derive: sympy, once per template: differentiate in time, solve for a slot, tell what is linear."""
+"""Derive: sympy, once per template: specialise, differentiate in time, solve for a slot, tell what is linear.
+
+Of a `Total` integers tell the same, without sympy.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +11,86 @@ from typing import Any
 import sympy as sp
 from sympy.core.relational import Relational
 
+from acausal.errors import StructureError
 from acausal.symbols import time
-from acausal.template import Template
+from acausal.template import Template, interned
+from acausal.totals import Statement, Total
 
 
 @cache
-def differentiate(template: Template) -> tuple[Template, tuple[tuple[int, bool], ...]]:
+def specialised(
+    template: Statement, pattern: tuple[int, ...]
+) -> tuple[Statement, tuple[list[int], ...]]:
+    """The template with slots merged, negated or set to zero, and the columns of the slots that remain.
+
+    Arguments:
+        pattern: for every variable slot 0 (zero), or ``±(1 + j)``: plus or minus slot j; for every parameter slot
+            whether it is zero.
+    """
+    if isinstance(template, Total):
+        special, left = template.specialised(pattern)
+        return special, (left, [], [])
+    n = len(template.variables)
+    replaced: dict[sp.Symbol, Any] = {}
+    for symbol, code in zip(template.variables, pattern[:n], strict=True):
+        replaced[symbol] = (
+            sp.S.Zero if code == 0 else sp.sign(code) * template.variables[abs(code) - 1]
+        )
+    for symbol, is_zero in zip(template.parameters, pattern[n:], strict=True):
+        if is_zero:
+            replaced[symbol] = sp.S.Zero
+    replaced = {s: r for s, r in replaced.items() if s != r}
+    residual: Any = template.residual.xreplace(replaced) if replaced else template.residual
+    if residual.has(sp.zoo, sp.nan, sp.oo):
+        zeros = [s.name for s, r in replaced.items() if r == 0 and s in template.parameters]
+        raise StructureError(
+            f"{template.origin}: division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
+        )
+    present = residual.free_symbols
+    variables = [i for i, s in enumerate(template.variables) if s in present]
+    parameters = [i for i, s in enumerate(template.parameters) if s in present]
+    modules = [i for i, s in enumerate(template.modules) if s in present]
+    special = Template(
+        residual,
+        tuple(template.variables[i] for i in variables),
+        (0,) * len(variables),
+        tuple(template.parameters[i] for i in parameters),
+        tuple(template.modules[i] for i in modules),
+        template.origin,
+    )
+    return interned(special), (variables, parameters, modules)
+
+
+@cache
+def alias(template: Statement) -> tuple[int, ...] | None:
+    """``(s,)`` if the template states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
+    if isinstance(template, Total) or template.parameters or template.modules:
+        return None
+    if not 1 <= len(template.variables) <= 2:
+        return None
+    slopes = [template.residual.diff(s) for s in template.variables]
+    if not all(s.is_number and s != 0 for s in slopes):
+        return None
+    rest = template.residual - sp.Add(
+        *(c * s for c, s in zip(slopes, template.variables, strict=True))
+    )
+    if sp.expand(rest) != 0:
+        return None
+    if len(slopes) == 1:
+        return ()
+    ratio = -slopes[1] / slopes[0]
+    return (int(ratio),) if ratio in (1, -1) else None
+
+
+@cache
+def differentiate(template: Statement) -> tuple[Statement, tuple[tuple[int, bool], ...]]:
     """The template's total time derivative, and where its slots come from.
 
     Returns:
         The new template and, per variable slot, (column of the old template, whether differentiated).
     """
+    if isinstance(template, Total):
+        return template.derivative, tuple((i, True) for i in range(len(template.coefficients)))
     slots = list(template.variables)
     taken = set(slots)
     rates = [_fresh(f"der({s.name})", taken) for s in slots]
@@ -46,9 +118,16 @@ def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:
     return _fresh(f"{name}'", taken) if symbol in taken else symbol
 
 
+def is_void(template: Statement) -> bool:
+    """Whether the template says nothing: ``0 = 0``."""
+    return isinstance(template, Template) and template.residual == 0
+
+
 @cache
-def slope(template: Template, column: int) -> sp.Expr:
+def slope(template: Statement, column: int) -> sp.Expr:
     """Partial derivative of the residual with respect to a variable slot."""
+    if isinstance(template, Total):
+        return sp.Integer(template.coefficients[column])
     symbol = template.variables[column]
     return sp.Add(*(term.diff(symbol) for term in _terms_of(template)[symbol]))
 
@@ -83,11 +162,19 @@ def solve(template: Template, column: int) -> sp.Expr | None:
 
 
 @cache
-def is_safely_solvable(template: Template, column: int) -> bool:
+def is_solvable(template: Statement, column: int) -> bool:
+    """Whether `solve` finds an expression."""
+    return isinstance(template, Total) or solve(template, column) is not None
+
+
+@cache
+def is_safely_solvable(template: Statement, column: int) -> bool:
     """Whether the slot stands linearly with a coefficient that cannot vanish while a simulation runs.
 
     Numbers and products of parameters count as safe, anything that depends on variables, time or cases does not.
     """
+    if isinstance(template, Total):
+        return True
     if solve(template, column) is None:
         return False
     coefficient = slope(template, column)
@@ -96,8 +183,10 @@ def is_safely_solvable(template: Template, column: int) -> bool:
 
 
 @cache
-def is_linear(template: Template, columns: tuple[int, ...]) -> bool:
+def is_linear(template: Statement, columns: tuple[int, ...]) -> bool:
     """Whether the residual is affine in these slots together."""
+    if isinstance(template, Total):
+        return True
     symbols = {template.variables[c] for c in columns}
     if symbols & _deciding(template):
         return False

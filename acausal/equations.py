@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from acausal import derive, graph
-from acausal.aliases import AliasFree, specialised
+from acausal.aliases import AliasFree
 from acausal.diagnose import equation_name
 from acausal.errors import StructureError
 from acausal.flatten import FlatModel
 from acausal.slopes import Point, constant, slopes
-from acausal.template import Integers, Template
+from acausal.template import Integers
+from acausal.totals import Statement
 
 
 @dataclass
@@ -22,7 +23,7 @@ class Equations:
 
     model: FlatModel
     aliases: AliasFree
-    template: list[Template]
+    template: list[Statement]
     variables: list[list[int]]
     parameters: list[list[int]]
     modules: list[list[int]]
@@ -36,7 +37,7 @@ class Equations:
     @staticmethod
     def of(model: FlatModel, aliases: AliasFree) -> Equations:
         """Number the equations of a model without aliases."""
-        template: list[Template] = []
+        template: list[Statement] = []
         variables: list[list[int]] = []
         parameters: list[list[int]] = []
         modules: list[list[int]] = []
@@ -155,7 +156,7 @@ class Equations:
         slots = zip(template.parameters, self.parameters[equation], strict=True)
         return [p for s, p in slots if s in symbols]
 
-    def _by_template(self, chosen: Sequence[int]) -> list[tuple[Template, list[int]]]:
+    def _by_template(self, chosen: Sequence[int]) -> list[tuple[Statement, list[int]]]:
         """Positions in ``chosen`` of the equations that share a template."""
         found: dict[int, list[int]] = {}
         for i, e in enumerate(chosen):
@@ -184,11 +185,13 @@ class Equations:
         row = self.variables[equation]
         nodes: list[int] = []
         codes: list[int] = []
+        first: dict[int, int] = {}
         for column, raised in sources:
             node, sign = (self._derivative(row[column])) if raised else (row[column], 1)
             nodes.append(node)
-            codes.append(0 if node == self.aliases.zero else sign * (nodes.index(node) + 1))
-        special, (columns, kept, used) = specialised(
+            place = first.setdefault(node, len(nodes))
+            codes.append(0 if node == self.aliases.zero else sign * place)
+        special, (columns, kept, used) = derive.specialised(
             template, (*codes, *[0] * len(template.parameters))
         )
         self.template.append(special)
@@ -197,6 +200,13 @@ class Equations:
         self.modules.append([self.modules[equation][c] for c in used])
         self.component.append(self.component[equation])
         return [v for v in self.variables[-1] if v not in self.known]
+
+    def new_node(self) -> int:
+        """A further variable without a name."""
+        self.structure.derivative.append(-1)
+        self.sign.append(1)
+        self.base.append(-1)
+        return len(self.base) - 1
 
     def _derivative(self, node: int) -> tuple[int, int]:
         """Node and sign of a node's derivative."""

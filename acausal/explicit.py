@@ -11,7 +11,7 @@ from typing import Any
 import sympy as sp
 
 from acausal import derive
-from acausal.reduce import Assignment, Loop, ReducedModel
+from acausal.reduce import Accumulation, Assignment, Loop, ReducedModel, Step
 from acausal.symbols import ModuleCall
 from acausal.symbols import time as internal_time
 from acausal.template import Integers
@@ -50,7 +50,7 @@ class _Writer:
         self.implicit: list[Any] = []
         self._values: dict[int, sp.Expr] = {reduced.aliases.zero: sp.S.Zero}
         self._known = {*reduced.states.tolist(), *reduced.inputs.tolist()}
-        self._origin: dict[int, tuple[Any, int]] = {}
+        self._origin: dict[int, tuple[Step, int]] = {}
         for step in reduced.steps:
             rows = step.unknowns if isinstance(step, Loop) else step.unknowns[:, None]
             for i, row in enumerate(rows.tolist()):
@@ -73,17 +73,29 @@ class _Writer:
                 missing = [v for v in self._needs(step, row) if v not in self._values]
                 if missing:
                     stack += missing
-                elif isinstance(step, Assignment):
-                    expression = derive.solve(step.template, step.column)
-                    self._values[current] = self._fill(step, row, expression)
-                else:
-                    self._write_loop(step, row)
+                    continue
+                match step:
+                    case Assignment():
+                        expression = derive.solve(step.template, step.column)
+                        self._values[current] = self._fill(step, row, expression)
+                    case Accumulation():
+                        self._values[current] = self._sum(step, row)
+                    case Loop():
+                        self._write_loop(step, row)
         return self._values[node]
 
-    def _needs(self, step: Assignment | Loop, row: int) -> list[int]:
-        if isinstance(step, Loop):
-            return step.externals[row].tolist()
-        return [v for i, v in enumerate(step.variables[row].tolist()) if i != step.column]
+    def _needs(self, step: Step, row: int) -> list[int]:
+        match step:
+            case Assignment():
+                return [v for i, v in enumerate(step.variables[row].tolist()) if i != step.column]
+            case Accumulation():
+                return step.terms[row].tolist()
+            case Loop():
+                return step.externals[row].tolist()
+
+    def _sum(self, step: Accumulation, row: int) -> sp.Expr:
+        pairs = zip(step.weights[row].tolist(), step.terms[row].tolist(), strict=True)
+        return sp.Add(*(sp.nsimplify(w) * self._values[v] for w, v in pairs))
 
     def _fill(self, step: Assignment, row: int, expression: Any) -> sp.Expr:
         names = self._parameters(step.template, step.parameters[row], step.modules[row])

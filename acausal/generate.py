@@ -18,52 +18,15 @@ import sympy as sp
 
 from acausal import derive
 from acausal.gather import Gather, gather
-from acausal.lower import ModuleValue, collect, evaluate
+from acausal.instructions import Accumulate, Arguments, Evaluate
+from acausal.lower import ModuleValue, evaluate
 from acausal.parameters import Packed, ParameterLayout
-from acausal.reduce import Assignment, BlockShape, Loop, ReducedModel
+from acausal.reduce import Accumulation, Assignment, BlockShape, Loop, ReducedModel
 from acausal.solve import solve_linear, solve_nonlinear
 from acausal.symbols import time
 from acausal.template import Integers
 
 STATE, INPUT, ZERO = 0, 1, 2
-
-
-@dataclass(frozen=True)
-class Arguments:
-    """What fills the slots of a step's formula, by symbol."""
-
-    variables: tuple[tuple[sp.Symbol, Gather], ...]
-    parameters: tuple[tuple[sp.Symbol, Gather], ...]
-    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
-
-    @property
-    def sources(self) -> set[int]:
-        """The arrays that are read."""
-        return {s for _, g in self.variables for s in g.sources}
-
-    def read(self, t: Any, arrays: Sequence[Any], packed: Packed) -> dict[sp.Symbol, Any]:
-        """Values of the slots."""
-        values: dict[sp.Symbol, Any] = {time: t}
-        values |= {symbol: g.read(arrays) for symbol, g in self.variables}
-        values |= {symbol: g.read([packed.values]) for symbol, g in self.parameters}
-        values |= {symbol: chosen_module(packed, chosen) for symbol, chosen in self.modules}
-        return values
-
-
-@dataclass(frozen=True)
-class Evaluate:
-    """Compute one expression for ``size`` instances."""
-
-    expression: sp.Expr
-    arguments: Arguments
-    size: int
-
-    outputs = 1
-
-    def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
-        """The step's results, one array each."""
-        value = jnp.asarray(evaluate(self.expression, self.arguments.read(t, arrays, packed)))
-        return [value if self.size == 1 else jnp.broadcast_to(value, (self.size,))]
 
 
 @dataclass(frozen=True)
@@ -74,6 +37,11 @@ class SolveLoop:
     arguments: Arguments
     guess: np.ndarray
     size: int
+
+    @property
+    def sources(self) -> set[int]:
+        """The arrays that are read."""
+        return self.arguments.sources
 
     @property
     def outputs(self) -> int:
@@ -168,14 +136,7 @@ def _callable(i: int) -> sp.Symbol:
     return sp.Symbol(f"m{i}")
 
 
-def chosen_module(packed: Packed, chosen: Sequence[int]) -> ModuleValue:
-    """The module of one instance or of all; those of several instances side by side."""
-    if len(set(chosen)) == 1:
-        return ModuleValue(packed.modules[chosen[0]])
-    return collect([packed.modules[i] for i in chosen])
-
-
-Instruction = Evaluate | SolveLoop
+Instruction = Evaluate | Accumulate | SolveLoop
 
 
 @dataclass(frozen=True)
@@ -230,7 +191,7 @@ class Program:
             filled = range(self.first[i], self.first[i] + self.instructions[i].outputs)
             if needed.intersection(filled):
                 active.append(i)
-                needed |= self.instructions[i].arguments.sources
+                needed.update(self.instructions[i].sources)
         for i in reversed(active):
             results = self.instructions[i].run(t, arrays, packed)
             arrays[self.first[i] : self.first[i] + len(results)] = results
@@ -255,15 +216,18 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
     first: list[int] = []
     for step in reduced.steps:
         first.append(len(sizes))
-        if isinstance(step, Assignment):
-            instructions.append(_evaluate(step, source, index, sizes, parameters))
-            place(step.unknowns, len(sizes))
-            sizes.append(len(step.unknowns))
-        else:
-            instructions.append(_solve_loop(reduced, step, source, index, sizes, parameters))
-            for column in step.unknowns.T:
-                place(column, len(sizes))
-                sizes.append(len(column))
+        match step:
+            case Assignment():
+                instruction = _evaluate(step, source, index, sizes, parameters)
+            case Accumulation():
+                instruction = _accumulate(step, source, index, sizes)
+            case Loop():
+                instruction = _solve_loop(reduced, step, source, index, sizes, parameters)
+        instructions.append(instruction)
+        filled = step.unknowns.T if isinstance(step, Loop) else step.unknowns[None]
+        for nodes in filled:
+            place(nodes, len(sizes))
+            sizes.append(len(nodes))
     rates = (
         gather(source[reduced.rates], index[reduced.rates], sizes) if len(reduced.rates) else None
     )
@@ -298,6 +262,15 @@ def _evaluate(
         tuple((s, layout.chosen(m)) for s, m in columns(template.modules, step.modules)),
     )
     return Evaluate(expression, arguments, len(step.variables))
+
+
+def _accumulate(
+    step: Accumulation, source: Integers, index: Integers, sizes: Sequence[int]
+) -> Accumulate:
+    nodes = step.terms.T.ravel()
+    terms = gather(source[nodes], index[nodes], sizes)
+    weights, signs = step.weights.T, np.unique(step.weights)
+    return Accumulate(terms, weights if len(signs) > 1 else signs, *step.terms.T.shape)
 
 
 def _solve_loop(

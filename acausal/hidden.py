@@ -18,7 +18,7 @@ from typing import Any
 import sympy as sp
 
 from acausal import derive
-from acausal.aliases import specialised
+from acausal.derive import specialised
 from acausal.equations import Equations
 from acausal.rank import cancelling, crowded
 from acausal.template import Template
@@ -64,7 +64,7 @@ def _highest(system: Equations) -> dict[int, Columns]:
 @cache
 def _factor(template: Template, column: int) -> Any:
     """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
-    if derive.solve(template, column) is None:
+    if not derive.is_solvable(template, column):
         return None
     slope = derive.slope(template, column)
     if not slope.free_symbols <= {*template.parameters} or not slope.is_rational_function():

@@ -16,7 +16,8 @@ from jax.core import Tracer
 
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.flatten import FlatModel
-from acausal.generate import Program, chosen_module
+from acausal.generate import Program
+from acausal.instructions import chosen_module
 from acausal.lower import evaluate
 from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import ReducedModel

@@ -12,7 +12,8 @@ from acausal.equations import Equations
 from acausal.errors import StructureError, listing
 from acausal.rank import singular
 from acausal.slopes import Point, constant, slopes
-from acausal.template import Integers, Template
+from acausal.template import Integers
+from acausal.totals import Statement
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class BlockEquation:
     Slots in ``vanishing`` have a factor that is zero for the model's own parameter values.
     """
 
-    template: Template
+    template: Statement
     variables: tuple[int, ...]
     parameters: tuple[int, ...]
     modules: tuple[int, ...]
@@ -116,7 +117,7 @@ def loop_of(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) 
         code
         for e in equations
         for column, code in enumerate(e.variables)
-        if code >= 0 and derive.solve(e.template, column) is None
+        if code >= 0 and not derive.is_solvable(e.template, column)
     }  # Newton's method finds these best where it moves them itself
     loop = Loop(
         BlockShape(

@@ -5,47 +5,35 @@ The result says which variables are states, and in which order and from which eq
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from acausal import derive, graph
+from acausal import graph
 from acausal.aliases import AliasFree, eliminate_aliases
 from acausal.diagnose import explain_singularity
 from acausal.equations import Equations
-from acausal.errors import StructureError, listing
+from acausal.errors import StructureError
 from acausal.flatten import FlatModel
 from acausal.hidden import expose_constraints
-from acausal.loops import BlockEquation, BlockShape, Loop, block_of, loop_of, matrix
-from acausal.slopes import parameter_values
+from acausal.loops import BlockEquation, BlockShape, Loop
 from acausal.states import select_states
-from acausal.template import Integers, Template
+from acausal.steps import Accumulation, Assignment, Step, order_steps
+from acausal.template import Integers
 
-__all__ = ["Assignment", "BlockEquation", "BlockShape", "Loop", "ReducedModel", "Step", "reduce"]
+__all__ = [
+    "Accumulation",
+    "Assignment",
+    "BlockEquation",
+    "BlockShape",
+    "Loop",
+    "ReducedModel",
+    "Step",
+    "reduce",
+]
 
 OFF_ZERO = 1e-3
-
-
-@dataclass(frozen=True)
-class Assignment:
-    """Instances of one template, all solved for the same slot: ``variables[:, column]`` follow from the rest."""
-
-    template: Template
-    column: int
-    variables: Integers
-    parameters: Integers
-    modules: Integers
-
-    @property
-    def unknowns(self) -> Integers:
-        """The unknown that each instance is solved for."""
-        return self.variables[:, self.column]
-
-
-Step = Assignment | Loop
 
 
 @dataclass(frozen=True)
@@ -152,6 +140,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
             "the model has constraints that contradict or repeat each other"
         )
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)
+    steps = order_steps(system, incidence, variable_of, blocks)
     inputs, orders = _inputs(system)
     return ReducedModel(
         model=system.model,
@@ -164,7 +153,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         base=np.asarray(system.base, dtype=np.int64),
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),
-        steps=_steps(system, incidence, variable_of, blocks),
+        steps=steps,
     )
 
 
@@ -179,59 +168,3 @@ def _inputs(system: Equations) -> tuple[list[int], list[tuple[int, int]]]:
             nodes.append(node)
             orders.append((i, order))
     return nodes, orders
-
-
-def _steps(
-    system: Equations, incidence: list[list[int]], variable_of: list[int], blocks: graph.Blocks
-) -> tuple[Step, ...]:
-    """Group what can be computed at the same level by the same formula."""
-    order = np.lexsort((np.arange(len(incidence)), blocks.block, blocks.level[blocks.block]))
-    bounds = np.flatnonzero(np.diff(blocks.block[order], prepend=-1, append=-1))
-    values = parameter_values(system.model)
-    vanishing = system.vanishing(values)
-    found: dict[Any, list[Any]] = {}
-    for a, b in itertools.pairwise(bounds):
-        equations = order[a:b].tolist()
-        unknowns = [variable_of[e] for e in equations]
-        level = int(blocks.level[blocks.block[equations[0]]])
-        column = _explicit(system, equations[0], unknowns[0]) if len(equations) == 1 else None
-        if column is None:
-            block = block_of(system, equations, unknowns, vanishing)
-            found.setdefault((level, block.equations, len(unknowns)), []).append(block)
-        elif (equations[0], column) in vanishing:
-            raise StructureError(_no_divisor(system, equations[0], column))
-        else:
-            key = level, system.template[equations[0]], column
-            found.setdefault(key, []).append(equations[0])
-    return tuple(
-        _assignment(system, key[1], key[2], members)
-        if isinstance(key[1], Template)
-        else loop_of(system, members, values)
-        for key, members in found.items()
-    )
-
-
-def _explicit(system: Equations, equation: int, unknown: int) -> int | None:
-    column = system.variables[equation].index(unknown)
-    return column if derive.solve(system.template[equation], column) is not None else None
-
-
-def _no_divisor(system: Equations, equation: int, column: int) -> str:
-    names = [system.model.layout.parameter(p) for p in system.divisors(equation, column)]
-    unknown = system.name(system.variables[equation][column])
-    return (
-        f"'{unknown}' cannot be computed from {system.describe(equation)}: its factor there is zero "
-        f"because of {listing(names)}; give another value"
-    )
-
-
-def _assignment(
-    system: Equations, template: Template, column: int, members: list[int]
-) -> Assignment:
-    return Assignment(
-        template,
-        column,
-        matrix([system.variables[e] for e in members]),
-        matrix([system.parameters[e] for e in members]),
-        matrix([system.modules[e] for e in members]),
-    )

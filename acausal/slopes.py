@@ -14,7 +14,8 @@ from acausal import derive
 from acausal.flatten import FlatModel
 from acausal.functions import Prescribed
 from acausal.symbols import ModuleCall, time
-from acausal.template import Integers, Template
+from acausal.template import Integers
+from acausal.totals import Statement, Total
 
 TIME = 0.37
 
@@ -28,12 +29,14 @@ class Point:
 
 
 def slopes(
-    template: Template, column: int, variables: Integers, parameters: Integers, point: Point
+    template: Statement, column: int, variables: Integers, parameters: Integers, point: Point
 ) -> np.ndarray:
     """Partial derivatives with respect to one slot, for all rows of ``variables`` and ``parameters``.
 
     What has no finite value there, or depends on a callable parameter, is taken for some number but zero.
     """
+    if isinstance(template, Total):
+        return np.full(len(variables), float(template.coefficients[column]))
     expression = derive.slope(template, column)
     if expression.is_Number:
         return np.full(len(variables), float(expression))
@@ -48,8 +51,10 @@ def slopes(
     return np.where(np.isfinite(result), result, 1.0)
 
 
-def constant(template: Template, column: int) -> bool:
+def constant(template: Statement, column: int) -> bool:
     """Whether the slope depends on parameters and numbers only."""
+    if isinstance(template, Total):
+        return True
     slope = derive.slope(template, column)
     return not (slope.free_symbols - {*template.parameters} or slope.has(ModuleCall))
 

@@ -7,10 +7,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
+
+if TYPE_CHECKING:
+    from acausal.totals import Statement
 
 Integers = np.ndarray[Any, np.dtype[np.int64]]
 
@@ -66,7 +69,7 @@ class EquationGroup:
             a variable that it joins.
     """
 
-    template: Template
+    template: Statement
     variables: Integers
     parameters: Integers
     modules: Integers

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.aliases import eliminate_aliases, parameter_aliases, specialised
+from acausal.aliases import eliminate_aliases, parameter_aliases
+from acausal.derive import specialised
 from acausal.flatten import flatten
 from acausal.template import Template, slot
 from tests.oracle import worst

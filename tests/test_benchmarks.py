@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks import chain, gears, grid, measure
+from benchmarks import chain, gears, grid, ladder, measure
 from benchmarks.command import growth_exponent
 from benchmarks.measure import Stopwatch
 
-SIZES = {"chain": (20, 200), "gears": (20, 200), "grid": (12, 20)}
-CASES = {"chain": chain.CASE, "gears": gears.CASE, "grid": grid.CASE}
+SIZES = {"chain": (20, 200), "gears": (20, 200), "grid": (12, 20), "ladder": (20, 200)}
+CASES = {"chain": chain.CASE, "gears": gears.CASE, "grid": grid.CASE, "ladder": ladder.CASE}
 
 
 @pytest.fixture(scope="module", params=CASES)
