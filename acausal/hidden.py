@@ -9,7 +9,7 @@ one of its equations, so that index reduction sees it. (For factors that are int
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache, reduce
 from operator import add, mul
 from random import Random
@@ -22,12 +22,13 @@ from acausal.derive import specialised
 from acausal.equations import Equations
 from acausal.rank import cancelling, crowded
 from acausal.template import Template
+from acausal.totals import Statement, Total
 
 PRIME = 2**61 - 1
 RESIDUES = sp.GF(PRIME)
 Columns = dict[int, int]
 """Unknowns, and the columns that they stand in."""
-Part = tuple[Template, sp.Expr, tuple[int, ...], tuple[int, ...]]
+Part = tuple[Statement, sp.Expr, tuple[int, ...], tuple[int, ...]]
 """A template, its factor, the slots of variables that are kept, and in what slot of the sum each parameter goes."""
 
 
@@ -56,13 +57,17 @@ def _highest(system: Equations) -> dict[int, Columns]:
     found: dict[int, Columns] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
         columns = {v: c for c, v in enumerate(row) if derivative[v] < 0 and v not in known}
-        if columns and all(_factor(template, c) is not None for c in columns.values()):
+        if columns and (isinstance(template, Total) or _are_constant(template, columns.values())):
             found[e] = columns
     return found
 
 
+def _are_constant(template: Template, columns: Iterable[int]) -> bool:
+    return all(_factor(template, c) is not None for c in columns)
+
+
 @cache
-def _factor(template: Template, column: int) -> Any:
+def _factor(template: Statement, column: int) -> Any:
     """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
     if not derive.is_solvable(template, column):
         return None
