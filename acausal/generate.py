@@ -22,7 +22,7 @@ from acausal.instructions import Accumulate, Arguments, Evaluate
 from acausal.lower import ModuleValue, evaluate
 from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import Accumulation, Assignment, BlockShape, Loop, ReducedModel
-from acausal.solve import solve_linear, solve_nonlinear
+from acausal.solve import nearest, solve_linear, solve_nonlinear
 from acausal.symbols import time
 from acausal.template import Integers
 
@@ -36,6 +36,7 @@ class SolveLoop:
     shape: BlockShape
     arguments: Arguments
     guess: np.ndarray
+    scale: np.ndarray
     size: int
 
     @property
@@ -54,17 +55,18 @@ class SolveLoop:
         values.pop(time)
         solve = solve_linear if self.shape.is_linear else solve_nonlinear
 
-        def one(guess: Any, filled: dict[str, Any]) -> Any:
+        def one(guess: Any, scale: Any, filled: dict[str, Any]) -> Any:
             known = {sp.Symbol(name): value for name, value in filled.items()}
-            return solve(lambda tears: _torn(self.shape, tears, t, known), guess)
+            return solve(lambda tears: _torn(self.shape, tears, t, known), guess, scale)
 
         named = {s.name: v for s, v in values.items()}
-        guess = jnp.asarray(self.guess)
+        guess, scale = jnp.asarray(self.guess), jnp.asarray(self.scale)
         if self.size == 1:
-            return list(one(guess[0], named))
+            return list(one(guess[0], scale[0], named))
         if any(isinstance(v, ModuleValue) and isinstance(v.module, tuple) for v in named.values()):
             rows = [{k: _row(v, i) for k, v in named.items()} for i in range(self.size)]
-            return list(jnp.stack([one(g, row) for g, row in zip(guess, rows, strict=True)]).T)
+            each = [one(*row) for row in zip(guess, scale, rows, strict=True)]
+            return list(jnp.stack(each).T)
         shared = {k: v for k, v in named.items() if isinstance(v, ModuleValue) and not v.stacked}
         parts = {
             k: eqx.partition(v.module if isinstance(v, ModuleValue) else v, eqx.is_array)
@@ -76,12 +78,24 @@ class SolveLoop:
             for k, (v, _) in parts.items()
         }
 
-        def each(guess: Any, arrays: dict[str, Any]) -> Any:
-            return one(
-                guess, {**shared, **{k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}}
-            )
+        def row(guess: Any, scale: Any, arrays: dict[str, Any]) -> Any:
+            own = {k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}
+            return one(guess, scale, {**shared, **own})
 
-        return list(jax.vmap(each)(guess, batched).T)
+        return list(jax.vmap(row)(guess, scale, batched).T)
+
+    def nearest(
+        self, row: int, t: Any, arrays: Sequence[Any], packed: Packed
+    ) -> tuple[Any, Any]:
+        """Unknowns and residuals of one of the loops, where its solution stopped."""
+        values = self.arguments.read(t, arrays, packed)
+        values.pop(time)
+        known = {symbol: _row(value, row) for symbol, value in values.items()}
+
+        def block(tears: Any) -> tuple[Any, Any]:
+            return _torn(self.shape, tears, t, known)
+
+        return block(nearest(block, jnp.asarray(self.guess[row]), jnp.asarray(self.scale[row])))
 
 
 def _row(value: Any, i: int) -> Any:
@@ -291,4 +305,5 @@ def _solve_loop(
     )
     tears = loop.unknowns[:, list(loop.shape.torn.tears)]
     guess = reduced.start_guess(tears)
-    return SolveLoop(loop.shape, arguments, guess, len(loop.unknowns))
+    scale = reduced.nominal(tears)
+    return SolveLoop(loop.shape, arguments, guess, scale, len(loop.unknowns))

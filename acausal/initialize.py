@@ -1,4 +1,4 @@
-"""Initialize: consistent values of the states from starts, fixed starts and initial equations."""
+"""Initialize: consistent values of the states from starts, fixed starts, initial equations or rest."""
 
 from __future__ import annotations
 
@@ -11,51 +11,86 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-import sympy as sp
-from jax.core import Tracer
+import optimistix as optx
 
+from acausal.breakdown import explain_breakdown
+from acausal.conditions import Conditions, FixedStart, initial_conditions
 from acausal.errors import DataError, InitializationError, listing, nearest
-from acausal.flatten import FlatModel
 from acausal.generate import Program
-from acausal.instructions import chosen_module
-from acausal.lower import evaluate
+from acausal.newton import root
 from acausal.parameters import Packed, ParameterLayout
 from acausal.reduce import ReducedModel
-from acausal.solve import newton
-from acausal.symbols import time
-from acausal.template import Binding, EquationGroup
+from acausal.tracing import traced
 
-MAX_STEPS = 50
+MAX_STEPS = 100
+LEFT_OVER = 1e-6
+"""How far off a condition may be, in nominal values."""
+INDEPENDENT = 1e-9
+"""Slopes below this fraction of the largest one count as none."""
 
 
 @dataclass(frozen=True)
-class Condition:
-    """A fixed start that no state takes by itself: ``sign * node = start`` of ``variable``."""
+class Plan:
+    """One initialization problem: which states move, and what they are to meet.
 
-    node: int
-    sign: int
-    variable: int
+    Attributes:
+        moved: states that may move away from their starts. ``starts``: fixed starts that are to be met.
+        resting: states that are to be at rest. ``least_squares``: whether all is met as well as can be.
+    """
+
+    moved: tuple[int, ...]
+    starts: tuple[FixedStart, ...]
+    resting: tuple[int, ...]
+    least_squares: bool
+
+
+@dataclass(frozen=True, repr=False)
+class Initialization:
+    """Initial values of the states, and how each was found.
+
+    Attributes:
+        x: the values, shape (n_states,). ``states``: their names.
+        roles: for every state "given" (by ``x0``), "fixed" (its start), "computed" (the conditions determine it),
+            "chosen" (the conditions leave it open: as near to its start as they allow), "start" (no condition
+            depends on it: it takes its start) or "fitted" (least squares).
+        conditions: in words; ``residuals``: how far each is off, in nominal values.
+    """
+
+    x: Any
+    states: tuple[str, ...]
+    roles: tuple[str, ...]
+    conditions: tuple[str, ...]
+    residuals: np.ndarray
+
+    def __repr__(self) -> str:
+        width = max(map(len, self.states), default=0)
+        lines = [
+            f"  {name:<{width}}  {float(value): .6g}  {role}"
+            for name, value, role in zip(self.states, self.x, self.roles, strict=True)
+        ]
+        lines += [
+            f"  {name}: off by {abs(float(rest)):.2g}"
+            for name, rest in zip(self.conditions, self.residuals, strict=True)
+        ]
+        n_open = sum(r in ("chosen", "start") for r in self.roles)
+        told = f"{len(self.states)} states, {len(self.conditions)} conditions, {n_open} left open"
+        return "\n".join([f"Initialization ({told})", *lines])
 
 
 @dataclass(frozen=True)
 class Initializer:
     """The initialization problem of a model.
 
-    States with a fixed start take it. The others start from their guess and move as little as possible to
-    satisfy the fixed starts of other variables and the initial equations.
-
-    Attributes:
-        start_of: for every state the variable whose start it takes, and the sign; ``fixed``: whether it is fixed.
-        conditions: fixed starts that are not met by that: of variables that are not states, and of further
-            names of a state.
+    States with a fixed start take it. The others start from their guess and move as little as possible,
+    measured in nominal values, to satisfy the other conditions.
     """
 
-    reduced: ReducedModel
-    program: Program
-    parameters: ParameterLayout
-    start_of: tuple[tuple[int, int], ...]
-    fixed: np.ndarray
-    conditions: tuple[Condition, ...]
+    conditions: Conditions
+
+    @property
+    def reduced(self) -> ReducedModel:
+        """The model."""
+        return self.conditions.reduced
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -63,208 +98,227 @@ class Initializer:
         return tuple(self.reduced.name(int(s)) for s in self.reduced.states)
 
     def __call__(
-        self, packed: Packed, x0: Mapping[str, Any] | Any = None, u0: Any = None, t0: float = 0.0
+        self,
+        packed: Packed,
+        x0: Mapping[str, Any] | Any = None,
+        u0: Any = None,
+        t0: float = 0.0,
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
     ) -> Any:
-        """Initial states, shape (n_states,); ``x0`` gives some (by name) or all of them.
-
-        Raises:
-            DataError: if ``x0`` names what is not a state or has the wrong length.
-            InitializationError: if the initial conditions contradict each other.
-        """
+        """Initial states, shape (n_states,); see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
-            x = jnp.asarray(x0, dtype=float)
-            if x.shape != (len(self.names),):
-                raise DataError(
-                    f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
-                )
-            return x
-        given = dict(x0 or {})
-        for name in given:
-            if name not in self.names:
-                raise DataError(f"x0: '{name}' is not a state; {nearest(name, self.names)}")
-        u = jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
-        x = self._starts(packed, self.start_of)
+            return self._whole(x0)
+        u, t0 = self._inputs(u0), jnp.asarray(t0, float)
+        x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        return x if plan is None else self._found(plan, packed, x, u, t0)[0]
+
+    def report(
+        self,
+        packed: Packed,
+        x0: Mapping[str, Any] | None = None,
+        u0: Any = None,
+        t0: float = 0.0,
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
+    ) -> Initialization:
+        """Initial states and how each was found; see `System.initialize`."""
+        u, t0 = self._inputs(u0), jnp.asarray(t0, float)
+        x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        roles = [
+            "given" if name in (x0 or {}) else "fixed" if fixed else "start"
+            for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
+        ]
+        if plan is None:
+            return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
+        x, rest, slopes = self._found(plan, packed, x, u, t0)
+        for i, role in zip(plan.moved, _roles(plan, np.asarray(slopes)), strict=True):
+            roles[i] = role
+        told = self.conditions.names(plan.starts, plan.resting)
+        return Initialization(x, self.names, tuple(roles), tuple(told), np.asarray(rest))
+
+    # -- the problem -------------------------------------------------------------------------------
+
+    def _whole(self, x0: Any) -> Any:
+        x = jnp.asarray(x0, dtype=float)
+        if x.shape != (len(self.names),):
+            raise DataError(
+                f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
+            )
+        return x
+
+    def _inputs(self, u0: Any) -> Any:
+        return jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
+
+    def _posed(
+        self,
+        packed: Packed,
+        given: Mapping[str, Any],
+        steady: bool | Sequence[str],
+        least_squares: bool,
+    ) -> tuple[Any, Plan | None]:
+        """The states to begin with, and what remains to be met, if anything."""
+        self._known("x0", given)
+        x = self.conditions.starts(packed)
         for i, name in enumerate(self.names):
             if name in given:
                 x = x.at[i].set(given[name])
         told = np.asarray([n in given for n in self.names], dtype=bool)
-        conditions = [c for c in self.conditions if c.node not in self.reduced.states[told]]
-        free = ~told & ~self.fixed
-        if not conditions and not self.reduced.model.initial:
-            return x
-        if given and not free.any():
-            return x
-        moved = tuple(np.flatnonzero(free).tolist())
-        x, rest = self._satisfied(packed, x, moved, tuple(conditions), u, jnp.asarray(t0, float))
-        self._check(conditions, rest)
-        return x
+        at_will = ~told & ~self.conditions.fixed
+        if isinstance(steady, bool):
+            resting = at_will & steady
+        else:
+            self._known("steady", steady)
+            resting = np.asarray([n in steady for n in self.names], dtype=bool)
+        nodes = self.reduced.states[told]
+        starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
+        moved = ~told if least_squares else at_will
+        plan = Plan(
+            tuple(np.flatnonzero(moved).tolist()),
+            tuple(c for c in starts if c.node not in nodes),
+            tuple(np.flatnonzero(resting).tolist()),
+            least_squares,
+        )
+        overruled = bool(given) and not plan.moved  # x0 says all that fixed starts leave open
+        nothing = not (plan.starts or plan.resting or self.reduced.model.initial)
+        return x, None if overruled or nothing else plan
 
-    @cached_property
-    def _bindings(self) -> dict[int, Binding]:
-        return {b.target: b for b in self.reduced.model.starts}
+    def _known(self, argument: str, names: Sequence[str] | Mapping[str, Any]) -> None:
+        for name in names:
+            if name not in self.names:
+                raise DataError(f"{argument}: '{name}' is not a state; {nearest(name, self.names)}")
 
-    def _starts(self, packed: Packed, members: Sequence[tuple[int, int]]) -> Any:
-        """Start values of variables, each with its sign; those of one expression side by side."""
-        model, n = self.reduced.model, self.reduced.model.n_variables
-        number = [model.start[v] if v < n else 0.0 for v, _ in members]
-        x = jnp.asarray(np.asarray(number, dtype=float))
-        groups: dict[Any, list[tuple[int, tuple[int, ...]]]] = {}
-        for row, (variable, _) in enumerate(members):
-            if (b := self._bindings.get(variable)) is not None:
-                groups.setdefault((b.expression, b.symbols), []).append((row, b.arguments))
-        for (expression, symbols), found in groups.items():
-            rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
-            position = self.parameters.position[arguments]  # -1: folded, or bound to what is folded
-            read = jnp.where(position >= 0, packed.values[position], 0.0)
-            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, read.T, strict=True))))
-        return x * np.asarray([sign for _, sign in members], dtype=float)
+    # -- its solution ------------------------------------------------------------------------------
+
+    def _found(self, plan: Plan, packed: Packed, x: Any, u: Any, t0: Any) -> tuple[Any, Any, Any]:
+        """The states, what is left over of the conditions, and the conditions' slopes by what moved."""
+        x, rest, slopes = self._satisfied(plan, packed, x, u, t0)
+        if not plan.least_squares and not traced(rest):
+            self._check(plan, packed, x, np.asarray(rest), u, t0)
+        return x, rest, slopes
 
     @cached_property
     def _satisfied(self) -> Any:
-        """`_satisfy`, compiled once for every choice of what is free."""
+        """`_satisfy`, compiled once for every plan."""
         return eqx.filter_jit(self._satisfy)
 
-    def _satisfy(
-        self,
-        packed: Packed,
-        x: Any,
-        moved: tuple[int, ...],
-        conditions: tuple[Condition, ...],
-        u: Any,
-        t0: Any,
-    ) -> tuple[Any, Any]:
-        """States that satisfy the conditions, and by how much they do not; ``moved`` are free to move."""
-        free = np.asarray(moved, dtype=np.int64)
+    def _satisfy(self, plan: Plan, packed: Packed, x: Any, u: Any, t0: Any) -> tuple[Any, Any, Any]:
+        """States that satisfy the conditions, what is left over, and its slopes.
+
+        The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
+        """
+        free = np.asarray(plan.moved, dtype=np.int64)
+        nominal = self.conditions.nominal[free]
 
         def residual(z: Any, packed: Packed, x: Any) -> Any:
-            return self._residuals(conditions, packed, x.at[free].set(z), u, t0)
+            at = x.at[free].set(z * nominal)
+            return self.conditions.residuals(plan.starts, plan.resting, packed, at, u, t0)
+
+        def stationary(z: Any, packed: Packed, x: Any) -> Any:
+            half = lambda z: jnp.sum(residual(z, packed, x) ** 2) / 2  # noqa: E731
+            return jax.grad(half)(z)
 
         frozen, start = _stop_gradient((packed, x))
-        z0 = x[free]
-        z = _least_change(lambda z: residual(z, frozen, start), jax.lax.stop_gradient(z0))
-        slope = jax.jacfwd(lambda z: residual(z, frozen, start))(z)
-        step = z0 - jax.lax.stop_gradient(z0)
-        correction = jnp.linalg.pinv(slope) @ (residual(z, packed, x) + slope @ step)
-        return x.at[free].set(z + step - correction), residual(z, frozen, start)
+        if not plan.moved:
+            rest = residual(jnp.zeros(0), frozen, start)
+            return x, rest, jnp.zeros((len(rest), 0))
+        z0 = x[free] / nominal
+        guess = jax.lax.stop_gradient(z0)
+        least = _least_squares if plan.least_squares else _least_change
+        z = jax.lax.stop_gradient(least(lambda z: residual(z, frozen, start), guess))
+        vanishing = stationary if plan.least_squares else residual
+        slope = jax.jacfwd(lambda z: vanishing(z, frozen, start))(z)
+        change = z0 - guess
+        z = z + change - _smallest(slope, vanishing(z, packed, x) + slope @ change)
+        at = jax.lax.stop_gradient(z)
+        rest = residual(at, frozen, start)
+        slopes = jax.jacfwd(lambda z: residual(z, frozen, start))(at)
+        return x.at[free].set(z * nominal), rest, slopes
 
-    def _check(self, conditions: Sequence[Condition], rest: Any) -> None:
-        if isinstance(rest, Tracer):
+    # -- what goes wrong ---------------------------------------------------------------------------
+
+    def _check(
+        self, plan: Plan, packed: Packed, x: Any, rest: np.ndarray, u: Any, t0: Any
+    ) -> None:
+        wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
+        if not len(wrong):
             return
-        wrong = np.flatnonzero(~(np.abs(np.asarray(rest)) < 1e-6))
-        if len(wrong):
-            names = self._names_of(conditions)
+        if not np.isfinite(rest).all():
+            start = self.conditions.starts(packed)
+            reason = explain_breakdown(self.reduced, self.conditions.program, t0, start, u, packed)
             raise InitializationError(
-                f"the initial conditions cannot all hold; left over: {listing([names[i] for i in wrong])}. "
-                "Is a start fixed twice, or in conflict with a connection?"
+                "no initial values were found: the model's equations have no finite values at its starts. "
+                + (reason or "Give start values nearer to the solution (ac.Start).")
             )
+        names = self.conditions.names(plan.starts, plan.resting)
+        off = [f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong]
+        moved = [self.names[i] for i in plan.moved]
+        held = self._held(plan, packed, x, wrong, u, t0)
+        told = [
+            f"the initial conditions cannot all hold; left over: {listing(off)}",
+            f"there are {len(rest)} conditions for {len(moved)} states that may move"
+            + (f" ({listing(moved, 6)})" if moved else ""),
+            *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
+        ]
+        raise InitializationError(
+            "; ".join(told) + ". Is a start fixed twice, or in conflict with a connection? Make one of "
+            "them a guess (fixed=False), give starts nearer to a solution, or take the nearest values "
+            "(least_squares=True)."
+        )
 
-    def _names_of(self, conditions: Sequence[Condition]) -> list[str]:
-        layout = self.reduced.model.layout
-        names = [f"{layout.variable(c.variable)} (fixed start)" for c in conditions]
-        for group in self.reduced.model.initial:
-            places = [layout.paths[c] for c in group.components]
-            names += [
-                f"{p} ({group.template.origin})" if p else group.template.origin for p in places
-            ]
-        return names
+    def _held(
+        self, plan: Plan, packed: Packed, x: Any, wrong: np.ndarray, u: Any, t0: Any
+    ) -> list[str]:
+        """States that may not move although conditions that are left over depend on them."""
 
-    def _residuals(
-        self, conditions: Sequence[Condition], packed: Packed, x: Any, u: Any, t0: float
-    ) -> Any:
-        parts: list[Any] = []
-        if conditions:
-            values = self.program.values([c.node for c in conditions], t0, x, u, packed)
-            signs = np.asarray([c.sign for c in conditions])
-            starts = self._starts(packed, [(c.variable, 1) for c in conditions])
-            parts.append(signs * values - starts)
-        parts += [self._initial(group, packed, x, u, t0) for group in self.reduced.model.initial]
-        return jnp.concatenate(parts)
+        def residual(x: Any) -> Any:
+            return self.conditions.residuals(plan.starts, plan.resting, packed, x, u, t0)
 
-    def _initial(self, group: EquationGroup, packed: Packed, x: Any, u: Any, t0: float) -> Any:
-        """Residuals of initial equations; derivatives are taken along the vector field."""
-        columns: dict[sp.Symbol, Any] = {time: jnp.asarray(t0)}
-        for i, (symbol, order) in enumerate(
-            zip(group.template.variables, group.template.orders, strict=True)
-        ):
-            columns[symbol] = self._variables(group.variables[:, i], order, packed, x, u, t0)
-        for i, symbol in enumerate(group.template.parameters):
-            kept = self.parameters.position[group.parameters[:, i]] >= 0
-            read = (
-                self.parameters.gather(group.parameters[kept, i]).read([packed.values])
-                if kept.any()
-                else 0.0
-            )
-            columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(read)
-        for i, symbol in enumerate(group.template.modules):
-            columns[symbol] = chosen_module(packed, self.parameters.chosen(group.modules[:, i]))
-        return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
+        slopes = np.asarray(jax.jacfwd(residual)(x))[wrong]
+        hit = np.abs(slopes).max(axis=0, initial=0.0) > 0
+        return [n for i, n in enumerate(self.names) if hit[i] and i not in plan.moved]
 
-    def _variables(
-        self, variables: Any, order: int, packed: Packed, x: Any, u: Any, t0: float
-    ) -> Any:
-        resolved = [self.reduced.resolve(int(v)) for v in variables]
-        nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
 
-        def value(t: Any, x: Any) -> Any:
-            return signs * self.program.values(nodes, t, x, u, packed)
-
-        def along(function: Any) -> Any:
-            def slope(t: Any, x: Any) -> Any:
-                rate = self.program.vector_field(t, x, u, packed)
-                return jax.jvp(function, (t, x), (jnp.ones_like(t), rate))[1]
-
-            return slope
-
-        for _ in range(order):
-            value = along(value)
-        return value(jnp.asarray(t0, dtype=float), x)
+def _roles(plan: Plan, slopes: np.ndarray) -> list[str]:
+    """What determined each of the states that moved."""
+    if plan.least_squares:
+        return ["fitted"] * len(plan.moved)
+    _, sizes, rows = np.linalg.svd(slopes)
+    rank = int((sizes > INDEPENDENT * sizes.max(initial=0.0)).sum())
+    is_open = np.abs(rows[rank:]).max(axis=0, initial=0.0) > INDEPENDENT
+    touched = np.abs(slopes).max(axis=0) > 0
+    return [
+        "start" if not hit else "chosen" if undetermined else "computed"
+        for hit, undetermined in zip(touched, is_open, strict=True)
+    ]
 
 
 def _stop_gradient(tree: Any) -> Any:
     return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
 
 
-def _least_change(residual: Any, z0: Any) -> Any:
-    """Gauss-Newton with the smallest steps: a root near the guess also where there are many."""
-    smallest = lambda z, r: jnp.linalg.pinv(jax.jacfwd(residual)(z)) @ r  # noqa: E731
-    return newton(residual, z0, smallest, MAX_STEPS)[0]
+def _least_change(residual: Any, guess: Any) -> Any:
+    """Newton's method with the smallest steps: a root near the guess also where there are many."""
+    return root(residual, guess, _smallest, max_steps=MAX_STEPS)[0]
+
+
+def _smallest(jacobian: Any, r: Any) -> Any:
+    """The smallest step that the linear equations ask for, each equation counted alike."""
+    size = jnp.max(jnp.abs(jacobian), axis=1, initial=0.0)
+    weight = 1 / jnp.where(size > 0, size, 1.0)
+    return jnp.linalg.pinv(weight[:, None] * jacobian) @ (weight * r)
+
+
+def _least_squares(residual: Any, guess: Any) -> Any:
+    solver = optx.LevenbergMarquardt(rtol=1e-10, atol=1e-12)
+    found = optx.least_squares(
+        lambda z, _: residual(z), solver, guess, max_steps=1000, throw=False
+    )
+    return found.value
 
 
 def initializer(
     reduced: ReducedModel, program: Program, parameters: ParameterLayout
 ) -> Initializer:
-    """Collect what the model says about the initial time."""
-    model = reduced.model
-    members, signs = reduced.start_members
-    start_of = [(int(members[s]), int(signs[s])) for s in reduced.states]
-    fixed = [v < model.n_variables and bool(model.fixed[v]) for v, _ in start_of]
-    met = {v for v, _ in start_of}
-    resolved = [(v, *reduced.resolve(v)) for v in np.flatnonzero(model.fixed).tolist()]
-    conditions = [Condition(node, sign, v) for v, node, sign in resolved if v not in met]
-    return Initializer(
-        reduced,
-        program,
-        parameters,
-        tuple(start_of),
-        np.asarray(fixed, dtype=bool),
-        _distinct(model, conditions, dict(zip(reduced.states.tolist(), start_of, strict=True))),
-    )
-
-
-def _distinct(
-    model: FlatModel, conditions: list[Condition], start_of: dict[int, tuple[int, int]]
-) -> tuple[Condition, ...]:
-    """The conditions without those that repeat a number that their node is given already."""
-    bound = {b.target for b in model.starts}
-    known = {
-        (state, sign * float(model.start[v]))
-        for state, (v, sign) in start_of.items()
-        if v < model.n_variables and model.fixed[v] and v not in bound
-    }
-    kept: list[Condition] = []
-    for c in conditions:
-        told = c.node, c.sign * float(model.start[c.variable])
-        if c.variable in bound or told not in known:
-            kept.append(c)
-            known.add(told)
-    return tuple(kept)
+    """The initialization problem of a model."""
+    return Initializer(initial_conditions(reduced, program, parameters))

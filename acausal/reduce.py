@@ -99,6 +99,11 @@ class ReducedModel:
         unknown = ~(named & model.start_given[v]) & (start == 0)
         return sign * np.where(unknown, OFF_ZERO * np.where(named, model.nominal[v], 1.0), start)
 
+    def nominal(self, nodes: Integers) -> np.ndarray:
+        """Typical magnitudes of nodes; 1 for derivatives without a name."""
+        named = nodes < self.model.n_variables
+        return np.where(named, self.model.nominal[np.where(named, nodes, 0)], 1.0)
+
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""
         if node < self.model.n_variables:

@@ -8,23 +8,22 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-TOLERANCE, STALLED = 1e-10, 1e-6
-"""Relative size of the last step, and of one that rounding keeps from making the residual smaller."""
+from acausal.newton import Residual, root
 
 Block = Callable[[Any], tuple[Any, Any]]
 """From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
-Residual = Callable[[Any], Any]
 
 
-def solve_linear(block: Block, guess: Any) -> Any:
-    """Unknowns of a block that is affine in its tearing variables."""
+def solve_linear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+    """Unknowns of a block that is affine in its tearing variables, of which ``guess`` gives the number."""
+    del scale
     origin = jnp.zeros_like(guess)
     constant = block(origin)[1]
     matrix = jax.jacfwd(lambda tears: block(tears)[1])(origin)
     return block(-_solve(matrix, constant))[0]
 
 
-def solve_nonlinear(block: Block, guess: Any) -> Any:
+def solve_nonlinear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
     """Unknowns of a nonlinear block near a guess; NaN where Newton's method does not converge.
 
     Gradients follow from the implicit function theorem.
@@ -33,61 +32,19 @@ def solve_nonlinear(block: Block, guess: Any) -> Any:
     def residual(tears: Any) -> Any:
         return block(tears)[1]
 
-    def step(function: Residual) -> Callable[[Any, Any], Any]:
-        return lambda z, r: _solve(jax.jacfwd(function)(z), r)
-
     def solve(function: Residual, start: Any) -> Any:
-        root, converged = newton(function, start, step(function))
-        return jnp.where(converged, root, jnp.nan)
+        found, converged = root(function, start, _solve, scale)
+        return jnp.where(converged, found, jnp.nan)
 
     def tangent(linear: Residual, y: Any) -> Any:
-        return step(linear)(jnp.zeros_like(y), y)
+        return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
 
     return block(jax.lax.custom_root(residual, guess, solve, tangent))[0]
 
 
-def newton(
-    residual: Residual, guess: Any, step: Callable[[Any, Any], Any], max_steps: int = 300
-) -> tuple[Any, Any]:
-    """A root near a guess by Newton's method, and whether it was reached.
-
-    A step that does not make the residual smaller is halved until it does. Where no part of it does, but the
-    step is small, rounding is all that is left.
-
-    Arguments:
-        step: from the point and its residual, what Newton's method subtracts.
-    """
-
-    def advance(state: Any) -> Any:
-        z, r, _, k = state
-        full = step(z, r)
-
-        def too_far(trial: Any) -> Any:
-            dz, new = trial
-            return ~(_size(new) < _size(r)) & ~_is_tiny(dz, z) & jnp.all(jnp.isfinite(dz))
-
-        def halve(trial: Any) -> Any:
-            return trial[0] / 2, residual(z - trial[0] / 2)
-
-        dz, new = jax.lax.while_loop(too_far, halve, (full, residual(z - full)))
-        stalled = _is_tiny(dz, z) & _is_tiny(full, z, STALLED)
-        return z - dz, new, _is_tiny(full, z) | stalled, k + 1
-
-    def unfinished(state: Any) -> Any:
-        _, r, arrived, k = state
-        return ~arrived & (_size(r) > 0) & (k < max_steps)
-
-    start = guess, residual(guess), jnp.array(False), 0
-    z, r, arrived, _ = jax.lax.while_loop(unfinished, advance, start)
-    return z, arrived | (_size(r) == 0)
-
-
-def _size(residual: Any) -> Any:
-    return jnp.max(jnp.abs(residual), initial=0.0)
-
-
-def _is_tiny(step: Any, at: Any, tolerance: float = TOLERANCE) -> Any:
-    return jnp.all(jnp.abs(step) < tolerance * (jnp.abs(at) + tolerance))
+def nearest(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+    """Tearing variables where the search for a root of a nonlinear block ends, whether it is one or not."""
+    return root(lambda tears: block(tears)[1], guess, _solve, scale)[0]
 
 
 def _solve(a: Any, b: Any) -> Any:

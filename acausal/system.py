@@ -17,7 +17,7 @@ from acausal.errors import DataError, ModelError, nearest
 from acausal.explicit import explicit_equations
 from acausal.flatten import FlatModel, flatten
 from acausal.generate import Program, generate
-from acausal.initialize import Initializer, initializer
+from acausal.initialize import Initialization, Initializer, initializer
 from acausal.parameters import Packed, ParameterLayout, lay_out_parameters
 from acausal.reduce import ReducedModel, reduce
 
@@ -180,17 +180,44 @@ class System:
         x0: Mapping[str, Any] | Any = None,
         u0: Any = None,
         t0: float = 0.0,
+        *,
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
     ) -> Any:
-        """Consistent initial states, shape (n_states,).
+        """Consistent initial states, shape (n_states,); gradients go through.
+
+        What the conditions leave open stays as near to its start as they allow, in nominal values;
+        `initialize` tells which states those are.
 
         Arguments:
             x0: states by name (the rest from the model's starts), or all of them as an array.
             u0: inputs at the initial time, where initial conditions depend on them.
+            steady: whether all states without a fixed start or a value in ``x0`` are to be at rest, or the names
+                of those that are.
+            least_squares: whether conditions that contradict each other are met as well as can be, fixed
+                starts and rates measured in nominal values, initial equations as they stand.
 
         Raises:
-            DataError: if ``x0`` does not fit. InitializationError: if the conditions contradict each other.
+            DataError: if ``x0`` or ``steady`` does not fit.
+            InitializationError: if the conditions contradict each other.
         """
-        return self.initializer(self.pack(params), x0, u0, t0)
+        return self.initializer(self.pack(params), x0, u0, t0, steady, least_squares)
+
+    def initialize(
+        self,
+        params: Params | None = None,
+        x0: Mapping[str, Any] | None = None,
+        u0: Any = None,
+        t0: float = 0.0,
+        *,
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
+    ) -> Initialization:
+        """`initial_state` with the story: what each state's value comes from, and what is left over.
+
+        Arguments and errors as in `initial_state`.
+        """
+        return self.initializer.report(self.pack(params), x0, u0, t0, steady, least_squares)
 
     def input_values(self, u: Mapping[str, Any] | Any = None) -> Any:
         """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or nothing.

@@ -188,7 +188,7 @@ def test_initial_equations_with_modules():
     [
         (
             lambda: hanging({"s": Start(0.5, fixed=True)}, {"s_rel": Start(0.0, fixed=True)}),
-            "'s.s_rel (fixed start)'",
+            "'s.s_rel (fixed start) by 0.5'",
         ),
         (
             lambda: model(
@@ -196,17 +196,17 @@ def test_initial_equations_with_modules():
                 a=Mass(m=1.0, s=Start(0.0, fixed=True)),
                 b=Mass(m=1.0, s=Start(1.0, fixed=True)),
             ),
-            "'b.s (fixed start)'",
+            "'b.s (fixed start) by 1'",
         ),
         (
             lambda: Initial(
                 "x", lambda s: [Eq(der(s.x), -s.x)], lambda s: [Eq(s.x, 1), Eq(der(s.x), 1)]
             ),
-            "Initial: x = 1",
+            "Initial: x = 1 by 1",
         ),
         (
             lambda: Initial("x", lambda s: [Eq(der(s.x), 1)], lambda s: [Eq(s.x**2, -1)]),
-            "Initial: x**2 = -1",
+            "Initial: x**2 = -1 by 1",
         ),
     ],
 )
@@ -224,7 +224,7 @@ def test_the_same_start_fixed_twice_is_no_conflict():
             b=Mass(m=1.0, s=Start(2.0, fixed=True)),
         )
     )
-    assert system.initializer.conditions == ()
+    assert system.initializer.conditions.further == ()
     assert system.initial_state().tolist() == [2.0, 0.0]
 
 
