@@ -59,6 +59,7 @@ from acausal.functions import (
     tanh,
     where,
 )
+from acausal.initialize import Initialization
 from acausal.netlist import (
     load,
     save,
@@ -87,6 +88,7 @@ from acausal.simulation.solution import (
 from acausal.symbols import (
     Eq,
     Flow,
+    InitialParameter,
     Input,
     Module,
     Option,
@@ -122,6 +124,8 @@ __all__ = [
     "Eq",
     "Fit",
     "Flow",
+    "InitialParameter",
+    "Initialization",
     "InitializationError",
     "Input",
     "Linearization",

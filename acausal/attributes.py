@@ -142,7 +142,7 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
         for name, given in component._modifiers.items():
             if isinstance(given, Start) or name in form.module_index:
                 continue
-            declared = cast(Declaration, component._declared.get(name) or component._dynamic[name])
+            declared = cast(Declaration, component._declaration(name))
             shape = component._shape(name, declared)
             values = np.asarray(given, dtype=object)
             if values.shape not in ((), shape):

@@ -8,14 +8,17 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 import numpy as np
+import sympy as sp
 
 from acausal.connector import Connector, check_name
 from acausal.errors import ConnectionError, DeclarationError, nearest
-from acausal.modifying import start_of, value_of
+from acausal.modifying import is_open, start_of, value_of
 from acausal.symbols import (
     STATE_SELECT,
     Declaration,
+    DependentParameter,
     Eq,
+    InitialParameter,
     Input,
     Module,
     ModuleReference,
@@ -43,6 +46,7 @@ _OWN = frozenset(
         "_constants",
         "_pending",
         "_connections",
+        "_bindings",
     }
 )
 """What the framework keeps in a component; all other attributes are the author's."""
@@ -81,6 +85,7 @@ class Component:
     _constants: dict[str, Any]
     _pending: dict[str, Mapping[str, Any]]
     _connections: list[Connection]
+    _bindings: list[Eq]
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """An empty component; nothing depends on a subclass calling ``super().__init__``."""
@@ -95,6 +100,7 @@ class Component:
             _constants={},
             _pending={},
             _connections=[],
+            _bindings=[],
         )
         return self
 
@@ -159,7 +165,7 @@ class Component:
     def modify(self, **modifiers: Any) -> None:
         """Set parameters, options, modules and starts by name, as the constructor does."""
         for name, value in modifiers.items():
-            declaration = self._declared.get(name) or self._dynamic.get(name)
+            declaration = self._declaration(name)
             if declaration is not None:
                 self._modify(name, declaration, value)
             elif name in self._children and isinstance(value, Mapping):
@@ -188,6 +194,9 @@ class Component:
         self.__dict__[name] = value
         return value
 
+    def _declaration(self, name: str) -> Declaration | Connector | None:
+        return self._dynamic.get(name) or self._declared.get(name)
+
     def _exists(self, when: str) -> bool:
         inverted, name = when.startswith("not "), when.removeprefix("not ")
         return bool(getattr(self, name)) is not inverted
@@ -211,7 +220,7 @@ class Component:
 
     def _declarations(self) -> Iterator[tuple[str, Declaration | Connector]]:
         """Every declaration that exists with this instance's options."""
-        for name, declared in (*self._declared.items(), *self._dynamic.items()):
+        for name, declared in {**self._declared, **self._dynamic}.items():
             when = declared._when if isinstance(declared, Connector) else declared.when
             if when is None or self._exists(when):
                 yield name, declared
@@ -326,6 +335,8 @@ class Component:
                         f"{where} needs a module or a function key -> module, got {value!r}"
                     )
                 self._modifiers[name] = value
+            case Parameter() if is_open(value):
+                self._leave_open(name, declaration, value)
             case Parameter():
                 self._modifiers[name] = value_of(where, declaration, value)
                 if declaration.shape is not None:  # its size may have changed
@@ -334,6 +345,20 @@ class Component:
                         self._read(declaration)
             case _:
                 raise DeclarationError(f"{where} cannot be modified")
+
+    def _leave_open(self, name: str, declared: Parameter, value: Start | sp.Expr) -> None:
+        """Make a variable of a parameter that is found at the initial time, or follows from such ones."""
+        given = {"unit": declared.unit, "doc": declared.doc}
+        self.__dict__.pop(name, None)
+        if isinstance(value, Start):
+            guess = declared.default if value.value is None else value.value
+            object.__setattr__(self, name, self._add(name, InitialParameter(0.0, **given)))
+            self._restart(name, start_of(f"{self._label()}.{name}", Start(guess, fixed=False)))
+        else:
+            object.__setattr__(self, name, self._add(name, DependentParameter(**given)))
+            owner = next(r.owner for r in value.free_symbols if isinstance(r, Reference))
+            owner._bindings.append(Eq(getattr(self, name), value))
+            self._modifiers[name] = value
 
     def _restart(self, name: str, start: Start) -> None:
         """Give a variable's attributes; what an earlier modifier gave and this one leaves open stays."""

@@ -52,7 +52,9 @@ class Conditions:
     def nominal(self) -> np.ndarray:
         """Typical magnitudes of the states, shape (n_states,)."""
         n = self.reduced.model.n_variables
-        return np.asarray([self.reduced.model.nominal[v] if v < n else 1.0 for v, _ in self.start_of])
+        return np.asarray(
+            [self.reduced.model.nominal[v] if v < n else 1.0 for v, _ in self.start_of]
+        )
 
     @cached_property
     def own(self) -> tuple[FixedStart, ...]:

@@ -84,9 +84,7 @@ class SolveLoop:
 
         return list(jax.vmap(row)(guess, scale, batched).T)
 
-    def nearest(
-        self, row: int, t: Any, arrays: Sequence[Any], packed: Packed
-    ) -> tuple[Any, Any]:
+    def nearest(self, row: int, t: Any, arrays: Sequence[Any], packed: Packed) -> tuple[Any, Any]:
         """Unknowns and residuals of one of the loops, where its solution stopped."""
         values = self.arguments.read(t, arrays, packed)
         values.pop(time)

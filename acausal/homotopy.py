@@ -78,7 +78,12 @@ def homotopy(residual: Residual, guess: Any, solve: Solve, scale: Any, skipped: 
         )
 
     def on_the_way(w: _Walk) -> Any:
-        return ~skipped & (w.point[-1] < 1) & (w.stride > SHORTEST) & (w.count < STRIDES)
+        return (
+            jnp.logical_not(skipped)
+            & (w.point[-1] < 1)
+            & (w.stride > SHORTEST)
+            & (w.count < STRIDES)
+        )
 
     start = jnp.append(guess / unit, 0.0)
     onward = jnp.zeros_like(start).at[-1].set(1.0)

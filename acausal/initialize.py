@@ -109,9 +109,9 @@ class Initializer:
         """Initial states, shape (n_states,); see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
-        u, t0 = self._inputs(u0), jnp.asarray(t0, float)
+        u, at = self._inputs(u0), jnp.asarray(t0, float)
         x, plan = self._posed(packed, x0 or {}, steady, least_squares)
-        return x if plan is None else self._found(plan, packed, x, u, t0)[0]
+        return x if plan is None else self._found(plan, packed, x, u, at)[0]
 
     def report(
         self,
@@ -123,7 +123,7 @@ class Initializer:
         least_squares: bool = False,
     ) -> Initialization:
         """Initial states and how each was found; see `System.initialize`."""
-        u, t0 = self._inputs(u0), jnp.asarray(t0, float)
+        u, at = self._inputs(u0), jnp.asarray(t0, float)
         x, plan = self._posed(packed, x0 or {}, steady, least_squares)
         roles = [
             "given" if name in (x0 or {}) else "fixed" if fixed else "start"
@@ -131,7 +131,7 @@ class Initializer:
         ]
         if plan is None:
             return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
-        x, rest, slopes = self._found(plan, packed, x, u, t0)
+        x, rest, slopes = self._found(plan, packed, x, u, at)
         for i, role in zip(plan.moved, _roles(plan, np.asarray(slopes)), strict=True):
             roles[i] = role
         told = self.conditions.names(plan.starts, plan.resting)
@@ -237,9 +237,7 @@ class Initializer:
 
     # -- what goes wrong ---------------------------------------------------------------------------
 
-    def _check(
-        self, plan: Plan, packed: Packed, x: Any, rest: np.ndarray, u: Any, t0: Any
-    ) -> None:
+    def _check(self, plan: Plan, packed: Packed, x: Any, rest: np.ndarray, u: Any, t0: Any) -> None:
         wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
         if not len(wrong):
             return
@@ -256,12 +254,13 @@ class Initializer:
         held = self._held(plan, packed, x, wrong, u, t0)
         told = [
             f"the initial conditions cannot all hold; left over: {listing(off)}",
-            f"there are {len(rest)} conditions for {len(moved)} states that may move"
+            f"they are {len(rest)}, and {len(moved)} states may move"
             + (f" ({listing(moved, 6)})" if moved else ""),
             *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
         ]
         raise InitializationError(
-            "; ".join(told) + ". Is a start fixed twice, or in conflict with a connection? Make one of "
+            "; ".join(told)
+            + ". Is a start fixed twice, or in conflict with a connection? Make one of "
             "them a guess (fixed=False), give starts nearer to a solution, or take the nearest values "
             "(least_squares=True)."
         )
@@ -311,9 +310,7 @@ def _smallest(jacobian: Any, r: Any) -> Any:
 
 def _least_squares(residual: Any, guess: Any) -> Any:
     solver = optx.LevenbergMarquardt(rtol=1e-10, atol=1e-12)
-    found = optx.least_squares(
-        lambda z, _: residual(z), solver, guess, max_steps=1000, throw=False
-    )
+    found = optx.least_squares(lambda z, _: residual(z), solver, guess, max_steps=1000, throw=False)
     return found.value
 
 

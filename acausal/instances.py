@@ -17,6 +17,7 @@ from acausal.functions import COMPUTABLE
 from acausal.layout import Form, Layout, members_of_forms
 from acausal.symbols import (
     Eq,
+    InitialParameter,
     Module,
     Reference,
     Variable,
@@ -45,7 +46,7 @@ def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[Equati
     members = members_of_forms(layout)
     for number, form in enumerate(layout.forms):
         for found, stated in (
-            (equations, form.prototype.equations),
+            (equations, lambda p=form.prototype: _equations(p)),
             (initial, form.prototype.initial_equations),
         ):
             for equation in _stated(form.prototype, stated):
@@ -53,6 +54,15 @@ def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[Equati
                 found.append(_fill(layout, template, slots, members[number]))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
     return tuple(equations[i] for i in order), tuple(initial)
+
+
+def _equations(component: Component) -> Iterable[Eq]:
+    """What a component states, what its modifiers add, and what holds of parameters found at the initial time."""
+    yield from component.equations()
+    yield from component._bindings
+    for name, declared in component._declarations():
+        if isinstance(declared, InitialParameter):
+            yield Eq(der(getattr(component, name)), 0)
 
 
 def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list[Eq]:

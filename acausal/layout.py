@@ -192,7 +192,8 @@ def _structure(component: Component) -> Hashable:
     sizes = tuple(
         (k, np.shape(v)) for k, v in component._modifiers.items() if isinstance(v, np.ndarray)
     )
-    return cls, options, constants, dynamic, sizes
+    bindings = tuple(id(equation) for equation in component._bindings)
+    return cls, options, constants, dynamic, sizes, bindings
 
 
 def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:

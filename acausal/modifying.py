@@ -11,6 +11,8 @@ import sympy as sp
 
 from acausal.errors import DeclarationError
 from acausal.symbols import (
+    DependentParameter,
+    InitialParameter,
     Parameter,
     Reference,
     Start,
@@ -53,6 +55,17 @@ def _is_finite(value: Any) -> bool:
         return math.isfinite(float(value))
     except (TypeError, ValueError):
         return False
+
+
+def is_open(value: Any) -> bool:
+    """Whether a parameter is given as found at the initial time, or by an expression of such ones."""
+    if isinstance(value, Start):
+        return value.fixed is False
+    return isinstance(value, sp.Expr) and any(
+        isinstance(r, Reference)
+        and isinstance(r.declaration, InitialParameter | DependentParameter)
+        for r in value.free_symbols
+    )
 
 
 def value_of(where: str, declaration: Parameter, value: Any) -> Any:

@@ -13,7 +13,7 @@ import sympy as sp
 from acausal.component import Component
 from acausal.connector import Connector
 from acausal.errors import nearest
-from acausal.symbols import Eq, ModuleReference, der
+from acausal.symbols import Eq, ModuleReference
 
 START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSelect": "state"}
 """Attributes of a variable in a file -> field of `Start`."""
@@ -32,7 +32,6 @@ class FileRecord:
         experiment: keys of the file that are not part of the model.
         initial: initial equations, as text and as equation.
         bindings: variables that are given a value.
-        steady: parameters that are found at the initial time.
         texts: (part, modifier) -> what stands there and the state it led to; part "" are the model's parameters.
         wires: pairs that are connected, and how many connections each pair made.
         made: by part, the arguments that it was made with.
@@ -44,7 +43,6 @@ class FileRecord:
     experiment: dict[str, Any] = field(default_factory=dict[str, Any])
     initial: list[tuple[str, Eq]] = field(default_factory=list[tuple[str, Eq]])
     bindings: list[Eq] = field(default_factory=list[Eq])
-    steady: list[str] = field(default_factory=list[str])
     texts: dict[tuple[str, str], tuple[Any, Any]] = field(
         default_factory=dict[tuple[str, str], tuple[Any, Any]]
     )
@@ -69,10 +67,8 @@ class Netlist(Component):
         return self._file.experiment
 
     def equations(self) -> Iterator[Eq]:
-        """Variables that the file gives a value; parameters found at the initial time stay as they are."""
+        """Variables that the file gives a value."""
         yield from self._file.bindings
-        for name in self._file.steady:
-            yield Eq(der(getattr(self, name)), 0)
 
     def initial_equations(self) -> Iterator[Eq]:
         """The initial equations of the file."""

@@ -37,7 +37,7 @@ def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Non
         for name, inner in raw.items():
             modify(scope, part._children[key], name, inner, f"{where}.{shortened(name)}")
         return
-    declared = part._declared.get(key) or part._dynamic.get(key)
+    declared = part._declaration(key)
     match declared:
         case Connector():
             value = _connector(scope, raw, where)
@@ -73,9 +73,8 @@ def _parameter(scope: Scope, raw: Any, where: str) -> Any:
                 f"{where}: unknown attribute '{shortened(key)}'; a parameter's value stands under '='"
             )
     if raw.get("fixed", True) is not True:
-        raise NetlistError(
-            f"{where}: only a parameter of the model itself can be left to the initialization (fixed=false)"
-        )
+        rest = {key: raw[key] for key in ("start", "fixed") if key in raw}
+        return scope.start(rest, where)
     given = raw.get("=", raw.get("start"))
     return None if given is None else scope.value(given, where)
 
@@ -91,7 +90,7 @@ def _variable(scope: Scope, part: Component, key: str, raw: Any, where: str) -> 
 
 
 def _bind(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:
-    if isinstance(part._declared.get(key) or part._dynamic.get(key), Input):
+    if isinstance(part._declaration(key), Input):
         raise NetlistError(f"{where} is an input; connect a source to it")
     value, variable = scope.value(raw, where), getattr(part, key)
     pairs = [(variable, value)]

@@ -31,7 +31,7 @@ from acausal.netlist_file import (
 from acausal.netlist_model import Netlist, attribute, hint, is_left_out
 from acausal.netlist_modifiers import is_structural, modify
 from acausal.netlist_scope import IGNORED_KEYS, Scope
-from acausal.symbols import Eq, Option, Parameter, Start, Variable
+from acausal.symbols import Eq, InitialParameter, Option, Parameter, Start
 
 NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 PART = re.compile(r"([A-Za-z]\w*)(?:\[([1-9]\d{0,5})\])?", re.ASCII)
@@ -135,10 +135,9 @@ def _parameter(scope: Scope, name: str, raw: Any, where: str) -> None:
     value = None if given is None else scope.value(given, where)
     number = isinstance(value, int | float | sp.Expr) and not isinstance(value, bool)
     if attributes.get("fixed", True) is False:
-        _assign(model, name, Variable(unit=declared.get("unit", ""), state="prefer"), where)
+        _assign(model, name, InitialParameter(unit=declared.get("unit", "")), where)
         if value is not None:
             within(where, lambda: model.modify(**{name: Start(value)}))
-        model._file.steady.append(name)
     elif number or value is None:
         _assign(model, name, Parameter(**declared), where)
         if number:

@@ -20,6 +20,7 @@ from acausal.library import Library
 from acausal.netlist_file import EXPERIMENT_KEYS, NetlistError, within
 from acausal.netlist_model import START_KEYS, Netlist, arguments_of, state
 from acausal.symbols import (
+    InitialParameter,
     Input,
     Module,
     Option,
@@ -82,18 +83,22 @@ class Writer:
     def _parameters(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
         texts = model._file.texts if isinstance(model, Netlist) else {}
-        steady = model._file.steady if isinstance(model, Netlist) else []
         for (part, name), (raw, before) in texts.items():
             if not part:
-                kept = _same(before, state(model, name)) or name in steady
+                kept = _same(before, state(model, name))
                 found[name] = raw if kept else self._parameter(model, name)
         for name, declared in model._declarations():
-            if isinstance(declared, Parameter) and name not in found:
+            if isinstance(declared, Parameter | InitialParameter) and name not in found:
                 found[name] = self._parameter(model, name)
         return found
 
     def _parameter(self, model: Component, name: str) -> Any:
-        declared = model._declared.get(name) or model._dynamic.get(name)
+        declared = model._declaration(name)
+        if isinstance(declared, InitialParameter):
+            guess = model._modifiers.get(name, Start()).value
+            unit = {"unit": declared.unit} if declared.unit else {}
+            start = self._json(model, declared.start if guess is None else guess, name)
+            return {"start": start, "fixed": False, **unit}
         if not isinstance(declared, Parameter):
             return self._json(model, model._constants[name], name)
         value = model._modifiers.get(name, declared.default)
@@ -123,6 +128,8 @@ class Writer:
                 role = Input if isinstance(declared, Input) else Output
                 kind = self._class(role, where, _known(model, name))
                 found[name] = {"class": kind, "unit": declared.unit} if declared.unit else kind
+            elif isinstance(declared, InitialParameter):
+                pass  # a parameter of the file
             elif isinstance(declared, Variable | Module) and not isinstance(model, Netlist):
                 raise NetlistError(
                     f"{where}: a file holds parts, parameters and scalar signals; "

@@ -219,6 +219,23 @@ class Variable(Declaration):
         self.start, self.fixed, self.nominal, self.state = start, fixed, nominal, state
 
 
+class InitialParameter(Variable):
+    """A parameter whose value the conditions at the initial time determine (Modelica's ``fixed=false``).
+
+    It is a variable that does not change; ``start`` is the guess. A library's parameter becomes one by
+    ``ac.Start(guess, fixed=False)`` as its value.
+    """
+
+    def __init__(
+        self, start: Any = 0.0, *, unit: str = "", nominal: float | str = 1.0, doc: str = ""
+    ) -> None:
+        super().__init__(unit=unit, start=start, nominal=nominal, state="prefer", doc=doc)
+
+
+class DependentParameter(Variable):
+    """A parameter bound to an expression of `InitialParameter`s."""
+
+
 class Potential(Variable):
     """A connector's across variable: equal at all connectors of a node."""
 

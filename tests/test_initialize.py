@@ -20,7 +20,7 @@ def hanging(mass=None, spring=None, **more):
         "c.flange - s.flange_a",
         "s.flange_b - m.flange_a",
         c=Fixed(s0=1.0),
-        s=SpringDamper(c=4.0, d=0.5, **(spring or {})),
+        s=SpringDamper(**{"c": 4.0, "d": 0.5, **(spring or {})}),
         m=Mass(m=2.0, **(mass or {})),
         **more,
     )
@@ -285,3 +285,139 @@ def test_under_jit_nothing_is_raised():
     )
     system = ac.compile(component)
     assert jax.jit(lambda k: system.initial_state({"k": k}))(1.0).shape == (1,)
+
+
+# -- rest, least squares, and what was decided --------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def hanging_system():
+    """A mass on a spring below s = 1, pulled by an input."""
+    return ac.compile(
+        model(
+            "c.flange - s.flange_a", "s.flange_b - m.flange_a", "m.flange_b - f.flange",
+            c=Fixed(s0=1.0), s=SpringDamper(c=4.0, d=0.5), m=Mass(m=2.0), f=Force(),
+        )
+    )  # fmt: skip
+
+
+def test_at_rest(hanging_system):
+    at_rest = hanging_system.initial_state(u0=[2.0], steady=True)
+    np.testing.assert_allclose(at_rest, [1.5, 0.0], atol=1e-12)
+    slope = jax.jacfwd(lambda f: hanging_system.initial_state(u0=jnp.array([f]), steady=True))(2.0)
+    np.testing.assert_allclose(slope, [0.25, 0.0], atol=1e-12)
+
+
+def test_some_states_at_rest(hanging_system):
+    found = hanging_system.initialize(x0={"m.v": 2.0}, u0=[0.0], steady=["m.v"])
+    np.testing.assert_allclose(found.x, [0.75, 2.0])
+    assert found.roles == ("computed", "given")
+    assert found.conditions == ("der(m.v) = 0",)
+    with pytest.raises(ac.DataError, match=r"steady: 'm\.w' is not a state; did you mean"):
+        hanging_system.initial_state(steady=["m.w"])
+
+
+def test_a_free_mass_at_rest_stays_where_it_starts():
+    found = ac.compile(model(m=Mass(m=1.0, s=Start(3.0), v=Start(1.0)))).initialize(steady=True)
+    np.testing.assert_allclose(found.x, [3.0, 0.0], atol=1e-12)
+    assert found.roles == ("start", "computed")
+
+
+def test_what_the_conditions_leave_open_is_told():
+    component = Equations(
+        "x y z w", lambda s: [Eq(der(s.x), 1), Eq(der(s.y), 1), Eq(der(s.w), 1), Eq(s.z, s.x + s.y)]
+    )
+    component.modify(z=Start(5.0, fixed=True), x=Start(1.0))
+    found = ac.compile(component).initialize()
+    assert found.roles == ("chosen", "chosen", "start")
+    np.testing.assert_allclose(found.x, [3.0, 2.0, 0.0])
+    told = repr(found)
+    assert "3 states, 1 conditions, 3 left open" in told
+    assert "z (fixed start): off by" in told
+
+
+def test_the_smallest_change_is_measured_in_nominal_values():
+    component = Equations("x y z", lambda s: [Eq(der(s.x), 1), Eq(der(s.y), 1), Eq(s.z, s.x + s.y)])
+    component.modify(z=Start(10.0, fixed=True), x=Start(nominal=3.0))
+    np.testing.assert_allclose(start(component), [9.0, 1.0])
+
+
+def conflicting():
+    """x is fixed, and its double too, to values of a parameter that do not fit."""
+    component = Initial(
+        "x z", lambda s: [Eq(der(s.x), -s.x), Eq(s.z, 2 * s.x)], lambda s: [Eq(s.x**2, s.p)], p=4.0
+    )
+    component.modify(x=Start(1.0, fixed=True), z=Start(4.0, fixed=True))
+    return component
+
+
+def test_least_squares_meets_conditions_as_well_as_can_be():
+    system = ac.compile(conflicting())
+    with pytest.raises(ac.InitializationError, match=r"least_squares=True"):
+        system.initial_state()
+
+    @jax.jit
+    def fitted(p):
+        return system.initial_state({"p": p}, least_squares=True)[0]
+
+    x, h = float(fitted(4.0)), 1e-4
+    # minimum of (x - 1)² + (2 x - 4)² + (x² - p)²
+    assert (x - 1) + 2 * (2 * x - 4) + 2 * x * (x**2 - 4) == pytest.approx(0, abs=1e-7)
+    differences = (float(fitted(4.0 + h)) - float(fitted(4.0 - h))) / (2 * h)
+    assert float(jax.grad(fitted)(4.0)) == pytest.approx(differences, rel=1e-6)
+    found = system.initialize(least_squares=True)
+    assert found.roles == ("fitted",)
+    np.testing.assert_allclose(found.residuals, [x - 1, 2 * x - 4, x**2 - 4], atol=1e-6)
+
+
+def test_a_conflict_names_what_cannot_move():
+    with pytest.raises(ac.InitializationError) as error:
+        start(hanging({"s": Start(0.5, fixed=True)}, {"s_rel": Start(0.0, fixed=True)}))
+    assert "they are 1, and 1 states may move ('m.v'); 'm.s' cannot move" in str(error.value)
+
+
+# -- parameters found at the initial time ---------------------------------------------------------------------------
+
+
+def test_a_parameter_that_makes_a_start_fit():
+    system = ac.compile(
+        hanging(
+            {"s": Start(0.5, fixed=True), "a": Start(3.0, fixed=True), "v": Start(0.0, fixed=True)},
+            {"c": Start(1.0, fixed=False)},
+        )
+    )
+    assert system.states == ("s.c", "m.s", "m.v")
+    assert "s.c" not in system.parameters()
+
+    def stiffness(m):
+        return system.initial_state({**system.parameters(), "m.m": m})[0]
+
+    assert float(stiffness(2.0)) == pytest.approx(12.0)  # 2 · 3 = c · 0.5
+    assert float(jax.grad(stiffness)(2.0)) == pytest.approx(6.0)
+    rates = system.vector_field(0.0, system.initial_state(), None, system.parameters())
+    assert float(rates[0]) == 0.0
+
+
+class Tuned(ac.Component):
+    """The stiffness of one spring determines that of another."""
+
+    c = ac.InitialParameter(1.0, unit="N/m")
+
+    def __init__(self):
+        super().__init__()
+        self.wall, self.soft = Fixed(), SpringDamper(c=self.c, d=0.5)
+        self.mass = Mass(m=1.0, s=Start(1.0, fixed=True), a=Start(-6.0, fixed=True))
+        self.hard = SpringDamper(c=2 * self.c, d=0.5)
+        self.connect(self.wall.flange, self.soft.flange_a, self.hard.flange_a)
+        self.connect(self.soft.flange_b, self.hard.flange_b, self.mass.flange_a)
+
+
+def test_parameters_that_follow_from_found_ones():
+    system = ac.compile(Tuned())
+    found = system.initialize(x0={"mass.v": 0.0})
+    np.testing.assert_allclose(found.x, [2.0, 1.0, 0.0], atol=1e-9)
+    u = jnp.zeros(0)
+    assert float(system.observe("hard.c", 0.0, found.x, u, system.parameters())) == pytest.approx(4)
+    pair = ac.compile(model(a=Tuned(), b=Tuned()))
+    assert pair.states[0] == "a.c"
+    assert pair.initial_state(x0={"a.mass.v": 0.0, "b.mass.v": 0.0})[3] == pytest.approx(2.0)

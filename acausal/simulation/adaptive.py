@@ -46,9 +46,9 @@ def simulate_adaptive(
     t = jnp.asarray(saved)
     jumps = jnp.asarray(inputs.jumps(run.drive, run.start, run.end))
     chosen = dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint
-    x, reached, result = _solve(run, t, solver, rtol, atol, jumps, max_steps, chosen)
+    x, reached, last, result = _solve(run, t, solver, rtol, atol, jumps, max_steps, chosen)
     if not traced(x, reached):
-        _check(run, np.asarray(x), float(reached), result, max_steps, solver)
+        _check(run, np.asarray(x), float(reached), np.asarray(last), result, max_steps, solver)
     return Solution(t, x, inputs.evaluate_all(run.drive, t), run.system, run.packed)
 
 
@@ -62,7 +62,7 @@ def _solve(
     jumps: Array,
     max_steps: int,
     adjoint: dfx.AbstractAdjoint,
-) -> tuple[Array, Array, Any]:
+) -> tuple[Array, Array, Array, Any]:
     arrays, rest = eqx.partition((run.packed, run.drive), eqx.is_array)
 
     def field(t: Any, x: Array, args: Any) -> Array:
@@ -86,16 +86,26 @@ def _solve(
         throw=False,
         adjoint=adjoint,
     )
-    return solution.ys[0], solution.ts[1][-1], solution.result
+    return solution.ys[0], solution.ts[1][-1], solution.ys[1][-1], solution.result
 
 
 def _check(
-    run: Run, x: np.ndarray, reached: float, result: Any, max_steps: int, solver: solvers.Solver
+    run: Run,
+    x: np.ndarray,
+    reached: float,
+    last: np.ndarray,
+    result: Any,
+    max_steps: int,
+    solver: solvers.Solver,
 ) -> None:
     if bool(result == dfx.RESULTS.successful) and np.isfinite(x).all():
         return
     where = f"The simulation with {type(solver).__name__} stopped at t = {reached:g} s, before {run.end:g} s"
-    if not bool(result == dfx.RESULTS.max_steps_reached):
+    exhausted = bool(result == dfx.RESULTS.max_steps_reached)
+    ahead = (run.end - run.start) / max_steps if exhausted else run.end - reached
+    if reason := run.explain(reached, last, ahead):
+        raise SimulationError(f"{where}.{reason}")
+    if not exhausted:
         raise SimulationError(
             f"{where}: its steps became too small, or its values not finite. "
             "The model may run away there: look at its parameters, initial values and inputs."

@@ -97,9 +97,11 @@ def _check(run: Run, ends: np.ndarray, x: np.ndarray) -> None:
     if not len(bad):
         return
     state = run.system.states[int(np.flatnonzero(~np.isfinite(x[bad[0]]))[0])]
+    last, dt = max(int(bad[0]) - 1, 0), ends[1] - ends[0]
+    reason = run.explain(float(ends[last]), x[last], dt)
     raise SimulationError(
-        f"The simulation broke down after t = {ends[max(int(bad[0]) - 1, 0)]:g} s: '{state}' is not finite. "
-        + _mend(run.modes(), ends[1] - ends[0])
+        f"The simulation broke down after t = {ends[last]:g} s: '{state}' is not finite."
+        + (reason or " " + _mend(run.modes(), dt))
     )
 
 

@@ -6,16 +6,24 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
+from acausal.breakdown import explain_breakdown
 from acausal.errors import SimulationError
 from acausal.simulation import inputs
 from acausal.tracing import traced
 
 if TYPE_CHECKING:
     from acausal.system import System
+
+AHEAD = np.geomspace(1e-6, 1.0, 7)
+"""Where to look for a breakdown, as fractions of the time ahead."""
+
+RUN_AWAY = 1e30
+"""States beyond this have run away."""
 
 EIGENVALUES = 300
 """Models with more states are not examined: dense Jacobians and implicit steps would not pay."""
@@ -57,6 +65,28 @@ class Run(NamedTuple):
         u0 = inputs.evaluate(self.drive, self.start)
         jacobian = np.asarray(_jacobian(self.system, self.packed, self.start, self.x0, u0))
         return np.linalg.eigvals(jacobian) if np.isfinite(jacobian).all() else np.zeros(0)
+
+    def explain(self, t: float, x: np.ndarray, ahead: float) -> str:
+        """Which equation has no finite value at a state, or within some seconds along its derivative.
+
+        Arguments:
+            t: time [s]. x: a state, shape (number of states,). ahead: how far to look [s].
+
+        Returns:
+            A sentence; an empty text where nothing is found, or the state itself ran away.
+        """
+        if not (np.abs(x) < RUN_AWAY).all():
+            return ""
+        system = self.system
+        slope = jnp.zeros_like(x)
+        for h in (0.0, *(ahead * AHEAD)):
+            point = t + h, x + h * slope, inputs.evaluate(self.drive, t + h), self.packed
+            reason = explain_breakdown(system.reduced, system.program, *point)
+            if reason is not None:
+                return f" There {reason}"
+            if h == 0.0:
+                slope = system.vector_field(*point)
+        return ""
 
 
 @eqx.filter_jit
