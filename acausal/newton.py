@@ -1,79 +1,168 @@
-"""Newton's method with damping, and a homotopy where it does not arrive."""
+"""Roots near a guess: Newton's method with damping, and a path to follow where it does not arrive.
+
+The path is Newton's homotopy ``residual(z) = (1 - s) residual(guess)``: at s = 0 the guess solves it, at s = 1 a
+root does. It is followed by its length, so that it may turn back in s on its way. Newton's method alone is the
+case of a path point with s = 1, found along the direction of z.
+E. Allgower, K. Georg: Introduction to Numerical Continuation Methods, SIAM 2003, chapters 2 and 6.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 
-from acausal.homotopy import Residual, Solve, homotopy
-
 TOLERANCE, STALLED = 1e-10, 1e-6
 """Relative size of the last step, and of one that rounding keeps from making the residual smaller."""
+FIRST, SHORTEST = 0.1, 1e-7
+"""Of the path: the first stride, and the length below which it is given up."""
+STRIDES, CORRECTIONS = 400, 12
+"""Of the path: most strides, and Newton steps after each."""
+STRAIGHT = 0.7
+"""Cosine of the largest angle between two strides."""
 
 GOING, ARRIVED, STUCK = 0, 1, 2
+ALONE, ON_THE_WAY, AT_THE_END, DONE, LOST = 0, 1, 2, 3, 4
+
+Residual = Callable[[Any], Any]
+"""From unknowns (m,) to residuals (k,)."""
+Solve = Callable[[Any, Any], Any]
+"""From a matrix (k, m) and residuals (k,) to a step (m,)."""
+
+
+class _Walk(NamedTuple):
+    """Where the search is: its phase, the last point (m + 1,) of unknowns in units and s, and the next stride.
+
+    The path is followed upward in s first; where that leads nowhere, the other way round.
+    """
+
+    phase: Any
+    point: Any
+    direction: Any
+    stride: Any
+    count: Any
+    upward: Any
 
 
 def root(
     residual: Residual, guess: Any, solve: Solve, scale: Any = 1.0, max_steps: int = 300
 ) -> tuple[Any, Any]:
-    """A root near a guess, and whether it was reached: by Newton's method, else along a homotopy.
+    """A root near a guess, and whether it was reached.
 
     Arguments:
-        solve: what Newton's method subtracts, from the Jacobian and the residuals.
+        solve: solves linear equations, of which there are as many as unknowns, or fewer.
         scale: typical magnitude of the unknowns, (m,) or one for all.
         max_steps: of Newton's method.
     """
+    unit = jnp.abs(guess) + scale
+    units = jnp.append(unit, 1.0)
+    first = residual(guess)
+    upward = jnp.zeros(len(guess) + 1).at[-1].set(1.0)
+    begin = jnp.append(guess / unit, 0.0)
 
-    def attempt(state: Any) -> Any:
-        _, _, k = state
-        along = lambda: homotopy(residual, guess, solve, scale, skipped=k == 0)  # noqa: E731
-        begin = jax.lax.cond(k == 0, lambda: guess, along)
-        return *newton(residual, begin, solve, scale, max_steps), k + 1
+    def off(point: Any) -> Any:
+        return residual(point[:-1] * unit) - (1 - point[-1]) * first
 
-    z, arrived, _ = jax.lax.while_loop(
-        lambda state: ~state[1] & (state[2] < 2), attempt, (guess, jnp.array(False), 0)
-    )
-    return z, arrived
+    def bordered(point: Any, direction: Any) -> tuple[Any, Any]:
+        slopes, r = jax.lax.optimization_barrier(_jacobian(residual)(point[:-1] * unit))
+        above = jnp.concatenate([slopes, first[:, None]], axis=1)
+        rest = jnp.append(r - (1 - point[-1]) * first, 0.0)
+        return jnp.concatenate([above, (direction / units)[None]]), rest
+
+    def go_on(w: _Walk) -> _Walk:
+        walking = w.phase == ON_THE_WAY
+        direction = jnp.where(walking, w.direction, upward)
+        ahead = jnp.where(walking, w.point + w.stride * w.direction, w.point.at[-1].set(1.0))
+        limit = jnp.where(walking, CORRECTIONS, max_steps)
+        point, arrived = _newton(off, lambda p: bordered(p, direction), ahead, solve, units, limit)
+        taken = point - w.point
+        length = _norm(taken)
+        straight = (jnp.sum(taken * w.direction) > STRAIGHT * length) & (length < 3 * w.stride)
+        lost = walking & ((w.stride < SHORTEST) | (w.count > STRIDES))
+        back = lost & w.upward
+        good = walking & ~lost & arrived & (straight | (jnp.abs(w.direction[-1]) == 1))
+        beyond = good & (point[-1] >= 1)
+        ends = jnp.where(arrived, DONE, jnp.where(w.phase == ALONE, ON_THE_WAY, LOST))
+        on = jnp.where(beyond, AT_THE_END, jnp.where(lost & ~back, LOST, ON_THE_WAY))
+        part = jnp.where(beyond, (1 - w.point[-1]) / (point[-1] - w.point[-1]), 1.0)
+        kept = jnp.where(good, w.point + part * taken, jnp.where(back, begin, w.point))
+        stride = jnp.where(good, 1.5 * length, jnp.where(walking, w.stride / 3, w.stride))
+        return _Walk(
+            jnp.where(walking, on, ends),
+            jnp.where(walking, kept, jnp.where(arrived | (w.phase != ALONE), point, begin)),
+            jnp.where(good, taken / length, jnp.where(back, -upward, w.direction)),
+            jnp.where(back, FIRST, stride),
+            jnp.where(back, 0, w.count + walking),
+            w.upward & ~back,
+        )
+
+    stride = FIRST * jnp.ones_like(begin[-1])
+    start = _Walk(jnp.array(ALONE), begin, upward, stride, jnp.array(0), jnp.array(True))
+    end = jax.lax.while_loop(lambda w: w.phase < DONE, go_on, start)
+    return end.point[:-1] * unit, end.phase == DONE
 
 
-def newton(
-    residual: Residual, guess: Any, solve: Solve, scale: Any = 1.0, max_steps: int = 300
+def _newton(
+    residual: Residual,
+    linearized: Callable[[Any], tuple[Any, Any]],
+    guess: Any,
+    solve: Solve,
+    units: Any,
+    max_steps: Any,
 ) -> tuple[Any, Any]:
     """A root near a guess by Newton's method, and whether it was reached.
 
     A step that does not make the residual smaller is halved until it does; what is smaller is judged with
     every equation divided by its slopes, so that units do not matter. Where no part of the step helps, but
-    the step is small, rounding is all that is left; otherwise the method is stuck. Arguments as in `root`.
+    the step is small, rounding is all that is left; otherwise the method is stuck.
+
+    Arguments:
+        linearized: from a point to the matrix and the right-hand side of Newton's step. Its last row, which
+            ``residual`` has not, holds at every point.
+        units: in which points are measured, (m + 1,).
     """
 
     def advance(state: Any) -> Any:
-        z, r, _, k = state
-        jacobian = jax.jacfwd(residual)(z)
-        full = solve(jacobian, r)
-        slopes = jnp.abs(jacobian) @ (jnp.abs(z) + scale)
-        size = lambda r: _norm(r / jnp.where(slopes > 0, slopes, 1.0))  # noqa: E731
+        z, _, k = state
+        slopes, r = linearized(z)
+        full = jnp.where(jnp.all(r == 0), 0.0, solve(slopes, r) / units)
+        reach = jnp.abs(slopes[:-1]) @ (units * (jnp.abs(z) + 1.0))
+        weight = 1 / jnp.where(reach > 0, reach, 1.0)
+        size = _norm(weight * r[:-1])
 
         def too_far(trial: Any) -> Any:
             dz, new = trial
-            return ~(size(new) < size(r)) & ~_is_tiny(dz, z) & jnp.all(jnp.isfinite(dz))
+            return ~(new < size) & ~_is_tiny(dz, z) & jnp.all(jnp.isfinite(dz))
 
         def halve(trial: Any) -> Any:
-            return trial[0] / 2, residual(z - trial[0] / 2)
+            return trial[0] / 2, _norm(
+                weight * jax.lax.optimization_barrier(residual(z - trial[0] / 2))
+            )
 
-        dz, new = jax.lax.while_loop(too_far, halve, (full, residual(z - full)))
-        stopped = _is_tiny(dz, z)
-        arrived = _is_tiny(full, z) | (stopped & _is_tiny(full, z, STALLED))
-        return z - dz, new, jnp.where(arrived, ARRIVED, jnp.where(stopped, STUCK, GOING)), k + 1
+        dz, _ = jax.lax.while_loop(too_far, halve, (2 * full, jnp.inf * jnp.ones_like(size)))
+        there, stopped = _is_tiny(full, z), _is_tiny(dz, z)
+        arrived = there | (stopped & _is_tiny(full, z, STALLED))
+        status = jnp.where(arrived, ARRIVED, jnp.where(stopped, STUCK, GOING))
+        return z - jnp.where(there, full, dz), status, k + 1
 
     def unfinished(state: Any) -> Any:
-        _, r, status, k = state
-        return (status == GOING) & jnp.any(r != 0) & (k < max_steps)
+        _, status, k = state
+        return (status == GOING) & (k < max_steps)
 
-    start = guess, residual(guess), jnp.array(GOING), 0
-    z, r, status, _ = jax.lax.while_loop(unfinished, advance, start)
-    return z, (status == ARRIVED) | jnp.all(r == 0)
+    z, status, _ = jax.lax.while_loop(unfinished, advance, (guess, jnp.array(GOING), 0))
+    return z, status == ARRIVED
+
+
+def _jacobian(residual: Residual) -> Callable[[Any], tuple[Any, Any]]:
+    """From unknowns to the Jacobian (k, m) and the residuals (k,), which share their evaluation."""
+
+    def doubled(z: Any) -> tuple[Any, Any]:
+        r = residual(z)
+        return r, r
+
+    return jax.jacfwd(doubled, has_aux=True)
 
 
 def _norm(v: Any) -> Any:

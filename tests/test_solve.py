@@ -5,7 +5,6 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from acausal.newton import newton
 from acausal.solve import solve_linear, solve_nonlinear
 
 
@@ -74,13 +73,3 @@ def test_a_batch_converges_each_by_itself():
     p = jnp.array([0.1, 4.0, 1e6])
     roots = jax.vmap(lambda q: solve_nonlinear(plain(lambda z: z**2 - q), jnp.array([0.5])))(p)
     np.testing.assert_allclose(roots[:, 0], np.sqrt(p), rtol=1e-9)
-
-
-def test_newton_says_whether_it_arrived():
-    divide = lambda slope, r: r / slope[0]  # noqa: E731
-    square = lambda z: z**2 - 2  # noqa: E731
-    z, arrived = newton(square, jnp.array([1.0]), divide)
-    assert bool(arrived)
-    assert float(z[0]) == pytest.approx(2**0.5)
-    _, arrived = newton(square, jnp.array([1e9]), divide, max_steps=3)
-    assert not bool(arrived)
