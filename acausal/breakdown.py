@@ -9,7 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal.errors import listing
-from acausal.generate import Evaluate, Program, SolveLoop
+from acausal.generate import Program, SolveLoop
+from acausal.instructions import Accumulate, Evaluate
 from acausal.parameters import Packed
 from acausal.reduce import ReducedModel
 
@@ -24,30 +25,32 @@ def explain_breakdown(
     """
     arrays: list[Any] = [x, u, jnp.zeros(())]
     for first, instruction in zip(program.first, program.instructions, strict=True):
-        results = [np.atleast_1d(np.asarray(r)) for r in instruction.run(t, arrays, packed)]
+        results = instruction.run(t, arrays, packed)
         for offset, result in enumerate(results):
-            bad = np.flatnonzero(~np.isfinite(result))
+            values = np.atleast_1d(np.asarray(result))
+            bad = np.flatnonzero(~np.isfinite(values))
             if not len(bad):
                 continue
             row = int(bad[0])
             if isinstance(instruction, SolveLoop):
                 return _loop(reduced, program, instruction, first, row, t, arrays, packed)
-            return _formula(reduced, program, instruction, first + offset, row, result[row])
-        arrays += [jnp.asarray(r) for r in results]
+            return _formula(reduced, program, instruction, first + offset, row, values[row])
+        arrays += results
     return None
 
 
 def _formula(
     reduced: ReducedModel,
     program: Program,
-    instruction: Evaluate,
+    instruction: Evaluate | Accumulate,
     array: int,
     row: int,
     value: float,
 ) -> str:
     name = reduced.name(_node(program, array, row))
+    formula = f" = {instruction.expression}" if isinstance(instruction, Evaluate) else ", a sum,"
     return (
-        f"'{name}' = {instruction.expression} is {value}: a division by zero, or a function outside its domain? "
+        f"'{name}'{formula} is {value}: a division by zero, or a function outside its domain? "
         "Look at the parameters and values that stand in it."
     )
 
