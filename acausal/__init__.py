@@ -31,6 +31,7 @@ from acausal.errors import (
     SimulationError,
     StructureError,
     TrainingError,
+    UnitError,
 )
 from acausal.fit import (
     Fit,
@@ -145,6 +146,7 @@ __all__ = [
     "StructureError",
     "System",
     "TrainingError",
+    "UnitError",
     "Variable",
     "ZeroCrossing",
     "acos",

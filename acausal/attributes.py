@@ -28,9 +28,7 @@ ALONE = sp.Symbol("p0", real=True)
 """The parameter in the expression that is nothing but a parameter."""
 
 
-def _tiled(
-    layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: Any
-) -> np.ndarray:
+def tiled(layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: Any) -> np.ndarray:
     """Spread per-form local values over all instances."""
     flat = np.empty(int(base[-1]), dtype=dtype)
     for members, values in zip(members_of_forms(layout), local, strict=True):
@@ -48,7 +46,7 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
             [form.prototype._attribute(d, attribute) for _, d in form.variables]
             for form in layout.forms
         ]
-        return _tiled(
+        return tiled(
             layout,
             base,
             [[0.0 if isinstance(v, sp.Expr | tuple) else v for v in row] for row in local],
@@ -61,7 +59,7 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
         declared("nominal", float),
     )
     rank = [[_rank(form.prototype, d) for _, d in form.variables] for form in layout.forms]
-    state = _tiled(layout, base, rank, float)
+    state = tiled(layout, base, rank, float)
     given = np.zeros(len(start), dtype=bool)
     starts: list[Binding] = []
     start_of_form: dict[Any, tuple[int, Binding]] = {}
@@ -134,7 +132,7 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
     """Values of all parameters, the bound ones, and which are folded to zero."""
     base = layout.parameter_base
     local = [[_default(form, path, d) for path, d in form.parameters] for form in layout.forms]
-    value = _tiled(layout, base, local, float)
+    value = tiled(layout, base, local, float)
     folded = value == 0.0
     bindings: list[Binding] = []
     for number, component in enumerate(layout.components):

@@ -23,6 +23,10 @@ class ConnectionError(ModelError):  # noqa: A001 (the field's word; reached as a
     """Connectors are joined that cannot be joined."""
 
 
+class UnitError(ModelError):
+    """A unit is none, or the two sides of an equation have unlike dimensions."""
+
+
 class StructureError(ModelError):
     """The equations do not determine the unknowns."""
 

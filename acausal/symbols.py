@@ -268,11 +268,20 @@ class Module(Declaration):
     The value is the module itself or a function ``key -> module`` that makes it, so that every call of
     ``system.parameters(key)`` starts from fresh weights. The default may also be the name of the component's
     method that is such a function. In equations it is called: ``self.net(self.v)``.
+
+    ``unit`` is that of its result, ``takes`` those of its arguments; left open they fit everything.
     """
 
-    def __init__(self, default: Callable[..., Any] | str | None = None, *, doc: str = "") -> None:
-        super().__init__(doc=doc)
-        self.default = default
+    def __init__(
+        self,
+        default: Callable[..., Any] | str | None = None,
+        *,
+        unit: str = "",
+        takes: tuple[str, ...] = (),
+        doc: str = "",
+    ) -> None:
+        super().__init__(unit=unit, doc=doc)
+        self.default, self.takes = default, takes
 
 
 @dataclass(frozen=True)

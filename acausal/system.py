@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import sympy as sp
 
 from acausal.aliases import parameter_aliases
+from acausal.check import check_dimensions
 from acausal.component import Component
 from acausal.errors import DataError, ModelError, nearest
 from acausal.explicit import explicit_equations
@@ -24,13 +25,18 @@ from acausal.reduce import ReducedModel, reduce
 Params = Mapping[str, Any] | Packed
 
 
-def compile(model: Component) -> System:  # noqa: A001 (the field's word; reached as ac.compile)
+def compile(  # noqa: A001 (the field's word; reached as ac.compile)
+    model: Component, *, check_units: bool = True
+) -> System:
     """Derive the differential equations of a model and turn them into array code.
 
     Arguments:
         model: the component tree; inputs that nothing feeds become the system's inputs.
+        check_units: whether a model is refused whose equations, values or connections mix unlike units. A
+            variable, parameter or network without a unit fits everything.
 
     Raises:
+        UnitError: if an equation adds, compares or equates unlike dimensions, or a unit is none.
         ModelError: if the model is declared, connected or posed wrongly; the message names the place.
     """
     if isinstance(model, type) and issubclass(model, Component):
@@ -38,6 +44,8 @@ def compile(model: Component) -> System:  # noqa: A001 (the field's word; reache
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
     flat = flatten(model)
+    if check_units:
+        check_dimensions(flat)
     reduced = reduce(flat)
     parameters = lay_out_parameters(flat)
     program = generate(reduced, parameters)

@@ -18,6 +18,7 @@ def registry() -> Any:
 
     known = pint.UnitRegistry(cache_folder=None)
     known.define("@alias turn = rev")
+    known.define("@alias ohm = Ohm")
     return known
 
 

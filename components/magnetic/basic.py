@@ -71,7 +71,7 @@ class ElectroMagneticConverterWithLeakageInductance(_Converter):
 
     L = ac.Parameter(10e-3, unit="m", doc="length of the leakage path")
     A = ac.Parameter(10e-6, unit="m2", doc="cross-section of the leakage path")
-    mu_rel = ac.Parameter(1.0, min=0, doc="relative permeability of the leakage path")
+    mu_rel = ac.Parameter(1.0, unit="1", min=0, doc="relative permeability of the leakage path")
     G_m = ac.Parameter(
         lambda self: nature.mu_0 * self.mu_rel * self.A / self.L,
         unit="H",
@@ -135,7 +135,9 @@ class LeakageWithCoefficient(Reluctance):
     of the flux. Not for actuators in motion: the leakage would take part in the force.
     """
 
-    c_usefulFlux = ac.Parameter(min=0, max=1, doc="useful flux over useful and leakage flux")
+    c_usefulFlux = ac.Parameter(
+        unit="1", min=0, max=1, doc="useful flux over useful and leakage flux"
+    )
     R_mUsefulTot = ac.Input(unit="1/H", doc="reluctance of the useful path")
 
     def equations(self) -> Iterator[ac.Eq]:

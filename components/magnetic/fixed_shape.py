@@ -31,9 +31,10 @@ class FixedShape(Reluctance):
 
     nonLinearPermeability = ac.Option(True, doc="whether mu_r depends on B")
     material = ac.Option(BaseData(), doc="soft magnetic material")
-    mu_rConst = ac.Parameter(1.0, doc="relative permeability if it is constant")
+    mu_rConst = ac.Parameter(1.0, unit="1", doc="relative permeability if it is constant")
     mu_i = ac.Parameter(
         lambda self: self.material.mu_i,
+        unit="1",
         when="nonLinearPermeability",
         doc="relative permeability at B = 0",
     )
@@ -55,7 +56,7 @@ class FixedShape(Reluctance):
     B = ac.Variable(unit="T", doc="magnetic flux density")
     A = ac.Variable(unit="m2", nominal=1e-4, doc="cross-section that the flux penetrates")
     H = ac.Variable(unit="A/m", nominal=1e3, doc="magnetic field strength")
-    mu_r = ac.Variable(nominal=1e3, doc="relative permeability")
+    mu_r = ac.Variable(unit="1", nominal=1e3, doc="relative permeability")
 
     def modify(self, **modifiers: Any) -> None:
         """As of every component; the material must be a record of a soft magnetic material."""

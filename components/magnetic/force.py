@@ -54,7 +54,7 @@ class Force(Reluctance):
 class _Permeable(Force):
     """A tube with a constant relative permeability."""
 
-    mu_r = ac.Parameter(doc="relative permeability")
+    mu_r = ac.Parameter(unit="1", doc="relative permeability")
 
     @property
     def _mu(self) -> Any:

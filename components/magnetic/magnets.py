@@ -21,7 +21,7 @@ class GenericLinearPermanentMagnet(TwoPort):
     A = ac.Parameter(1e-4, unit="m2", doc="cross-section")
     mat = ac.Option(BaseData(), doc="hard magnetic material")
     B_r = ac.Parameter(lambda self: self.mat.B_r, unit="T", doc="remanence")
-    mu_r = ac.Parameter(lambda self: self.mat.mu_r, doc="relative permeability")
+    mu_r = ac.Parameter(lambda self: self.mat.mu_r, unit="1", doc="relative permeability")
     H = ac.Variable(unit="A/m", nominal=1e3, doc="magnetic field strength")
     B = ac.Variable(unit="T", doc="magnetic flux density")
 

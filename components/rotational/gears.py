@@ -129,8 +129,12 @@ class LossyGear(
     smoothness = ac.Option("LinearSegments", choices=SMOOTHNESS, doc="interpolation of the table")
     w_a = ac.Variable(unit="rad/s", doc="speed of flange_a relative to the support")
     a_a = ac.Variable(unit="rad/s2", doc="acceleration of flange_a relative to the support")
-    eta_mf1 = ac.Variable(when="not ideal", doc="efficiency of the teeth, flange_a drives")
-    eta_mf2 = ac.Variable(when="not ideal", doc="efficiency of the teeth, flange_b drives")
+    eta_mf1 = ac.Variable(
+        unit="1", when="not ideal", doc="efficiency of the teeth, flange_a drives"
+    )
+    eta_mf2 = ac.Variable(
+        unit="1", when="not ideal", doc="efficiency of the teeth, flange_b drives"
+    )
     tau_bf1 = ac.Variable(unit="N.m", when="not ideal", doc="bearing torque, flange_a drives")
     tau_bf2 = ac.Variable(unit="N.m", when="not ideal", doc="bearing torque, flange_b drives")
     tauLossMax = ac.Variable(unit="N.m", when="not ideal", doc="loss while rolling forward")

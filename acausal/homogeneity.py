@@ -1,0 +1,265 @@
+"""Homogeneity: the dimension of an expression, from those of its symbols.
+
+An unknown dimension (None) agrees with any other. A symbol without a unit has it, and so has a number: as a term
+it takes the dimension of its neighbours, and as a factor it may be a constant of nature. Only small whole
+numbers, fractions of them and pi (`is_pure`) are taken for what they look like.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, lru_cache
+from typing import Any
+
+import sympy as sp
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import Boolean
+
+from acausal.dimensions import NUMBER, SECOND, Dimension, described
+from acausal.errors import shortened
+from acausal.functions import Prescribed
+from acausal.symbols import ModuleCall, time
+
+MAX_CASES = 64
+
+MAX_PURE = 12
+"""The largest numerator and denominator of a pure number."""
+
+
+@dataclass(frozen=True)
+class Signature:
+    """What a callable parameter takes and gives; None where that is unknown."""
+
+    arguments: tuple[Dimension | None, ...] = ()
+    result: Dimension | None = None
+
+
+Slots = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
+"""Every symbol, or those that are known, with its dimension."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that has another dimension than it should: what to say, and the quotient of the two."""
+
+    reason: str
+    excess: Dimension
+
+
+@lru_cache(maxsize=4096)
+def examine(expression: sp.Expr, slots: Slots) -> Finding | None:
+    """The first place where what is added, compared or put into a function does not fit; None if all does.
+
+    An expression with cases fits if each case does: ``where(off, G*v - i, v - R*i)`` may be zero.
+    """
+    known = dict(slots)
+    finding = _first_finding(expression, known)
+    if finding is None or not expression.has(sp.Piecewise):
+        return finding
+    return next((f for case in _cases_of(expression) if (f := _first_finding(case, known))), None)
+
+
+def _first_finding(expression: sp.Expr, known: Mapping[Any, Any]) -> Finding | None:
+    try:
+        _Walk(known).of(expression)
+    except _Unlike as unlike:
+        return unlike.finding
+    return None
+
+
+def _cases_of(expression: Any) -> Iterator[Any]:
+    """The expression for every choice of cases, the same where the conditions are; itself if these are many."""
+    pieces: dict[tuple[Any, ...], list[Any]] = {}
+    for piece in sorted(expression.atoms(sp.Piecewise), key=sp.default_sort_key):
+        pieces.setdefault(tuple(condition for _, condition in piece.args), []).append(piece)
+    if math.prod(map(len, pieces)) > MAX_CASES:
+        return iter([expression])
+    chosen = itertools.product(*(range(len(conditions)) for conditions in pieces))
+    return (
+        expression.xreplace(
+            {p: p.args[i][0] for i, same in zip(choice, pieces.values(), strict=True) for p in same}
+        )
+        for choice in chosen
+    )
+
+
+class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
+    """Carries a finding up from where it is made."""
+
+    def __init__(self, reason: str, excess: Dimension) -> None:
+        super().__init__(reason)
+        self.finding = Finding(reason, excess)
+
+
+def is_pure(number: Any) -> bool:
+    """Whether a number is 2, 1/2, 0.5, pi or the like, and not perhaps a constant of nature."""
+    return all(_is_small(n) for n in number.atoms(sp.Number))
+
+
+def _is_small(number: Any) -> bool:
+    top, bottom = float(number).as_integer_ratio() if number.is_Float else (number.p, number.q)
+    return abs(top) <= MAX_PURE and bottom <= MAX_PURE
+
+
+class _Walk:
+    """One expression with known symbols; a part that occurs often is looked at once."""
+
+    def __init__(self, known: Mapping[Any, Any]) -> None:
+        self.known = known
+        self.seen: dict[Any, Dimension | None] = {time: SECOND}
+
+    def of(self, part: Any) -> Dimension | None:
+        """The dimension of a part of the expression."""
+        if part.is_Symbol or part in self.seen:
+            return self.seen.get(part, self.known.get(part))
+        if part.is_number:
+            return None
+        found = self.seen[part] = _rule(type(part))(self, part)
+        return found
+
+    def common(self, parts: Iterable[Any]) -> Dimension | None:
+        """The one dimension that all parts have."""
+        first: Any = None
+        found: Dimension | None = None
+        for part in parts:
+            here = self.of(part)
+            if here is None or here == found:
+                continue
+            if found is not None:
+                raise _unlike(_quoted(first), found, _quoted(part), here)
+            first, found = part, here
+        return found
+
+    def pure(self, part: Any, role: str) -> Dimension | None:
+        """A part that must be a pure number."""
+        found = self.of(part)
+        if found is not None and found != NUMBER:
+            raise _Unlike(
+                f"{role} {_quoted(part)} is in {described(found)} but must be a pure number", found
+            )
+        return found
+
+
+def _unlike(one: str, dimension: Dimension, other: str, its: Dimension) -> _Unlike:
+    """What to say of two things, named, that should have one dimension."""
+    return _Unlike(
+        f"{one} is in {described(dimension)} but {other} in {described(its)}", its / dimension
+    )
+
+
+def _quoted(term: Any) -> str:
+    """A term without its sign, for a message."""
+    negative = term.is_Mul and term.as_coeff_Mul()[0].is_negative
+    return f"'{shortened(str(-term if negative else term))}'"
+
+
+# -- rules: one for each kind of expression ------------------------------------------------------------
+
+Rule = Callable[[_Walk, Any], Dimension | None]
+
+
+def _alike(walk: _Walk, expression: Any) -> Dimension | None:
+    return walk.common(expression.args)
+
+
+def _parts(walk: _Walk, expression: Any) -> None:
+    for part in expression.args:
+        walk.of(part)
+
+
+def _compared(walk: _Walk, expression: Any) -> None:
+    walk.common(expression.args)
+
+
+def _number(walk: _Walk, expression: Any) -> Dimension:
+    """Of a sign or an angle: a number, whatever the dimension that the arguments share."""
+    walk.common(expression.args)
+    return NUMBER
+
+
+def _function(walk: _Walk, expression: Any) -> Dimension:
+    walk.pure(expression.args[0], f"the argument of {expression.func.__name__},")
+    return NUMBER
+
+
+def _product(walk: _Walk, expression: Any) -> Dimension | None:
+    found: Dimension | None = NUMBER
+    for factor in expression.args:
+        here = walk.of(factor) if not factor.is_number else NUMBER if is_pure(factor) else None
+        found = None if found is None or here is None else found * here
+    return found
+
+
+def _power(walk: _Walk, expression: Any) -> Dimension | None:
+    base, exponent = expression.args
+    found = walk.of(base)
+    if exponent.is_number:
+        ratio = Fraction(float(exponent)).limit_denominator(1000)
+        return None if found is None else found**ratio
+    varied = walk.pure(exponent, f"the exponent of {_quoted(base)},")
+    if varied is not None:
+        walk.pure(base, f"the base of {_quoted(expression)},")
+    return NUMBER if base.is_number or found == NUMBER else None
+
+
+def _cases(walk: _Walk, expression: Any) -> Dimension | None:
+    for _, condition in expression.args:
+        walk.of(condition)
+    return walk.common(value for value, _ in expression.args)
+
+
+def _prescribed(walk: _Walk, expression: Any) -> Dimension | None:
+    order, _, *signals = expression.args
+    found: Dimension | None = None
+    for n, signal in enumerate(signals):
+        here = walk.of(signal)
+        if here is None:
+            continue
+        if found is not None and here * SECOND**n != found:
+            role = f"{_quoted(signal)}, derivative {n} of {_quoted(signals[0])},"
+            raise _unlike(role, here, "that", found / SECOND**n)
+        found = here * SECOND**n
+    return None if found is None else found / SECOND ** int(order)
+
+
+def _call(walk: _Walk, expression: Any) -> Dimension | None:
+    """A network; differentiated, its result is divided by its arguments."""
+    module, orders, *arguments = expression.args
+    signature = walk.known.get(module, Signature())
+    declared = dict(enumerate(signature.arguments))
+    found = signature.result
+    for i, (argument, order) in enumerate(zip(arguments, orders, strict=True)):
+        here, takes = walk.of(argument), declared.get(i)
+        if here is not None and takes is not None and here != takes:
+            raise _unlike(
+                f"argument {i + 1} of '{module}', {_quoted(argument)},", here, "it takes", takes
+            )
+        if order:
+            divisor = here or takes
+            found = None if found is None or divisor is None else found / divisor ** int(order)
+    return found
+
+
+RULES: dict[type, Rule] = {
+    sp.Add: _alike,
+    sp.Mul: _product,
+    sp.Pow: _power,
+    sp.Piecewise: _cases,
+    Relational: _compared,
+    Boolean: _parts,
+    **dict.fromkeys((sp.Abs, sp.Max, sp.Min, sp.Mod, sp.floor, sp.ceiling), _alike),
+    **dict.fromkeys((sp.sign, sp.Heaviside, sp.atan2), _number),
+    **dict.fromkeys((sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan), _function),
+    **dict.fromkeys((sp.sinh, sp.cosh, sp.tanh), _function),
+    Prescribed: _prescribed,
+    ModuleCall: _call,
+}
+
+
+@cache
+def _rule(kind: type) -> Rule:
+    return next(RULES[k] for k in kind.__mro__ if k in RULES)
