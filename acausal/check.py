@@ -151,23 +151,18 @@ def _slots(group: EquationGroup, measures: _Measures) -> Slots:
 
 
 def _hint(template: Template, slots: Slots, finding: Finding) -> str:
-    """Whose unit would mend the equation: a parameter of the component, or else one of its variables."""
-    moving = [s for s, n in zip(template.variables, template.orders, strict=True) if n]
-    rates = " ".join(map(str, moving))
+    """What may mend the equation: another unit of a parameter, or a derivative."""
     known = dict(slots)
-    for symbol, power in product((*template.parameters, *template.variables), (1, -1)):
-        given, name = known[symbol], str(symbol)
-        if (
-            not isinstance(given, Dimension)
-            or "." in name
-            or symbol in moving
-            or f"({name})" in rates
-        ):
-            continue
-        meant = given * finding.excess**power
+    own = [s for s in template.parameters if "." not in str(s) and known[s] is not None]
+    found: list[str] = []
+    for symbol, power in product(own, (1, -1)):
+        meant = known[symbol] * finding.excess**power
         if examine(template.residual, tuple({**known, symbol: meant}.items())) is None:
-            return f"; should '{name}' be in {meant}?"
-    return ""
+            found = [f"should '{symbol}' be in {described(meant)}"]
+            break
+    if finding.excess in (SECOND, SECOND**-1):
+        found.append("is a der(...) missing or one too many")
+    return f"; {', or '.join(found)}?" if found else ""
 
 
 # -- values and connections ----------------------------------------------------------------------------
@@ -210,10 +205,11 @@ def _joins(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         np.maximum.at(greatest, node, index.max(axis=1))
     for node in np.flatnonzero(least < greatest):
         members = np.unique(np.concatenate([v[v[:, 0] == node].ravel() for v in joined]))
-        names = {int(measures.variables[v]): flat.layout.variable(int(v)) for v in members[::-1]}
-        parts = [
-            f"'{names[i]}' in {described(known)}"
-            for i in sorted(names)
-            if (known := measures.known[i])
-        ]
-        yield f"{' and '.join(parts)} are connected"
+        first: dict[Dimension, str] = {}
+        for member in members:
+            known = measures.known[measures.variables[member]]
+            if known is not None:
+                first.setdefault(
+                    known, f"'{flat.layout.variable(int(member))}' in {described(known)}"
+                )
+        yield f"{' and '.join(first.values())} are connected"

@@ -23,14 +23,14 @@ DERIVED = {
     "N": "kg.m/s2", "Pa": "kg/(m.s2)", "J": "kg.m2/s2", "W": "kg.m2/s3",
     "V": "kg.m2/(A.s3)", "Ohm": "kg.m2/(A2.s3)", "S": "A2.s3/(kg.m2)", "C": "A.s",
     "F": "A2.s4/(kg.m2)", "H": "kg.m2/(A2.s2)", "Wb": "kg.m2/(A.s2)", "T": "kg/(A.s2)",
-    "Hz": "1/s", "g": "kg", "t": "kg", "l": "m3", "bar": "kg/(m.s2)", "eV": "kg.m2/s2", "lm": "cd",
+    "Hz": "1/s", "g": "kg", "t": "kg", "l": "m3", "bar": "kg/(m.s2)", "mbar": "bar", "eV": "kg.m2/s2", "lm": "cd",
     "min": "s", "h": "s", "d": "s", "degC": "K", "degF": "K", "degR": "K",
 }  # fmt: skip
 """Further symbols of units in Modelica, and a unit of the same dimension; of the scale nothing is said."""
 
 PREFIXES = ("da", *"YZEPTGMkhdcmunpfazy")
 PREFIXED = (*BASE, "g", "N", "Pa", "J", "W", "V", "Ohm", "S", "C", "F", "H", "Wb", "T", "Hz", "l",
-            "bar", "eV", "rad")  # fmt: skip
+             "eV", "rad")  # fmt: skip
 """Those that a prefix may precede."""
 
 QUANTITIES = {
@@ -53,8 +53,10 @@ SPELLED = ("N", "W", "V", "Ohm", "Wb")
 """Of which one may stand in a unit that is not among these."""
 
 TOKEN = re.compile(
-    r"\s*(?:(?P<symbol>[^\W\d_]+|[%°])(?:(?:\^|\*\*)?(?P<power>[+-]?\d+))?|(?P<op>[1./*()]))"
+    r"\s*(?:(?P<symbol>[^\W\d_]+|[%°])(?:(?P<power>[+-]?\d+)|\s*(?:\^|\*\*)\s*(?P<exact>[+-]?\d+(?:\.\d+)?))?"
+    r"|(?P<op>[1./*()]))"
 )
+
 _longest_first = "|".join(sorted((*BASE, *DERIVED), key=len, reverse=True))
 LETTERS = re.compile(rf"{_longest_first}|[kMm](?:{_longest_first})")
 JOINED = re.compile(rf"(?:{LETTERS.pattern})+")
@@ -76,7 +78,8 @@ class Dimension:
         return self * other**-1
 
     def __pow__(self, exponent: Exponent) -> Dimension:
-        return Dimension(tuple(a * exponent for a in self.exponents))
+        whole = exponent.numerator if exponent.denominator == 1 else exponent
+        return Dimension(tuple(a * whole for a in self.exponents))
 
     def __str__(self) -> str:
         """A unit of that dimension as a person writes it: ``"N.m"``, ``"A.s2/kg"``, ``"1"``."""
@@ -150,7 +153,7 @@ class _Reader:
             raise self.wrong()
         token = self.tokens.pop()
         if token["symbol"]:
-            return self._symbol(token["symbol"]) ** int(token["power"] or 1)
+            return self._symbol(token["symbol"]) ** Fraction(token["power"] or token["exact"] or 1)
         if token["op"] == "1":
             return NUMBER
         if token["op"] == "(":
@@ -235,4 +238,4 @@ def _text(powers: dict[str, Exponent]) -> str:
 def _power(unit: str, exponent: Exponent) -> str:
     if exponent == 1:
         return unit
-    return f"{unit}{exponent}" if Fraction(exponent).denominator == 1 else f"{unit}^({exponent})"
+    return f"{unit}{exponent}" if exponent.denominator == 1 else f"{unit}^{float(exponent):g}"

@@ -1,14 +1,16 @@
 """Homogeneity: the dimension of an expression, from those of its symbols.
 
 An unknown dimension (None) agrees with any other. A symbol without a unit has it, and so has a number: as a term
-it takes the dimension of its neighbours, and as a factor it may be a constant of nature. Only small whole
-numbers, fractions of them and pi (`is_pure`) are taken for what they look like.
+it takes the dimension of its neighbours, and as the factor of one quantity, ``3*tanh(v)``, it may be a constant with a
+dimension. In formulas, such as ``m*v**2/2`` and ``2*pi*f``, small numbers (`is_small`) are what they look like.
 """
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
+import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -25,9 +27,10 @@ from acausal.functions import Prescribed
 from acausal.symbols import ModuleCall, time
 
 MAX_CASES = 64
+"""Of one expression, looked at one by one."""
 
-MAX_PURE = 12
-"""The largest numerator and denominator of a pure number."""
+MAX_SMALL = 12
+"""The largest numerator and denominator of a small number."""
 
 
 @dataclass(frozen=True)
@@ -54,16 +57,17 @@ class Finding:
 def examine(expression: sp.Expr, slots: Slots) -> Finding | None:
     """The first place where what is added, compared or put into a function does not fit; None if all does.
 
-    An expression with cases fits if each case does: ``where(off, G*v - i, v - R*i)`` may be zero.
+    Numbers in the branches of cases may have a dimension of their own. So what does not fit as a whole does
+    if every case does: ``v*where(off, G, 1) - i*where(off, 1, R)`` is ``G*v - i`` or ``v - R*i``.
     """
     known = dict(slots)
     finding = _first_finding(expression, known)
     if finding is None or not expression.has(sp.Piecewise):
         return finding
-    return next((f for case in _cases_of(expression) if (f := _first_finding(case, known))), None)
+    return next(filter(None, (_first_finding(case, known) for case in _cases_of(expression))), None)
 
 
-def _first_finding(expression: sp.Expr, known: Mapping[Any, Any]) -> Finding | None:
+def _first_finding(expression: Any, known: Mapping[Any, Any]) -> Finding | None:
     try:
         _Walk(known).of(expression)
     except _Unlike as unlike:
@@ -72,19 +76,20 @@ def _first_finding(expression: sp.Expr, known: Mapping[Any, Any]) -> Finding | N
 
 
 def _cases_of(expression: Any) -> Iterator[Any]:
-    """The expression for every choice of cases, the same where the conditions are; itself if these are many."""
+    """What stands in cases, and the expression in every case; the whole of it where these are many.
+
+    Where the conditions are the same, so is the case.
+    """
     pieces: dict[tuple[Any, ...], list[Any]] = {}
     for piece in sorted(expression.atoms(sp.Piecewise), key=sp.default_sort_key):
         pieces.setdefault(tuple(condition for _, condition in piece.args), []).append(piece)
     if math.prod(map(len, pieces)) > MAX_CASES:
-        return iter([expression])
-    chosen = itertools.product(*(range(len(conditions)) for conditions in pieces))
-    return (
-        expression.xreplace(
-            {p: p.args[i][0] for i, same in zip(choice, pieces.values(), strict=True) for p in same}
-        )
-        for choice in chosen
-    )
+        yield expression
+        return
+    yield from itertools.chain.from_iterable(pieces.values())
+    for choice in itertools.product(*(range(len(conditions)) for conditions in pieces)):
+        chosen = zip(choice, pieces.values(), strict=True)
+        yield expression.xreplace({p: p.args[i][0] for i, same in chosen for p in same})
 
 
 class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
@@ -95,14 +100,13 @@ class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
         self.finding = Finding(reason, excess)
 
 
-def is_pure(number: Any) -> bool:
-    """Whether a number is 2, 1/2, 0.5, pi or the like, and not perhaps a constant of nature."""
-    return all(_is_small(n) for n in number.atoms(sp.Number))
-
-
-def _is_small(number: Any) -> bool:
-    top, bottom = float(number).as_integer_ratio() if number.is_Float else (number.p, number.q)
-    return abs(top) <= MAX_PURE and bottom <= MAX_PURE
+def is_small(number: Any) -> bool:
+    """Whether a number is made of 2, 1/2, 0.5, pi and the like: 9.81 and 1000 may be constants of nature."""
+    ratios = (
+        (n.p, n.q) if n.is_Rational else float(n).as_integer_ratio()
+        for n in number.atoms(sp.Number)
+    )
+    return all(abs(above) <= MAX_SMALL and below <= MAX_SMALL for above, below in ratios)
 
 
 class _Walk:
@@ -130,25 +134,25 @@ class _Walk:
             if here is None or here == found:
                 continue
             if found is not None:
-                raise _unlike(_quoted(first), found, _quoted(part), here)
+                raise _Unlike(
+                    f"{_quoted(first)} is in {described(found)} but {_quoted(part)} in {described(here)}",
+                    here / found,
+                )
             first, found = part, here
         return found
 
     def pure(self, part: Any, role: str) -> Dimension | None:
-        """A part that must be a pure number."""
-        found = self.of(part)
+        """A part that must be a pure number; of the time alone it may be one, as in ``sin(time)``."""
+        found = None if part.free_symbols == {time} else self.of(part)
         if found is not None and found != NUMBER:
-            raise _Unlike(
-                f"{role} {_quoted(part)} is in {described(found)} but must be a pure number", found
-            )
+            raise _wrong(f"{role} {_quoted(part)}", found, NUMBER)
         return found
 
 
-def _unlike(one: str, dimension: Dimension, other: str, its: Dimension) -> _Unlike:
-    """What to say of two things, named, that should have one dimension."""
-    return _Unlike(
-        f"{one} is in {described(dimension)} but {other} in {described(its)}", its / dimension
-    )
+def _wrong(name: str, found: Dimension, wanted: Dimension) -> _Unlike:
+    """What to say of something, named, that has the wrong dimension."""
+    need = "a pure number" if wanted == NUMBER else f"in {described(wanted)}"
+    return _Unlike(f"{name} is in {described(found)} but must be {need}", found / wanted)
 
 
 def _quoted(term: Any) -> str:
@@ -187,11 +191,12 @@ def _function(walk: _Walk, expression: Any) -> Dimension:
 
 
 def _product(walk: _Walk, expression: Any) -> Dimension | None:
-    found: Dimension | None = NUMBER
-    for factor in expression.args:
-        here = walk.of(factor) if not factor.is_number else NUMBER if is_pure(factor) else None
-        found = None if found is None or here is None else found * here
-    return found
+    numbers = [f for f in expression.args if f.is_number and f not in (1, -1)]
+    quantities = [walk.of(f) for f in expression.args if not f.is_number]
+    is_formula = len(quantities) > 1 or not numbers or any(n.is_irrational for n in numbers)
+    if None in quantities or not (is_formula and all(map(is_small, numbers))):
+        return None
+    return functools.reduce(operator.mul, quantities)
 
 
 def _power(walk: _Walk, expression: Any) -> Dimension | None:
@@ -220,8 +225,8 @@ def _prescribed(walk: _Walk, expression: Any) -> Dimension | None:
         if here is None:
             continue
         if found is not None and here * SECOND**n != found:
-            role = f"{_quoted(signal)}, derivative {n} of {_quoted(signals[0])},"
-            raise _unlike(role, here, "that", found / SECOND**n)
+            name = f"{_quoted(signal)}, derivative {n} of {_quoted(signals[0])},"
+            raise _wrong(name, here, found / SECOND**n)
         found = here * SECOND**n
     return None if found is None else found / SECOND ** int(order)
 
@@ -235,9 +240,7 @@ def _call(walk: _Walk, expression: Any) -> Dimension | None:
     for i, (argument, order) in enumerate(zip(arguments, orders, strict=True)):
         here, takes = walk.of(argument), declared.get(i)
         if here is not None and takes is not None and here != takes:
-            raise _unlike(
-                f"argument {i + 1} of '{module}', {_quoted(argument)},", here, "it takes", takes
-            )
+            raise _wrong(f"argument {i + 1} of '{module}', {_quoted(argument)},", here, takes)
         if order:
             divisor = here or takes
             found = None if found is None or divisor is None else found / divisor ** int(order)

@@ -625,7 +625,7 @@ class Static(ac.Component):
     """Circuits without states, driven by the voltage ``u``."""
 
     u = ac.Input(unit="V")
-    r = ac.Input()
+    r, g = ac.Input(), ac.Input()
 
     def __init__(self):
         super().__init__()
@@ -721,7 +721,7 @@ class Static(ac.Component):
         self.connect(self.ten.p, self.variable.p, self.conductor.p)
         self.connect(self.variable.n, self.conductor.n, self.ground.p)
         self.connect(self.r, self.variable.R)
-        self.connect(self.r, self.conductor.G)
+        self.connect(self.g, self.conductor.G)
 
     def _sensors(self):
         self.meter, self.power = el.MultiSensor(), el.PowerSensor()
@@ -750,7 +750,7 @@ def static():
     observe = jax.jit(lambda u: system.observe(names, 0.0, jnp.zeros(0), u, params))
 
     def at(u, r=0.5):
-        given = {"u": float(u), "r": float(r)}
+        given = {"u": float(u), "r": float(r), "g": float(r)}
         values = observe(jnp.asarray([given[name] for name in system.inputs]))
         return dict(zip(names, np.asarray(values).tolist(), strict=True))
 

@@ -68,11 +68,11 @@ def test_starts_are_expressions_of_parameters():
 
         def __init__(self, **modifiers):
             super().__init__(**modifiers)
-            self.s = Start(2 * self.m + self.factor)
+            self.s = Start(self.factor * self.m + 2)
 
     system = ac.compile(model(m=Stretched(m=1.0)))
     assert system.initial_state().tolist() == [5.0, 0.0]
-    assert system.initial_state({"m.m": 4.0}).tolist() == [11.0, 0.0]
+    assert system.initial_state({"m.m": 4.0}).tolist() == [14.0, 0.0]
 
 
 def test_x0_by_name_or_as_a_whole():

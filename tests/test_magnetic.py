@@ -278,7 +278,7 @@ def test_leakages_have_their_permeance():
 
 def test_other_reluctances_sources_and_sensors():
     class Circuit(ac.Component):
-        R = ac.Input(unit="1/H")
+        R, G = ac.Input(unit="1/H"), ac.Input(unit="H")
 
         def __init__(self):
             super().__init__()
@@ -304,11 +304,11 @@ def test_other_reluctances_sources_and_sensors():
             )
             self.connect(self.source.port_n, self.ground.port)
             self.connect(self.R, self.third.R_m)
-            self.connect(self.R, self.fourth.G_m)
+            self.connect(self.G, self.fourth.G_m)
             self.connect(self.R, self.leak.R_mUsefulTot)
 
     names = ["sensor.Phi", "drop.V_m", "leak.R_m", "fourth.Phi", "leak.Phi", "idle.V_m"]
-    found = values(Circuit(), names, (0.5,))
+    found = values(Circuit(), names, (0.5, 0.5))
     behind = 1 / (0.5 + 1 / 2)  # the permeance 0.5 and the leakage of 0.8/0.2 times 0.5
     flux = 12 / (2 + 2 + 0.5 + behind)
     assert found["leak.R_m"] == pytest.approx(2)

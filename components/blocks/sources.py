@@ -69,12 +69,8 @@ class Constant(SO):
         yield ac.Eq(self.y, self.k)
 
 
-class ContinuousClock(SO):
-    """The time since ``startTime``: ``y = offset + max(time - startTime, 0)`` [s]."""
-
-    offset = ac.Parameter(0.0, unit="s", doc="offset of the output")
-    startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
-    y = ac.Output(unit="s", doc="output signal")
+class ContinuousClock(SignalSource):
+    """The time since ``startTime``: ``y = offset + max(time - startTime, 0)``."""
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.offset + ac.maximum(ac.time - self.startTime, 0))
