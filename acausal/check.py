@@ -152,12 +152,13 @@ def _slots(group: EquationGroup, measures: _Measures) -> Slots:
 
 def _hint(template: Template, slots: Slots, finding: Finding) -> str:
     """What may mend the equation: another unit of a parameter, or a derivative."""
-    known = dict(slots)
-    own = [s for s in template.parameters if "." not in str(s) and known[s] is not None]
+    own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
     found: list[str] = []
-    for symbol, power in product(own, (1, -1)):
-        meant = known[symbol] * finding.excess**power
-        if examine(template.residual, tuple({**known, symbol: meant}.items())) is None:
+    for (symbol, given), power in product(own, (1, -1)):
+        if not isinstance(given, Dimension):
+            continue
+        meant = given * finding.excess**power
+        if examine(template.residual, tuple({**dict(slots), symbol: meant}.items())) is None:
             found = [f"should '{symbol}' be in {described(meant)}"]
             break
     if finding.excess in (SECOND, SECOND**-1):

@@ -7,10 +7,8 @@ dimension. In formulas, such as ``m*v**2/2`` and ``2*pi*f``, small numbers (`is_
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
-import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -193,10 +191,11 @@ def _function(walk: _Walk, expression: Any) -> Dimension:
 def _product(walk: _Walk, expression: Any) -> Dimension | None:
     numbers = [f for f in expression.args if f.is_number and f not in (1, -1)]
     quantities = [walk.of(f) for f in expression.args if not f.is_number]
+    known = [q for q in quantities if q is not None]
     is_formula = len(quantities) > 1 or not numbers or any(n.is_irrational for n in numbers)
-    if None in quantities or not (is_formula and all(map(is_small, numbers))):
+    if len(known) < len(quantities) or not (is_formula and all(map(is_small, numbers))):
         return None
-    return functools.reduce(operator.mul, quantities)
+    return math.prod(known, start=NUMBER)
 
 
 def _power(walk: _Walk, expression: Any) -> Dimension | None:

@@ -134,6 +134,30 @@ def simulated(part: ac.Component, **given: Any) -> None:
     ac.simulate(compiled(part=part), (0.0, 1.0), dt=0.5, **given)
 
 
+class Bump(tl.PartialCompliant):
+    """A cubic spring, the unit of whose constant is the author's concern."""
+
+    def __init__(self, unit: str) -> None:
+        super().__init__()
+        self.k = ac.Parameter(1.0, unit=unit)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.f, self.k * self.s_rel**3)
+
+
+def mass_of_a_length() -> None:
+    whole: Any = model(wall=tl.Fixed(s0=1), mass=tl.Mass(m=1))
+    whole.mass.modify(m=whole.wall.s0)
+    ac.compile(whole)
+
+
+def start_at_a_mass() -> None:
+    whole: Any = model(mass=tl.Mass(m=1))
+    whole.mass.modify(s=ac.Start(whole.mass.m, fixed=True))
+    ac.compile(whole)
+
+
 GALLERY: dict[str, Wrong] = {
     # -- structure -------------------------------------------------------------------------------------
     "an unconnected flange": (
@@ -563,6 +587,40 @@ GALLERY: dict[str, Wrong] = {
             "'s' belongs to Mass, which is not part of Equations",
             "or connect instead",
         ),
+    ),
+    # -- units -----------------------------------------------------------------------------------------
+    "a parameter in a wrong unit": (
+        lambda: compiled(bump=Bump("N/m")),
+        ac.UnitError,
+        (
+            "Bump 'bump': 'f = k*s_rel**3': 'f' is in N (force) but 'k*s_rel**3' in N.m2",
+            "should 'k' be in N/m3?",
+        ),
+    ),
+    "a unit without its dot": (
+        lambda: compiled(bump=Bump("Nm-3")),
+        ac.UnitError,
+        ("Bump 'bump'.k: 'Nm-3' is no unit; did you mean 'N.m-3'?",),
+    ),
+    "an unknown unit": (
+        lambda: compiled(bump=Bump("Nwton")),
+        ac.UnitError,
+        ("Bump 'bump'.k: 'Nwton' is no unit",),
+    ),
+    "a mass that is a length": (
+        mass_of_a_length,
+        ac.UnitError,
+        ("'mass.m = wall.s0': 'mass.m' is in kg (mass) but 'wall.s0' in m (length)",),
+    ),
+    "a start at a mass": (
+        start_at_a_mass,
+        ac.UnitError,
+        ("'mass.s = mass.m': 'mass.s' is in m (length) but 'mass.m' in kg (mass)",),
+    ),
+    "a force for a speed": (
+        lambda: compiled("sensor.f - drive.v_ref", sensor=tl.ForceSensor(), drive=tl.Speed()),
+        ac.UnitError,
+        ("'sensor.f' in N (force) and 'drive.v_ref' in m/s (speed) are connected",),
     ),
     # -- initial time and simulation -------------------------------------------------------------------
     "fixed starts that contradict each other": (
