@@ -33,7 +33,7 @@ def check_dimensions(flat: FlatModel) -> None:
 
     Raises:
         UnitError: for text that is no unit; for equations, values and connections of unlike dimensions. It names
-            the components, the equations as they are written, and what is unlike in them.
+            the components, the equations as they are written, and what is unlike in them, at most a dozen.
     """
     _refuse(list(_misspelt(flat.layout)))
     measures = _measure(flat.layout)

@@ -148,6 +148,7 @@ class Start:
 class Declaration:
     """Base of everything that a component declares as a class attribute.
 
+    ``unit`` is in Modelica's spelling, ``"N.m/rad"``; ``"1"`` is that of a pure number, ``""`` fits everything.
     ``when`` names an option: the declaration exists only where that option is true (a leading ``not ``
     inverts it). ``shape`` makes a vector or a matrix; its sizes are integers, names of attributes,
     or ``":"`` for parameters that take the size of their value.

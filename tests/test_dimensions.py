@@ -362,10 +362,17 @@ def test_every_function_of_equations_has_a_rule() -> None:
 
 
 def test_many_cases_are_taken_as_a_whole() -> None:
-    def steps(s: Any) -> Any:
-        return sum(ac.where(s.x > i, 1 / s.R, 1) for i in range(8)) * s.u, s.i
+    def switches(n: int) -> Callable[[Any], Any]:
+        def equation(s: Any) -> Any:
+            off = sum(ac.where(s.x > i, 1 / s.R, 1) for i in range(1, n))
+            return s.u * (off + ac.where(s.x > n, 1 / s.R, 1)), s.i * ac.where(s.x > n, 1, s.R)
 
-    check_dimensions(flatten(Stated(steps)))
+        return equation
+
+    check_dimensions(flatten(Stated(switches(1))))
+    message = refused(Stated(switches(7)))
+    assert "in A (current)" in message
+    assert "in V (voltage)" in message
 
 
 # -- what is checked besides ---------------------------------------------------------------------------
