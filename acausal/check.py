@@ -21,7 +21,8 @@ from acausal.flatten import FlatModel
 from acausal.homogeneity import Finding, Signature, Slots, examine
 from acausal.layout import Layout
 from acausal.symbols import Declaration, Module
-from acausal.template import Binding, EquationGroup, Integers, Template
+from acausal.template import Binding, EquationGroup, Integers
+from acausal.totals import Statement
 
 MAX_LISTED = 12
 
@@ -150,7 +151,7 @@ def _slots(group: EquationGroup, measures: _Measures) -> Slots:
     return tuple(slots)
 
 
-def _hint(template: Template, slots: Slots, finding: Finding) -> str:
+def _hint(template: Statement, slots: Slots, finding: Finding) -> str:
     """What may mend the equation: another unit of a parameter, or a derivative."""
     own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
     found: list[str] = []
