@@ -69,6 +69,9 @@ class Component:
         DeclarationError: for an unknown name, a value of the wrong kind or outside an option's choices.
     """
 
+    DISCRETE: ClassVar[tuple[str, ...]] = ()
+    """Discrete variables of the Modelica class that this class does without; files may give their starts."""
+
     _declared: ClassVar[dict[str, Declaration | Connector]] = {}
 
     if TYPE_CHECKING:

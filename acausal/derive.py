@@ -5,6 +5,7 @@ Of a `Total` integers tell the same, without sympy.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -12,6 +13,7 @@ import sympy as sp
 from sympy.core.relational import Relational
 
 from acausal.errors import StructureError
+from acausal.functions import Prescribed
 from acausal.symbols import time
 from acausal.template import Template, interned
 from acausal.totals import Statement, Total
@@ -110,6 +112,28 @@ def differentiate(template: Statement) -> tuple[Statement, tuple[tuple[int, bool
         f"derivative of {template.origin}",
     )
     return derivative, tuple(kept)
+
+
+@cache
+def settled(template: Template) -> tuple[Template, tuple[int, ...]]:
+    """The equation with signals in the place of `Prescribed`, for when it is not differentiated any more.
+
+    Returns:
+        The new template and, per variable slot, the column of the old one: the signals that only stand for
+        further derivatives are gone.
+    """
+    residual = template.residual.replace(Prescribed, lambda order, _, *signals: signals[int(order)])
+    present = residual.free_symbols
+    kept = tuple(c for c, s in enumerate(template.variables) if s in present)
+    variables = tuple(template.variables[c] for c in kept)
+    orders = tuple(template.orders[c] for c in kept)
+    return replace(template, residual=residual, variables=variables, orders=orders), kept
+
+
+@cache
+def has_prescribed(template: Template) -> bool:
+    """Whether the derivatives of a signal are given in the equation."""
+    return template.residual.has(Prescribed)
 
 
 def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:

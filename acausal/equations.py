@@ -55,7 +55,10 @@ class Equations:
                 node = derivative[node]
                 known.add(node)
         structure = graph.DifferentialStructure(
-            incidence=[[v for v in row if v not in known] for row in variables],
+            incidence=[
+                [v for v in _read(t, row) if v not in known]
+                for t, row in zip(template, variables, strict=True)
+            ],
             derivative=derivative,
             successor=[-1] * len(variables),
             differentiate=lambda e, s: system.differentiate(e),
@@ -199,7 +202,14 @@ class Equations:
         self.parameters.append([self.parameters[equation][c] for c in kept])
         self.modules.append([self.modules[equation][c] for c in used])
         self.component.append(self.component[equation])
-        return [v for v in self.variables[-1] if v not in self.known]
+        return [v for v in _read(special, self.variables[-1]) if v not in self.known]
+
+    def settle(self) -> None:
+        """Put signals in the place of `Prescribed`; nothing is differentiated after this."""
+        for e, template in enumerate(self.template):
+            if derive.has_prescribed(template):
+                self.template[e], columns = derive.settled(template)
+                self.variables[e] = [self.variables[e][c] for c in columns]
 
     def new_node(self) -> int:
         """A further variable without a name."""
@@ -216,3 +226,10 @@ class Equations:
         if node in self.known:
             self.known.add(derivative)
         return derivative, self.sign[node] if node < len(self.sign) else 1
+
+
+def _read(template: Template, row: list[int]) -> list[int]:
+    """The variables that an equation's value depends on."""
+    if not derive.has_prescribed(template):
+        return row
+    return [row[c] for c in derive.settled(template)[1]]

@@ -43,6 +43,10 @@ class SimulationError(AcausalError):
     """A simulation did not reach its end."""
 
 
+class StepLimitError(SimulationError):
+    """An adaptive simulation used up its steps."""
+
+
 class TrainingError(AcausalError):
     """A training could not start or could not go on."""
 

@@ -329,7 +329,7 @@ class _Reader:
         return "", self.expression()
 
     def _record(self, name: str, given: list[tuple[str, Any]]) -> Any:
-        """A record, perhaps with some of its fields changed."""
+        """A record, perhaps with some of its fields changed; or what a library's function gives."""
         try:
             record = self.lookup(name + "()")
         except KeyError:
@@ -337,6 +337,8 @@ class _Reader:
             raise self.wrong(
                 f"'{shortened(name)}' cannot be called; {nearest(name, known)}"
             ) from None
+        if callable(record):
+            return self._applied(name, record, given)
         if not given:
             return record
         fields = [f.name for f in dataclasses.fields(record)] if _is_record(record) else []
@@ -345,6 +347,16 @@ class _Reader:
             if key not in fields:
                 raise self.wrong(f"{name} has no '{key}'; it has {listing(fields) or 'no fields'}")
         return dataclasses.replace(record, **changes)
+
+    def _applied(
+        self, name: str, function: Callable[..., Any], given: list[tuple[str, Any]]
+    ) -> Any:
+        self._count()
+        named = {key: value for key, value in given if key}
+        try:
+            return function(*(value for key, value in given if not key), **named)
+        except (TypeError, ValueError):
+            raise self.wrong(f"{name} does not take these arguments") from None
 
     def _list(self, closing: str) -> list[Any]:
         values: list[Any] = []

@@ -6,6 +6,7 @@ module has a ``CATALOG``, by Modelica's name. These attributes of the module are
 - ``CATALOG``: Modelica's packages, each with the Python module that holds its classes and their names, such as
   ``{"Modelica.Blocks.Math": ("blocks", ("Gain", "Add"))}``.
 - ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water()}``.
+- ``FUNCTIONS``: functions of numbers that expressions may call, by the last word of their name.
 - ``ENUMERATIONS``: names of enumeration types; their values are read as the last word, a text.
 
 Installed packages announce theirs as an entry point of the group ``acausal.libraries``.
@@ -76,10 +77,12 @@ class Library:
         return None
 
     def constant(self, name: str) -> Any:
-        """A record, a constant or the value of an enumeration, by its full name; None if there is none."""
+        """A record, a constant, the value of an enumeration or, with ``()``, a function; None if there is none."""
         words = name.removesuffix("()").split(".")
         if words[-1] in self.records:
             return self.records[words[-1]]
+        if name.endswith("()"):
+            return getattr(self.module, "FUNCTIONS", {}).get(words[-1])
         enumerations: tuple[str, ...] = getattr(self.module, "ENUMERATIONS", ())
         return words[-1] if len(words) > 1 and words[-2] in enumerations else None
 

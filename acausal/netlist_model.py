@@ -113,13 +113,23 @@ def attribute(model: Component, path: str) -> Any:
                 ):
                     return None
                 value = value[int(index) - 1]
-        elif isinstance(value, Component):
-            value = _member(value, step[1])
-        elif isinstance(value, Connector) and step[1] in value.declarations:
-            value = getattr(value, step[1])
         else:
-            return None
+            value = _step(value, step[1])
     return value
+
+
+def _step(value: Any, name: str) -> Any:
+    """A member by its name; of a list of parts the list of their members, as in ``sine.y``."""
+    match value:
+        case Component():
+            return _member(value, name)
+        case Connector():
+            return getattr(value, name) if name in value.declarations else None
+        case list():
+            members = [_step(v, name) for v in cast(list[Any], value)]
+            return members if members and all(m is not None for m in members) else None
+        case _:
+            return None
 
 
 def state(part: Any, key: str) -> tuple[Any, ...]:
@@ -155,6 +165,8 @@ def is_left_out(model: Component, path: str) -> bool:
     """Whether a name means a connector that an option has left out."""
     owner_path, _, name = path.rpartition(".")
     owner = attribute(model, owner_path) if owner_path else model
+    if isinstance(owner, list) and owner:
+        owner = cast(list[Any], owner)[0]
     if not isinstance(owner, Component):
         return False
     name = name.partition("[")[0]

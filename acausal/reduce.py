@@ -126,6 +126,7 @@ def reduce(model: FlatModel) -> ReducedModel:
     if problem is not None:
         raise StructureError(problem)
     system.reduce_index()
+    system.settle()
     states = select_states(system)
     return _order(system, states)
 

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import DataError
+from acausal.errors import DataError, StepLimitError
 from acausal.simulation import inputs as drives
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
 from acausal.simulation.fixed import grid, simulate_fixed
-from acausal.simulation.run import Run
+from acausal.simulation.run import EIGENVALUES, Run
 from acausal.simulation.solution import Solution
 
 if TYPE_CHECKING:
@@ -57,7 +57,8 @@ def simulate(
         x0: initial values by name, or the whole state; by default the model's start values.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it is Kvaerno5 if the Jacobian at the start has damped modes so fast that stability
-            would cost Tsit5 more than 5000 steps (not examined while JAX traces, and above 300 states).
+            would cost Tsit5 more than 5000 steps, or if Tsit5 does not arrive within ``max_steps`` (neither
+            while JAX traces, nor above 300 states).
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
@@ -82,9 +83,14 @@ def simulate(
     if ends is not None:
         scheme = solvers.named("tsit5" if solver == "auto" else solver)
         return simulate_fixed(run, ends, saved, scheme)
-    chosen = _automatic(run) if solver == "auto" else solvers.named(solver)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
-    return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, adjoint)
+    candidates = _automatic(run) if solver == "auto" else (solvers.named(solver),)
+    for chosen in candidates[:-1]:
+        try:
+            return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, adjoint)
+        except StepLimitError:  # the model became stiff on its way
+            pass
+    return simulate_adaptive(run, ts, candidates[-1], rtol, atol, max_steps, adjoint)
 
 
 def _in_model_units(system: System, record: Data) -> Data:
@@ -92,9 +98,13 @@ def _in_model_units(system: System, record: Data) -> Data:
     return record.select(n for n in system.inputs if n in record.signals).for_system(system)
 
 
-def _automatic(run: Run) -> solvers.Solver:
-    """Tsit5, or Kvaerno5 for a stiff model."""
-    return solvers.named("kvaerno5" if solvers.stiff(run.modes(), run.end - run.start) else "tsit5")
+def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
+    """Tsit5 and, should it need too many steps, Kvaerno5; this at once for a model that is stiff at the start."""
+    implicit = solvers.named("kvaerno5")
+    if solvers.stiff(run.modes(), run.end - run.start):
+        return (implicit,)
+    explicit = solvers.named("tsit5")
+    return (explicit, implicit) if len(run.x0) <= EIGENVALUES else (explicit,)
 
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:

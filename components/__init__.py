@@ -15,12 +15,13 @@ The library is written as a user writes one: it knows the rest of the package on
 ``import acausal as ac``.
 """
 
+from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
 from .modelica import CATALOG, ENUMERATIONS
 
-__all__ = ["CATALOG", "ENUMERATIONS", "RECORDS"]
+__all__ = ["CATALOG", "ENUMERATIONS", "FUNCTIONS", "RECORDS"]
 
 PACKAGES = (
     "blocks",
@@ -36,11 +37,14 @@ PACKAGES = (
 RECORDS: dict[str, Any]
 """Media, materials and material constants, by the last word of their Modelica name."""
 
+FUNCTIONS: dict[str, Callable[..., Any]]
+"""Functions that expressions in files may call, by the last word of their Modelica name."""
+
 
 def __getattr__(name: str) -> Any:
     """The packages are imported when they are asked for."""
     if name in PACKAGES:
         return import_module(f"{__name__}.{name}")
-    if name == "RECORDS":
-        return import_module(f"{__name__}.records").RECORDS
+    if name in ("FUNCTIONS", "RECORDS"):
+        return getattr(import_module(f"{__name__}.records"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,5 +1,6 @@
 """Constitutive laws that several domains share: friction, contact, brakes and tables of points."""
 
+import itertools
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -62,6 +63,20 @@ def contact(depth: Any, rate: Any, c: Any, d: Any, n: Any = 1) -> tuple[Any, Any
     return f_c, bounded(d * rate, f_c)
 
 
+def impact(depth: Any, rate: Any, c: Any, d: Any) -> Any:
+    """Force of a stop that absorbs: ``c depth (1 + d rate)``, never pulling (Hunt and Crossley, 1975).
+
+    The force begins at zero, and what was stopped leaves with at most ``1/d``.
+
+    Arguments:
+        depth: how deep the body penetrates the stop; negative where it is apart.
+        rate: its derivative.
+        c: stiffness.
+        d: damping, the inverse of a speed.
+    """
+    return c * ac.maximum(depth, 0) * ac.maximum(1 + d * rate, 0)
+
+
 def bounded(value: Any, limit: Any) -> Any:
     """``value`` between ``-limit`` and ``limit``."""
     return ac.maximum(ac.minimum(value, limit), -limit)
@@ -102,17 +117,14 @@ def lookup(x: Any, points: Sequence[Sequence[Any]], smoothness: Smoothness) -> A
     """
     if len(points) == 1:
         return points[0][1]
-    lower = points[:-1]
     if smoothness == "ConstantSegments":
-        pieces = [y for _, y in points]
-        bounds = [x_i for x_i, _ in points[1:]]
-    else:
-        pieces = [
-            a[1] + (b[1] - a[1]) / (b[0] - a[0]) * (x - a[0])
-            for a, b in zip(lower, points[1:], strict=True)
-        ]
-        bounds = [x_i for x_i, _ in lower[1:]]
-    value = pieces[-1]
-    for bound, piece in zip(reversed(bounds), reversed(pieces[:-1]), strict=True):
-        value = ac.where(x < bound, piece, value)
+        value = points[-1][1]
+        for (_, y), (x_next, _) in zip(points[-2::-1], points[:0:-1], strict=True):
+            value = ac.where(x < x_next, y, value)
+        return value
+    value = points[0][1]
+    for i, ((x0, y0), (x1, y1)) in enumerate(itertools.pairwise(points)):
+        within = x if i == 0 else ac.maximum(x, x0)
+        within = within if i == len(points) - 2 else ac.minimum(within, x1)
+        value += (y1 - y0) / (x1 - x0) * (within - x0)
     return value

@@ -59,6 +59,10 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
             "PartialForce PartialAbsoluteSensor PartialRelativeSensor PartialFriction"
         ),
     ),
+    f"{_TRANSLATIONAL}.Examples.Utilities": (
+        "translational.utilities",
+        _words("DirectMass InverseMass Spring SpringDamper SpringDamperNoRelativeStates"),
+    ),
     f"{_ROTATIONAL}.Components": (
         "rotational",
         _words(
@@ -92,6 +96,10 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
             "PartialElementaryTwoFlangesAndSupport2 PartialElementaryRotationalToTranslational "
             "PartialTorque PartialAbsoluteSensor PartialRelativeSensor PartialFriction"
         ),
+    ),
+    f"{_ROTATIONAL}.Examples.Utilities": (
+        "rotational.utilities",
+        _words("DirectInertia InverseInertia Spring SpringDamper SpringDamperNoRelativeStates"),
     ),
     f"{_ANALOG}.Basic": (
         "electrical",

@@ -1,11 +1,13 @@
-"""Media, materials and constants that a netlist may name, by the last word of their Modelica name."""
+"""Media, materials, constants and functions that a netlist may name, by the last word of their Modelica name."""
 
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
 from . import constants
 from .fluid import media
 from .magnetic import hard_magnetic, soft_magnetic
+from .translational.utilities import GenerateStribeckFrictionTable
 
 
 def _records(module: ModuleType) -> dict[str, Any]:
@@ -21,3 +23,8 @@ RECORDS: dict[str, Any] = {
     **_records(soft_magnetic),
 }
 """Name -> record or number; `BaseData` is that of soft magnetic materials."""
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    "GenerateStribeckFrictionTable": GenerateStribeckFrictionTable,
+}
+"""Name -> function of numbers."""

@@ -16,7 +16,7 @@ from acausal.components.thermal import HeatPort
 from acausal.flatten import flatten
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default).
-FRICTION = {"peak": 1, "w_small": 1e-3, "smoothness": "LinearSegments", "useHeatPort": False}
+FRICTION = {"peak": 1, "w_small": 1e-4, "smoothness": "LinearSegments", "useHeatPort": False}
 PRESSED = {**FRICTION, "mu_pos": [[0, 0.5]], "cgeo": 1, "fn_max": ...}
 RELATIVE = {"phi_nominal": 1e-4}
 BACKLASH = {"c": ..., "d": ..., "b": 0, "phi_rel0": 0, "useHeatPort": False, **RELATIVE}
@@ -38,7 +38,7 @@ DEFAULTS = {
     "IdealGear": {"ratio": ..., "useSupport": False},
     "LossyGear": {
         "ratio": ..., "lossTable": [[0, 1, 1, 0, 0]], "smoothness": "LinearSegments",
-        "useSupport": False, "useHeatPort": False, "w_small": 1e-3,
+        "useSupport": False, "useHeatPort": False, "w_small": 1e-4,
     },
     "IdealPlanetary": {"ratio": ...},
     "Gearbox": {
@@ -110,7 +110,7 @@ class Ambient(ac.Component):
 
 
 def test_every_class_is_documented_and_in_the_table():
-    for name in rot.__all__:
+    for name in set(rot.__all__) - {"utilities"}:
         cls = getattr(rot, name)
         assert inspect.getdoc(cls), name
         concrete = issubclass(cls, ac.Component) and not name.startswith("Partial")

@@ -25,11 +25,11 @@ DEFAULTS: dict[str, dict[str, Any]] = {
     "SpringDamper": {"c": ..., "d": ..., "s_rel0": 0, "useHeatPort": False, "s_nominal": 1e-4},
     "ElastoGap": {"c": ..., "d": ..., "s_rel0": 0, "n": 1, "useHeatPort": False},
     "SupportFriction": {
-        "f_pos": [[0, 1]], "peak": 1, "v_small": 1e-3, "useSupport": False, "useHeatPort": False,
+        "f_pos": [[0, 1]], "peak": 1, "v_small": 1e-4, "useSupport": False, "useHeatPort": False,
         "smoothness": "LinearSegments",
     },
     "Brake": {
-        "mu_pos": [[0, 0.5]], "peak": 1, "cgeo": 1, "fn_max": ..., "v_small": 1e-3,
+        "mu_pos": [[0, 0.5]], "peak": 1, "cgeo": 1, "fn_max": ..., "v_small": 1e-4,
         "useSupport": False, "useHeatPort": False, "smoothness": "LinearSegments",
     },
     "IdealGear": {"ratio": ..., "useSupport": False},
@@ -48,7 +48,7 @@ DEFAULTS: dict[str, dict[str, Any]] = {
         "use_s_start": True, "use_v_start": True, "use_a_start": True, "stateSelect": "default",
     },
     "MassWithStopAndFriction": {
-        "m": ..., "L": 0, "smax": ..., "smin": ..., "v_small": 1e-3, "F_prop": ...,
+        "m": ..., "L": 0, "smax": ..., "smin": ..., "v_small": 1e-4, "F_prop": ...,
         "F_Coulomb": ..., "F_Stribeck": ..., "fexp": ..., "useHeatPort": False,
     },
     "RelativeStates": {},
@@ -113,7 +113,7 @@ class Ambient(ac.Component):
 
 
 def test_every_class_is_documented_and_in_the_table():
-    for name in tl.__all__:
+    for name in set(tl.__all__) - {"utilities"}:
         cls = getattr(tl, name)
         assert inspect.getdoc(cls), name
         concrete = issubclass(cls, ac.Component) and not name.startswith("Partial")

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from acausal.errors import SimulationError
+from acausal.errors import SimulationError, StepLimitError
 from acausal.simulation import inputs, solvers
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
@@ -112,7 +112,7 @@ def _check(
         )
     implicit = isinstance(solver, dfx.AbstractImplicitSolver)
     stiff = "" if implicit else "it is stiff (choose solver='kvaerno5'), "
-    raise SimulationError(
+    raise StepLimitError(
         f"{where}, after max_steps={max_steps}. Perhaps {stiff}it runs away there, "
         "or its inputs are rough (raise max_steps, loosen rtol, or give dt for fixed steps)."
     )

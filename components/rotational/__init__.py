@@ -11,6 +11,7 @@ from acausal.components import (
     translational as translational,
 )  # comes first: its vehicle has our wheels
 
+from . import utilities
 from .components import (
     AngleToTorqueAdaptor,
     BearingFriction,
@@ -149,4 +150,5 @@ __all__ = [
     "TorqueSensor",
     "TorqueStep",
     "TorqueToAngleAdaptor",
+    "utilities",
 ]

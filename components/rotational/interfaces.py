@@ -218,4 +218,6 @@ class PartialFriction(ac.Component):
     creeps instead, and it is the stiffer the smaller ``w_small`` is.
     """
 
-    w_small = ac.Parameter(1e-3, unit="rad/s", min=0, doc="speed below which friction is smoothed")
+    DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")
+
+    w_small = ac.Parameter(1e-4, unit="rad/s", min=0, doc="speed below which friction is smoothed")

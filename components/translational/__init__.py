@@ -7,6 +7,7 @@ mass = tl.Mass(m=1.0)
 ```
 """
 
+from . import utilities
 from .components import (
     Brake,
     Damper,
@@ -129,4 +130,5 @@ __all__ = [
     "Support",
     "SupportFriction",
     "Vehicle",
+    "utilities",
 ]

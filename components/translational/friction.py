@@ -6,8 +6,8 @@ import acausal as ac
 from acausal.components.laws import (
     REGULARIZATION,
     SMOOTHNESS,
-    contact,
     coulomb,
+    impact,
     lookup,
     regularized_sign,
 )
@@ -100,10 +100,10 @@ class MassWithStopAndFriction(
     ``f = F_prop v + (F_Coulomb + F_Stribeck exp(-fexp |v|)) tanh(v/v_small)``.
 
     Modelica locks at rest and reinitializes at a stop. Here the friction creeps, and the stops at
-    ``smin`` and ``smax`` are stiff: where an end of the mass goes beyond, spring ``c_stop`` and damper
-    ``d_stop`` push back but never pull (`acausal.components.laws.contact`). The default ``d_stop``
-    makes the impact nearly inelastic (Modelica: inelastic). ``stopped`` is -1 at ``smin``, 1 at
-    ``smax``, else 0. ``lossPower = f v`` leaves out the impacts.
+    ``smin`` and ``smax`` are stiff: where an end of the mass goes beyond, ``c_stop`` and ``d_stop``
+    push back but never pull (`acausal.components.laws.impact`); the impact is inelastic but for a
+    rebound slower than ``1/d_stop``. ``stopped`` is -1 at ``smin``, 1 at ``smax``, else 0.
+    ``lossPower = f v`` leaves out the impacts.
     """
 
     m = ac.Parameter(unit="kg", min=0, doc="mass")
@@ -113,13 +113,8 @@ class MassWithStopAndFriction(
     F_Coulomb = ac.Parameter(unit="N", doc="constant friction")
     F_Stribeck = ac.Parameter(unit="N", doc="excess of friction at rest")
     fexp = ac.Parameter(unit="s/m", min=0, doc="decay of the Stribeck effect")
-    c_stop = ac.Parameter(1e6, unit="N/m", min=0, doc="stiffness of the stops")
-    d_stop = ac.Parameter(
-        lambda self: 20 * ac.sqrt(self.c_stop * self.m),
-        unit="N.s/m",
-        min=0,
-        doc="damping of the stops",
-    )
+    c_stop = ac.Parameter(1e7, unit="N/m", min=0, doc="stiffness of the stops")
+    d_stop = ac.Parameter(1e3, unit="s/m", min=0, doc="damping of the stops")
     stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of s and v as states")
     s = ac.Variable(unit="m", state="stateSelect", doc="position of the centre")
     v = ac.Variable(unit="m/s", state="stateSelect", doc="speed")
@@ -132,8 +127,8 @@ class MassWithStopAndFriction(
         yield from super().equations()
         right = self.flange_b.s - self.smax
         left = self.smin - self.flange_a.s
-        push_left = sum(contact(right, self.v, self.c_stop, self.d_stop))
-        push_right = sum(contact(left, -self.v, self.c_stop, self.d_stop))
+        push_left = impact(right, self.v, self.c_stop, self.d_stop)
+        push_right = impact(left, -self.v, self.c_stop, self.d_stop)
         dry = self.F_Coulomb + self.F_Stribeck * ac.exp(-self.fexp * ac.Abs(self.v))
         yield ac.Eq(self.v, ac.der(self.s))
         yield ac.Eq(self.a, ac.der(self.v))

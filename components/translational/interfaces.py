@@ -184,4 +184,6 @@ class PartialFriction(ac.Component):
     creeps instead, and it is the stiffer the smaller ``v_small`` is.
     """
 
-    v_small = ac.Parameter(1e-3, unit="m/s", min=0, doc="speed below which friction is smoothed")
+    DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")
+
+    v_small = ac.Parameter(1e-4, unit="m/s", min=0, doc="speed below which friction is smoothed")
