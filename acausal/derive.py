@@ -131,9 +131,9 @@ def settled(template: Template) -> tuple[Template, tuple[int, ...]]:
 
 
 @cache
-def has_prescribed(template: Template) -> bool:
+def has_prescribed(template: Statement) -> bool:
     """Whether the derivatives of a signal are given in the equation."""
-    return template.residual.has(Prescribed)
+    return isinstance(template, Template) and template.residual.has(Prescribed)
 
 
 def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:

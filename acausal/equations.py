@@ -228,7 +228,7 @@ class Equations:
         return derivative, self.sign[node] if node < len(self.sign) else 1
 
 
-def _read(template: Template, row: list[int]) -> list[int]:
+def _read(template: Statement, row: list[int]) -> list[int]:
     """The variables that an equation's value depends on."""
     if not derive.has_prescribed(template):
         return row
