@@ -225,6 +225,7 @@ def test_of_small_networks(holds: Any, network: Network, seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.skipif("not config.getoption('--hypothesis-profile', None)")
 @property_of
 @settings(max_examples=500, suppress_health_check=QUIET)
 @given(network=networks(30, 10), seed=st.integers(0, 2**16))
