@@ -159,6 +159,7 @@ class Program:
         source, index: (n_nodes,) in which array, and where in it, a node's value lies (-1: nowhere).
         instructions: in order; ``first[i]`` is the array that instruction i fills first.
         sizes: lengths of all arrays.
+        rates: where the derivatives of the states are read, and their signs; ``input_signs`` those of the inputs.
     """
 
     source: Integers
@@ -168,6 +169,7 @@ class Program:
     sizes: tuple[int, ...]
     rates: Gather | None
     rate_signs: np.ndarray
+    input_signs: np.ndarray
 
     def vector_field(self, t: Any, x: Any, u: Any, packed: Packed) -> Any:
         """Derivatives of the states, shape (n_states,)."""
@@ -196,6 +198,7 @@ class Program:
 
     def _run(self, wanted: Iterable[int], t: Any, x: Any, u: Any, packed: Packed) -> list[Any]:
         """Run the instructions that the wanted arrays depend on."""
+        u = u if (self.input_signs == 1).all() else u * self.input_signs
         arrays: list[Any] = [x, u, jnp.zeros(()), *[None] * (len(self.sizes) - 3)]
         needed = set(wanted)
         active: list[int] = []
@@ -244,7 +247,14 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
         gather(source[reduced.rates], index[reduced.rates], sizes) if len(reduced.rates) else None
     )
     return Program(
-        source, index, tuple(instructions), tuple(first), tuple(sizes), rates, reduced.rate_signs
+        source,
+        index,
+        tuple(instructions),
+        tuple(first),
+        tuple(sizes),
+        rates,
+        reduced.rate_signs,
+        reduced.input_signs,
     )
 
 

@@ -47,6 +47,7 @@ class ReducedModel:
         rates, rate_signs: for every state the node of its derivative, and its sign.
         inputs: nodes of the inputs; derivatives of inputs, where the equations need them, follow.
         input_orders: for every input, which one it derives from and how often it is differentiated.
+        input_signs: for every input the sign of its node.
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
@@ -59,6 +60,7 @@ class ReducedModel:
     rate_signs: Integers
     inputs: Integers
     input_orders: tuple[tuple[int, int], ...]
+    input_signs: Integers
     base: Integers
     derivative: Integers
     derivative_sign: Integers
@@ -147,7 +149,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         )
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)
     steps = order_steps(system, incidence, variable_of, blocks)
-    inputs, orders = _inputs(system)
+    inputs, orders, signs = _inputs(system)
     return ReducedModel(
         model=system.model,
         aliases=system.aliases,
@@ -156,6 +158,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         rate_signs=np.asarray([system.sign[v] for v in states], dtype=np.int64),
         inputs=np.asarray(inputs, dtype=np.int64),
         input_orders=tuple(orders),
+        input_signs=np.asarray(signs, dtype=np.int64),
         base=np.asarray(system.base, dtype=np.int64),
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),
@@ -163,14 +166,18 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
     )
 
 
-def _inputs(system: Equations) -> tuple[list[int], list[tuple[int, int]]]:
-    """Nodes of the inputs and of their derivatives, and (input, order) of each."""
+def _inputs(system: Equations) -> tuple[list[int], list[tuple[int, int]], list[int]]:
+    """Nodes of the inputs and of their derivatives; (input, order) and sign of each."""
     nodes = [int(system.aliases.representative[i]) for i in system.model.inputs]
     orders = [(i, 0) for i in range(len(nodes))]
+    signs = [1] * len(nodes)
     for i, node in enumerate(tuple(nodes)):
-        order = 0
-        while (node := system.structure.derivative[node]) >= 0:
+        order, sign = 0, 1
+        while system.structure.derivative[node] >= 0:
+            sign *= system.sign[node]
+            node = system.structure.derivative[node]
             order += 1
             nodes.append(node)
             orders.append((i, order))
-    return nodes, orders
+            signs.append(sign)
+    return nodes, orders, signs

@@ -255,8 +255,9 @@ class System:
             derivative = int(self.reduced.derivative[node])
             if derivative < 0:
                 raise ModelError(f"the model does not differentiate '{name[4:-1]}'")
+            sign *= int(self.reduced.derivative_sign[node])
             node, own = self.reduced.resolve(derivative)
-            return node, sign * int(self.reduced.derivative_sign[node]) * own
+            return node, sign * own
         index = self.flat.layout.find_variable(name)
         if index is None:
             hint = nearest(name, self.variables)

@@ -8,9 +8,11 @@ import hypothesis
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
 os.environ.setdefault("MPLBACKEND", "Agg")
 
-# The same examples in every run, and no deadline: the first one compiles.
-hypothesis.settings.register_profile("acausal", deadline=None, derandomize=True)
-hypothesis.settings.register_profile("search", deadline=None, database=None, print_blob=True)
+# The same examples in every run, and no deadline: the first one compiles. `search` looks further.
+hypothesis.settings.register_profile("acausal", deadline=None, derandomize=True, max_examples=30)
+hypothesis.settings.register_profile(
+    "search", deadline=None, database=None, print_blob=True, max_examples=500
+)
 hypothesis.settings.load_profile("acausal")
 
 

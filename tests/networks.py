@@ -14,10 +14,16 @@ from typing import Any
 from hypothesis import strategies as st
 
 import acausal as ac
-from acausal.components import electrical, rotational, thermal, translational
+from acausal.components import electrical, neural, rotational, thermal, translational
 from tests.parts import model
 
-MODULES = {"tl": translational, "rot": rotational, "el": electrical, "th": thermal}
+MODULES = {
+    "tl": translational,
+    "rot": rotational,
+    "el": electrical,
+    "th": thermal,
+    "neural": neural,
+}
 FLOW = {"t": ("s", "f"), "r": ("phi", "tau"), "e": ("v", "i"), "h": ("T", "Q_flow")}
 """By domain the potential and the flow of its connectors."""
 Read = Callable[..., Any]
@@ -71,6 +77,7 @@ KINDS: dict[str, Kind] = {
         lambda g: (g("c") * g("s_rel") + g("d") * g("v_rel")) * g("v_rel"),
         ("s_rel", "v_rel", "f"),
     ),
+    "Compliance": Kind("neural", FLANGES, "tt"),
     "Lever": Kind("tl", FLANGES, "tt", ("ratio",), _lossless, name="IdealGear"),
     "Fixed": Kind("tl", ("flange",), "t", ("s0",)),
     "Force": Kind("tl", ("flange",), "t"),
@@ -144,6 +151,16 @@ KINDS: dict[str, Kind] = {
     ),
     "Capacitor": Kind("el", PINS, "ee", ("C",), lambda g: g("C") * g("v") * g("v", 1), ("v", "i")),
     "Inductor": Kind("el", PINS, "ee", ("L",), lambda g: g("L") * g("i") * g("i", 1), ("v", "i")),
+    "Diode": Kind("el", PINS, "ee", ("R",), options={"Ids": 0.1, "Vt": 0.5}),
+    "SaturatingInductor": Kind(
+        "el",
+        PINS,
+        "ee",
+        ("Inom",),
+        lambda g: g("Psi", 1) * g("i"),
+        ("v", "i", "Psi"),
+        options={"Lnom": 1.5, "Lzer": 2.0, "Linf": 0.5},
+    ),
     "Ground": Kind("el", ("p",), "e"),
     "ConstantVoltage": Kind("el", PINS, "ee", ("V",)),
     "ConstantCurrent": Kind("el", PINS, "ee", ("I",)),
@@ -164,6 +181,9 @@ KINDS: dict[str, Kind] = {
     # thermal
     "HeatCapacitor": Kind("th", ("port",), "h", ("C",), lambda g: g("C") * g("der_T")),
     "ThermalConductor": Kind("th", PORTS, "hh", ("G",), _lossless, ("Q_flow", "dT")),
+    "BodyRadiation": Kind(
+        "th", PORTS, "hh", ("Gr",), _lossless, ("Q_flow", "dT"), options={"sigma": 0.1}
+    ),
     "ThermalResistor": Kind("th", PORTS, "hh", ("R",), _lossless, ("Q_flow", "dT")),
     "FixedTemperature": Kind("th", ("port",), "h", ("T",)),
     "PrescribedTemperature": Kind("th", ("port",), "h"),

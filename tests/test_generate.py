@@ -12,10 +12,12 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.components import electrical
 from tests.oracle import worst
 from tests.parts import (
     Capacitor,
     Diode,
+    Equations,
     Fixed,
     Force,
     Ground,
@@ -294,6 +296,31 @@ def test_hash_seeds_do_not_change_the_code():
     assert len(expected) > 10_000
     for run in runs:
         assert run.communicate()[0].strip() == expected
+
+
+# -- inputs -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_the_derivative_of_an_input_that_stands_negated(order):
+    def stated(s):
+        rate = ac.der(s.x) if order == 1 else ac.der(ac.der(s.x))
+        return [ac.Eq(s.x, -s.u), ac.Eq(s.y, rate)]
+
+    system = ac.compile(Equations("x y", stated, inputs="u"))
+    assert system.inputs == ("u", "der(u)", "der(der(u))")[: order + 1]
+    u = [0.4, 0.5, 0.7][: order + 1]
+    names = ["x", "y", "der(x)", system.inputs[-1]]
+    values = system.observe(names, 0.0, [], u, {})
+    np.testing.assert_allclose(values, [-0.4, -u[-1], -0.5, u[-1]])
+    assert worst(system) == 0.0
+
+
+def test_an_inductor_between_the_poles_of_a_current_source():
+    parts = {"s": electrical.SignalCurrent(), "l": electrical.Inductor(L=2.0)}
+    system = ac.compile(model("s.p - l.p", "s.n - l.n - g.p", g=electrical.Ground(), **parts))
+    values = system.observe(["l.i", "l.v", "s.v"], 0.0, [], [0.4, 0.5], system.parameters())
+    np.testing.assert_allclose(values, [-0.4, -1.0, -1.0])
 
 
 # -- odd shapes of data --------------------------------------------------------------------------------------------
