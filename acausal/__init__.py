@@ -1,8 +1,14 @@
 """Connect physical components in Python; get, simulate and train a physics-enhanced neural ODE in JAX."""
 
+import os as _os
+
 import jax as _jax
+from jaxlib.version import __version__ as _jaxlib
+
+from acausal import xla as _xla
 
 _jax.config.update("jax_enable_x64", True)
+_xla.compile_small_loops(_os.environ, _jaxlib)
 
 from acausal import networks
 from acausal.analyse import (

@@ -1,4 +1,4 @@
-"""The networks among a model's parameters: found, arranged for the machine, corrected after training."""
+"""The networks among a model's parameters: found, corrected after training."""
 
 from __future__ import annotations
 
@@ -8,44 +8,12 @@ from typing import Any
 
 import equinox as eqx
 import jax
-import jax.numpy as jnp
 from jax import Array
-from jax.typing import ArrayLike
 
 from acausal.networks.energy import Levelled
-from acausal.networks.mlp import Layered
 from acausal.networks.scaled import Potential
 from acausal.networks.zero import OffsetCorrected
 from acausal.signals import Signal
-
-FEW = 4
-"""Sequences side by side up to which products are better fused than left to a library."""
-
-
-class Fused(eqx.Module):
-    """A network whose products are spelled as sums, which XLA fuses into the step around them.
-
-    On a CPU the gradient of the quarter vehicle takes 0.8 × the time of matrix products for up to
-    `FEW` sequences side by side, and 2 × for twelve and more.
-    """
-
-    net: Layered
-
-    def __call__(self, *inputs: ArrayLike) -> Array:
-        """The network's output."""
-        return self.net.evaluate(inputs, lambda matrix, vector: jnp.sum(matrix * vector, axis=-1))
-
-
-def arranged(params: Mapping[str, Any], side_by_side: int) -> dict[str, Any]:
-    """The parameters with networks spelled for so many evaluations side by side; they compute the same."""
-
-    def fuse(leaf: Any) -> Any:
-        return Fused(leaf) if isinstance(leaf, Layered) and 1 < side_by_side <= FEW else leaf
-
-    return {
-        name: jax.tree.map(fuse, leaf, is_leaf=lambda node: isinstance(node, Layered))
-        for name, leaf in params.items()
-    }
 
 
 def modules(params: Mapping[str, Any]) -> dict[str, eqx.Module]:

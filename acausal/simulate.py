@@ -62,7 +62,8 @@ def simulate(
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
-        adjoint: how diffrax differentiates adaptive steps; by default reverse mode with checkpoints.
+        adjoint: how diffrax differentiates adaptive steps; by default in reverse mode with checkpoints.
+            `diffrax.ForwardMode()` allows forward mode (`jax.jvp`, `jax.jacfwd`), for fixed steps, too.
 
     Returns:
         The trajectory, any variable of it by name.
@@ -82,7 +83,8 @@ def simulate(
     run.check_start()
     if ends is not None:
         scheme = solvers.named("tsit5" if solver == "auto" else solver)
-        return simulate_fixed(run, ends, saved, scheme)
+        direct = isinstance(adjoint, dfx.ForwardMode | dfx.DirectAdjoint)
+        return simulate_fixed(run, ends, saved, scheme, direct=direct)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
     candidates = _automatic(run) if solver == "auto" else (solvers.named(solver),)
     for chosen in candidates[:-1]:

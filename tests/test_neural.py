@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.neural import Fused, arranged, networks
+from acausal.neural import networks
 from acausal.training.arguments import arguments, calls
 from tests.oscillator import learned
 
@@ -64,18 +64,6 @@ def test_offset_correction():
     assert float(corrected["a.net"](0.4)) == pytest.approx(float(difference))
     only = ac.remove_offset(params, ("b.net",))
     assert only["a.net"] is params["a.net"]
-
-
-def test_other_spellings_compute_the_same():
-    params: dict[str, Any] = {"a.net": ac.MLP(key=0), "a.c": 3.0}
-    params |= {"b.net": ac.OffsetCorrected(ac.MLP(key=1))}
-    for many in (1, 3, 100):
-        again = arranged(params, many)
-        assert again["a.c"] == 3.0
-        for name in ("a.net", "b.net"):
-            assert float(again[name](0.4)) == pytest.approx(float(params[name](0.4)), rel=1e-12)
-    assert isinstance(arranged(params, 3)["b.net"].net, Fused)
-    assert isinstance(arranged(params, 100)["a.net"], ac.MLP)
 
 
 def test_tables_are_no_networks():

@@ -45,7 +45,12 @@ def grid(start: float, end: float, dt: float) -> np.ndarray:
 
 
 def simulate_fixed(
-    run: Run, ends: np.ndarray, saved: np.ndarray | None, solver: solvers.Solver
+    run: Run,
+    ends: np.ndarray,
+    saved: np.ndarray | None,
+    solver: solvers.Solver,
+    *,
+    direct: bool = False,
 ) -> Solution:
     """Simulate in equal steps.
 
@@ -54,6 +59,7 @@ def simulate_fixed(
         ends: the steps' ends, from `grid`.
         saved: times to save, all among ``ends``; ``None`` saves all.
         solver: a one-step scheme.
+        direct: whether derivatives in forward mode must work, too.
 
     Raises:
         DataError: for a time to save that is no step's end.
@@ -63,7 +69,7 @@ def simulate_fixed(
     h = (ends[-1] - ends[0]) / (len(ends) - 1)
     samples = inputs.over_steps(run.drive, ends)
     steps = Steps(jnp.asarray(ends[:-1]), jnp.asarray(h), samples)
-    x = _scan(run.system, run.packed, run.x0, steps, solvers.fixed(solver))
+    x = _scan(run.system, run.packed, run.x0, steps, solvers.fixed(solver), direct)
     if not traced(x):
         _check(run, ends, np.asarray(x))
     t = jnp.asarray(ends)[rows]
@@ -75,8 +81,10 @@ def simulate_fixed(
 
 
 @eqx.filter_jit
-def _scan(system: System, packed: Any, x0: Array, steps: Steps, solver: solvers.Solver) -> Array:
-    xs, _, end = integrate(system, packed, x0, steps, solver)
+def _scan(
+    system: System, packed: Any, x0: Array, steps: Steps, solver: solvers.Solver, direct: bool
+) -> Array:
+    xs, _, end = integrate(system, packed, x0, steps, solver, direct=direct)
     return jnp.concatenate([xs, end[None]])
 
 

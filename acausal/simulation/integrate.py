@@ -1,4 +1,4 @@
-"""Fixed steps: one `jax.lax.scan` over one step of a scheme.
+"""Fixed steps: one step of a scheme, and its repetition.
 
 Explicit Runge–Kutta schemes are unrolled from the diffrax solver's own tableau, so that XLA sees plain
 arithmetic with constant coefficients; of any other solver the `step` method is called.
@@ -17,6 +17,7 @@ from jax import Array
 from jax.typing import ArrayLike
 
 from acausal.simulation.inputs import Drive, Samples
+from acausal.simulation.march import march
 from acausal.simulation.solvers import Solver
 
 if TYPE_CHECKING:
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 
 Field = Callable[[ArrayLike, Array, Any], Array]
 """The right-hand side within a step: (fraction of the step, state, arguments) -> derivative."""
+
+_Args = tuple[Any, tuple[Drive | None, ...], "Step"]
+"""What a right-hand side needs beside the state: parameters, inputs that are functions, the step."""
 
 Stepper = Callable[[Field, Array, ArrayLike, Any, Array | None], Array]
 """One step of a scheme: (field, state, length, arguments, derivative at the start if known) -> state."""
@@ -58,10 +62,10 @@ class Step(eqx.Module):
     def inputs(self, fraction: ArrayLike, functions: tuple[Drive | None, ...]) -> Array:
         """The inputs at a fraction of the step, shape (number of inputs,)."""
         u = self.start if _is_zero(fraction) else self.start + fraction * (self.end - self.start)
-        for i, function in enumerate(functions):
-            if function is not None:
-                u = u.at[i].set(function(self.time(fraction)))
-        return u
+        if all(f is None for f in functions):
+            return u
+        t = self.time(fraction)
+        return jnp.stack([v if f is None else f(t) for v, f in zip(u, functions, strict=True)])
 
 
 def _is_zero(fraction: ArrayLike) -> bool:
@@ -77,7 +81,8 @@ def integrate(
     *,
     outputs: Sequence[str] = (),
     substeps: int = 1,
-) -> tuple[Array, Array, Array]:
+    direct: bool = False,
+) -> tuple[Array, Array | None, Array]:
     """Integrate the model over a row of steps. Pure: trace, differentiate and map it.
 
     Arguments:
@@ -89,58 +94,56 @@ def integrate(
         outputs: variables to observe at the start of every step, where their terms are shared with the
             first stage of an explicit scheme.
         substeps: equal parts that each step is divided into.
+        direct: whether derivatives in forward mode must work, too; those in reverse mode then take more memory.
 
     Returns:
         The states at the steps' starts, shape (n, number of states); the outputs there, shape
-        (n, number of outputs); the state at the end. A step whose equations are not solved gives NaN.
+        (n, number of outputs), ``None`` without any; the state at the end. A step whose equations are not
+        solved gives NaN.
     """
     outputs = tuple(outputs)
-    functions = steps.inputs.functions
-    equal = steps.h if steps.h.ndim == 0 else None
     explicit = isinstance(solver, dfx.AbstractERK)
     advance = _explicit(solver) if explicit else _implicit(solver)
+    equal = steps.h if steps.h.ndim == 0 else None
+    constants, fixed = eqx.partition((packed, steps.inputs.functions, equal), eqx.is_array)
 
-    def field(
-        fraction: ArrayLike, x: Array, args: tuple[Any, tuple[Drive | None, ...], Step]
-    ) -> Array:
+    def field(fraction: ArrayLike, x: Array, args: _Args) -> Array:
         packed, functions, step = args
         return system.vector_field(step.time(fraction), x, step.inputs(fraction, functions), packed)
 
-    def part(x: Array, j: ArrayLike, step: Step, slope: Array | None) -> Array:
+    def part(x: Array, j: ArrayLike, args: _Args, slope: Array | None) -> Array:
         def within(fraction: ArrayLike, x: Array, args: Any) -> Array:
             j, args = args
             return field((j + fraction) / substeps, x, args)
 
-        return advance(within, x, step.h / substeps, (j, (packed, functions, step)), slope)
+        return advance(within, x, args[2].h / substeps, (j, args), slope)
 
-    def whole(x: Array, step: Step, slope: Array | None) -> Array:
+    def whole(x: Array, args: _Args, slope: Array | None) -> Array:
         if substeps == 1:
-            return advance(field, x, step.h, (packed, functions, step), slope)
-        x = part(x, jnp.zeros(()), step, slope)
-        return jax.lax.scan(
-            lambda x, j: (part(x, j, step, None), None), x, jnp.arange(1.0, substeps)
-        )[0]
+            return advance(field, x, args[2].h, args, slope)
+        x = part(x, jnp.zeros(()), args, slope)
+        rest = jnp.arange(1.0, substeps)
+        return jax.lax.scan(lambda x, j: (part(x, j, args, None), None), x, rest)[0]
 
-    def observe(x: Array, step: Step) -> tuple[Array | None, Array]:
-        if not outputs:
-            return None, jnp.zeros(0)
+    def observe(x: Array, args: _Args) -> tuple[Array | None, Array | None]:
+        packed, functions, step = args
         point = (step.t, x, step.inputs(0.0, functions), packed)
+        if not outputs:
+            return None, None
         if explicit:
             return system.vector_field_and_observe(outputs, *point)
         return None, system.observe(outputs, *point)
 
-    def body(x: Array, row: tuple[Array, ...]) -> tuple[Array, tuple[Array, Array]]:
-        step = Step(row[0], row[3] if equal is None else equal, row[1], row[2])
-        slope, y = observe(x, step)
-        return whole(x, step, slope), (x, y)
+    def step(constants: Any, x: Array, row: tuple[Array, ...]) -> tuple[Array, Array | None]:
+        packed, functions, equal = eqx.combine(constants, fixed)
+        t, start, end, *own = row
+        args = packed, functions, Step(t, own[0] if own else equal, start, end)
+        slope, y = observe(x, args)
+        return whole(x, args, slope), y
 
-    rows = (
-        steps.t,
-        steps.inputs.start,
-        steps.inputs.end,
-        *(() if equal is not None else (steps.h,)),
-    )
-    end, (xs, ys) = jax.lax.scan(body, x0, rows)
+    own = () if equal is not None else (steps.h,)
+    rows = (steps.t, steps.inputs.start, steps.inputs.end, *own)
+    xs, end, ys = march(step, constants, x0, rows, direct=direct)
     return xs, ys, end
 
 

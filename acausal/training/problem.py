@@ -10,7 +10,6 @@ import jax
 import jax.numpy as jnp
 from jax import Array
 
-from acausal.neural import arranged
 from acausal.simulation.integrate import integrate
 from acausal.simulation.solvers import Solver
 from acausal.training.arguments import arguments
@@ -85,13 +84,12 @@ class Problem(eqx.Module):
 
     def losses(self, trainable: Trainable, batch: Batch) -> Array:
         """The loss of every sequence of a batch, shape (B,)."""
-        params = arranged(self.assemble(trainable), batch.start.shape[0])
-        packed = self.system.pack(params)
+        packed = self.system.pack(self.assemble(trainable))
 
         def one(start: Array, points: Array | None) -> Array:
             steps, measured = self.record.window(start, self.sequences.length)
             x0 = self._first_state(packed) if self.sequences.whole else self._measured(start)
-            _, predicted, _ = self._integrate(packed, x0, steps)
+            _, predicted = self._integrate(packed, x0, steps)
             if points is not None:
                 predicted, measured = predicted[points], measured[points]
             return self.loss(predicted, measured, self.record.sigma)
@@ -113,7 +111,7 @@ class Problem(eqx.Module):
         The states have shape (N, number of states).
         """
         packed = self.system.pack(self.assemble(trainable))
-        x, predicted, _ = self._integrate(packed, self._first_state(packed), self.record.steps)
+        x, predicted = self._integrate(packed, self._first_state(packed), self.record.steps)
         return self.loss(predicted, self.record.y, self.record.sigma), x
 
     @eqx.filter_jit
@@ -142,8 +140,9 @@ class Problem(eqx.Module):
 
         return {name: at(name) for name in self.networks}
 
-    def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array, Array]:
-        return integrate(
+    def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array]:
+        """States and targets at every sample."""
+        x, predicted, _ = integrate(
             self.system,
             packed,
             x0,
@@ -152,6 +151,8 @@ class Problem(eqx.Module):
             outputs=self.targets,
             substeps=self.substeps,
         )
+        assert predicted is not None
+        return x, predicted
 
     def _measured(self, start: Array) -> Array:
         assert self.record.x is not None

@@ -1,0 +1,56 @@
+"""What acausal asks of XLA, the compiler of JAX.
+
+On a CPU, XLA runs a loop operation by operation and passes every result through memory; for the few numbers of a
+small model that costs ten times the arithmetic. A loop that touches little memory it compiles as a whole, to one
+function of machine code; but "little" is a kibibyte. Here the bound is raised to what a processor has at hand.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import MutableMapping
+from functools import cache
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+
+NEAR = 1 << 20
+"""Bytes that an iteration of a loop may touch for the loop to be compiled as a whole: about a second-level cache."""
+
+OPTIONS = "xla_backend_extra_options"
+BOUND = "xla_cpu_small_while_loop_byte_threshold"
+
+FIRST, BEYOND = (0, 7), (0, 11)
+"""Versions of jaxlib, from and before, known to take the option; a flag unknown to XLA would end the process."""
+
+
+def compile_small_loops(environment: MutableMapping[str, str], jaxlib: str) -> None:
+    """Ask XLA, by its environment variable, to compile small loops as a whole; a user's own options are kept.
+
+    XLA reads the variable when JAX computes for the first time in a process; later it has no effect.
+
+    Arguments:
+        environment: `os.environ`, in the end.
+        jaxlib: its version; where the option is not known to be understood, nothing is asked.
+    """
+    flags = environment.get("XLA_FLAGS", "")
+    if OPTIONS not in flags and FIRST <= _release(jaxlib) < BEYOND:
+        environment["XLA_FLAGS"] = f"{flags} --{OPTIONS}={BOUND}={NEAR}".strip()
+
+
+def _release(version: str) -> tuple[int, ...]:
+    return tuple(int(n) for n in re.findall(r"\d+", version)[:2])
+
+
+@cache
+def compiles_small_loops() -> bool:
+    """Whether XLA compiles small loops as a whole, on the device that JAX computes on."""
+    if jax.default_backend() != "cpu":
+        return False
+
+    def loop(x: jax.Array) -> jax.Array:
+        return lax.scan(lambda x, _: (jnp.sin(x) * jnp.sum(x), None), x, None, length=100)[0]
+
+    loop_of_kibibytes = jax.jit(loop).lower(jax.ShapeDtypeStruct((500,), jnp.float32))
+    return "xla_cpu_small_call" in (loop_of_kibibytes.compile().as_text() or "")
