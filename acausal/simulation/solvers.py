@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 import diffrax as dfx
 import equinox as eqx
 import numpy as np
-import optimistix as optx
 
 from acausal.errors import SimulationError, nearest
+from acausal.simulation.stages import StageNewton, stage_newton
 
 Solver = dfx.AbstractSolver
 
@@ -20,8 +20,10 @@ STIFF_STEPS = 5000
 STABILITY = 3.3
 """Reach of the stability region of Tsit5 along the negative real axis, in units of 1/step."""
 
-IMPLICIT = 1e-9
-"""Tolerance of the nonlinear equations in implicit fixed steps, relative and absolute."""
+IMPLICIT, PATIENCE = 1e-9, 100
+"""Of the nonlinear equations of implicit fixed steps: the tolerance of the state, relative and absolute, and the
+corrections that are allowed; there is no shorter step to fall back to.
+"""
 
 
 class RK4(dfx.AbstractERK):
@@ -52,10 +54,10 @@ SOLVERS: dict[str, Callable[[], Solver]] = {
     "tsit5": dfx.Tsit5,
     "dopri5": dfx.Dopri5,
     "dopri8": dfx.Dopri8,
-    "implicit_euler": dfx.ImplicitEuler,
-    "kvaerno3": dfx.Kvaerno3,
-    "kvaerno4": dfx.Kvaerno4,
-    "kvaerno5": dfx.Kvaerno5,
+    "implicit_euler": lambda: dfx.ImplicitEuler(root_finder=stage_newton()),
+    "kvaerno3": lambda: dfx.Kvaerno3(root_finder=stage_newton()),
+    "kvaerno4": lambda: dfx.Kvaerno4(root_finder=stage_newton()),
+    "kvaerno5": lambda: dfx.Kvaerno5(root_finder=stage_newton()),
 }
 """Solvers by name; any other diffrax solver for ordinary differential equations may be given itself."""
 
@@ -100,8 +102,8 @@ def fixed(solver: Solver) -> Solver:
         raise SimulationError(
             f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
         )
-    newton = optx.Newton(rtol=IMPLICIT, atol=IMPLICIT)
-    return eqx.tree_at(lambda s: s.root_finder, solver, newton)
+    newton = StageNewton(rtol=IMPLICIT, atol=IMPLICIT, diverges=np.inf)
+    return eqx.tree_at(lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, PATIENCE))
 
 
 def stiff(modes: Any, span: float) -> bool:
