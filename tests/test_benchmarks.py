@@ -5,14 +5,18 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import acausal as ac
 from benchmarks import chain, gears, grid, ladder, measure
 from benchmarks.command import growth_exponent
 from benchmarks.measure import Stopwatch
+from benchmarks.qvm import by_hand, c, framework, task
+from examples.qvm.model import with_networks
 
 SIZES = {"chain": (20, 200), "gears": (20, 200), "grid": (12, 20), "ladder": (20, 200)}
 CASES = {"chain": chain.CASE, "gears": gears.CASE, "grid": grid.CASE, "ladder": ladder.CASE}
@@ -86,3 +90,20 @@ def test_python_calls_grow_in_proportion_to_the_model():
 def test_the_growth_exponent_compares_the_largest_size_with_a_hundredth_of_it():
     found = {10: {"total_seconds": 7.0}, 100: {"total_seconds": 1.0}, 10000: {"total_seconds": 10}}
     assert growth_exponent(found) == pytest.approx(0.5)
+
+
+@pytest.fixture(scope="module")
+def ride():
+    """The measured ride, and parameters of the vehicle that drives it."""
+    return task.record(), ac.compile(with_networks()).parameters(0)
+
+
+@pytest.mark.parametrize(("count", "length"), [(1, task.SAMPLES), (5, 40)])
+def test_all_take_the_same_gradient_of_the_quarter_vehicle(ride, count, length):
+    asked = task.task("", *ride, count, length)
+    loss, expected = framework.gradient(asked)()
+    for other in (c.gradient, by_hand.scan):
+        with suppress(ImportError):
+            other_loss, by = other(asked)()
+            assert float(other_loss) == pytest.approx(float(loss), rel=1e-12)
+            assert by == pytest.approx(expected, abs=1e-10 * abs(expected).max())

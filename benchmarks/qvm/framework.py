@@ -1,0 +1,56 @@
+"""The framework: the gradient that `acausal.fit` takes in an update."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+import acausal as ac
+from acausal.training.pose import pose
+from acausal.training.problem import Problem
+from acausal.training.record import Batch
+from benchmarks.qvm.task import NETWORKS, Gradient, Task, flat
+from examples.qvm.model import with_networks
+from examples.qvm.record import OUTPUTS, SAMPLE_TIME
+
+
+def gradient(task: Task) -> Callable[[], Gradient]:
+    problem = posed(task)
+    batch = Batch(jnp.asarray(task.starts), jnp.ones(len(task.starts)), None)
+    compiled = jax.jit(jax.value_and_grad(_loss))
+    start = problem.start()
+
+    def run() -> Gradient:
+        loss, by = jax.block_until_ready(compiled(start, problem, batch))
+        return loss, flat([(by.networks[n].weights, by.networks[n].biases) for n in NETWORKS])
+
+    return run
+
+
+def posed(task: Task) -> Problem:
+    """The training problem behind a task."""
+    is_whole = len(task.starts) == 1
+    return pose(
+        ac.compile(with_networks()),
+        task.record,
+        OUTPUTS,
+        task.params,
+        train=None,
+        modifiers=None,
+        gamma=0.2,
+        loss="nrmse",
+        regularizers=(),
+        sequence_length=None if is_whole else task.length * SAMPLE_TIME,
+        batch_size=len(task.starts),
+        subsample=None,
+        dt=None,
+        solver="heun",
+        x0="data",
+    )
+
+
+def _loss(trainable: Any, problem: Problem, batch: Batch) -> Any:
+    return jnp.mean(problem.losses(trainable, batch))
