@@ -35,6 +35,7 @@ class Connector:
         rate: name of the derivative of ``across`` in domains whose potential is a position, else ``None``.
         second_minus_first: whether ``across`` is the second potential minus the first (as in mechanics) or
             the first minus the second.
+        power: whether the difference, or its rate where there is one, times the flow is a power.
     """
 
     pair: ClassVar[tuple[str, str]] = ("port_a", "port_b")
@@ -43,6 +44,7 @@ class Connector:
     across_unit: ClassVar[str | None] = None
     rate: ClassVar[str | None] = None
     second_minus_first: ClassVar[bool] = False
+    power: ClassVar[bool] = True
 
     declarations: ClassVar[dict[str, Variable]] = {}
 

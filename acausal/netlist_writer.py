@@ -191,16 +191,15 @@ class Writer:
         return found | self._differences(model, part, fresh, (part, fresh), said)
 
     def _arguments(self, part: Component, cls: Any) -> dict[str, Any]:
-        """Options, vectors, and arguments of the class that became attributes of the part's own class."""
+        """Options, vectors, and arguments of the class that it keeps as attributes of the same name."""
         found = dict(part._options)
         for name, value in part._modifiers.items():
             declared = cls._declared.get(name)
             if isinstance(declared, Parameter) and declared.shape is not None:
                 found[name] = value
-        for name in arguments_of(cls):
-            own = getattr(type(part), name, None)
-            if own is not getattr(cls, name, None):
-                found[name] = own
+        for name, default in arguments_of(cls).items():
+            if name in part._constants and part._constants[name] != default:
+                found[name] = part._constants[name]
         return found
 
     def _differences(
@@ -247,12 +246,8 @@ class Writer:
         return found
 
     def _public(self, cls: Any) -> Any:
-        """The class of a library that a part is made from, or None."""
-        for base in cls.__mro__:
-            alike = base.__qualname__ == cls.__qualname__ and base.__module__ == cls.__module__
-            if alike and any(library.name_of(base) for library in self.libraries):
-                return base
-        return None
+        """The class, if it is in a library."""
+        return cls if any(library.name_of(cls) for library in self.libraries) else None
 
     def _class(self, cls: type, where: str, known: str | None = None) -> str:
         """The name of a class: the one that the file has for it, if it still means that class."""

@@ -151,7 +151,7 @@ def test_names_and_signs_are_the_domains(element, equations):
     assert others == equations
     model = flatten(element)
     assert model.n_equations == model.n_variables - len(model.inputs)
-    across = type(element).connector.across
+    across = element.connector.across
     assert difference.startswith(f"{across} = ")
 
 
@@ -169,16 +169,24 @@ def test_the_difference_has_the_sign_of_the_domain(connector, difference):
 
 
 def test_units_come_from_the_connector():
-    declared: Any = neural.Resistance()._declared
+    declared: Any = neural.Resistance()._dynamic
     assert [declared[n].unit for n in ("s_rel", "v_rel", "f")] == ["m", "m/s", "N"]
-    declared = neural.Resistance(HeatPort)._declared
+    declared = neural.Resistance(HeatPort)._dynamic
     assert [declared[n].unit for n in ("dT", "Q_flow")] == ["K", "W"]
 
 
-def test_elements_of_one_kind_share_a_class():
-    assert type(neural.Compliance()) is type(neural.Compliance(tl.Flange, width=3))
-    assert type(neural.Compliance()) is not type(neural.Compliance(HeatPort))
-    assert isinstance(neural.Compliance(HeatPort), neural.Compliance)
+def test_elements_of_one_kind_share_their_equations():
+    """Those of one domain with the same options and inputs; whatever their networks are."""
+
+    class Several(ac.Component):
+        def __init__(self):
+            super().__init__()
+            self.springs = [neural.Compliance(net=Cubic(jnp.asarray(float(i)))) for i in range(3)]
+            self.others = [neural.Compliance(HeatPort), neural.Compliance(secondary=("T",))]
+
+    form_of = flatten(Several()).layout.form_of.tolist()
+    assert form_of[1] == form_of[2] == form_of[3]
+    assert len({form_of[1], form_of[4], form_of[5]}) == 3
     assert repr(neural.Resistance(Pin)) == "<Resistance>"
 
 

@@ -43,6 +43,7 @@ class FlowPort(ac.Connector):
     pair = ("flowPort_a", "flowPort_b")
     across = "dp"
     through = "m_flow"
+    power = False
 
     @classmethod
     def carried(cls, enters: Any, leaves: Any) -> Iterator[ac.Eq]:

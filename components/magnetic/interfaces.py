@@ -19,6 +19,7 @@ class MagneticPort(ac.Connector):
     pair = ("port_p", "port_n")
     across = "V_m"
     through = "Phi"
+    power = False
 
 
 PositiveMagneticPort = MagneticPort

@@ -14,6 +14,7 @@ class HeatPort(ac.Connector):
     pair = ("port_a", "port_b")
     across = "dT"
     through = "Q_flow"
+    power = False
 
 
 HeatPort_a = HeatPort
