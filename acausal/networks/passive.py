@@ -25,11 +25,15 @@ class Passive(eqx.Module):
 
 
 class SameSign(eqx.Module):
-    """A law that has the sign of its first input but for rounding, and here has it to the last bit."""
+    """A law that has the sign of its first input but for rounding, and here has it to the last bit.
+
+    Where the signs differ, the value is taken from itself: that leaves zero, and slopes as they are.
+    """
 
     net: Callable[..., Array]
 
     def __call__(self, *inputs: ArrayLike) -> Array:
         """The output for scalar inputs."""
         value = self.net(*inputs)
-        return jnp.where(value * inputs[0] < 0, jnp.zeros_like(value), value)
+        differ = jnp.sign(value) != jnp.sign(jnp.asarray(inputs[0]))
+        return value - jax.lax.stop_gradient(jnp.where(differ, value, jnp.zeros_like(value)))
