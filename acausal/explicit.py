@@ -12,7 +12,7 @@ import sympy as sp
 
 from acausal import derive
 from acausal.reduce import Accumulation, Assignment, Loop, ReducedModel, Step
-from acausal.symbols import ModuleCall
+from acausal.symbols import ModuleCall, primes
 from acausal.symbols import time as internal_time
 from acausal.template import Integers
 
@@ -148,5 +148,5 @@ def _readable(expression: Any) -> Any:
 
 def _function(call: Any) -> Any:
     module, orders, *args = call.args
-    plain = sp.Function(f"{module}{chr(39) * int(sum(orders))}")
+    plain = sp.Function(f"{module}{primes(orders)}")
     return plain(*(_readable(a) for a in args))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -46,16 +46,6 @@ def _corrected(network: Any) -> Any:
     if isinstance(network, Potential):
         return replace(network, net=Levelled(network.net, network.inputs))
     return OffsetCorrected(network)
-
-
-def law(network: Any) -> Callable[..., Array]:
-    """The law that a network stands for: itself, or the slope of an energy."""
-    return network.law if isinstance(network, Potential) else network
-
-
-def inputs(network: Any) -> int:
-    """How many of a network's inputs its law is about; the others are secondary."""
-    return network.inputs if isinstance(network, Potential) else 1
 
 
 def output_scale(module: Any) -> float:

@@ -7,7 +7,7 @@ knows its owner, so that one expression may mix names of several components.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import count
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -91,8 +91,14 @@ class ModuleCall(sp.Function):
 
     def _sympystr(self, printer: Any) -> str:
         module, orders, *args = self._parts
-        name = printer._print(module) + "'" * int(sum(orders))
+        name = printer._print(module) + primes(orders)
         return f"{name}({', '.join(printer._print(a) for a in args)})"
+
+
+def primes(orders: Iterable[Any]) -> str:
+    """How derivatives of a module are marked: a prime for each, ``'2`` for one by the second argument."""
+    marks = ("'" if i == 1 else f"'{i}" for i in count(1))
+    return "".join(mark * int(n) for mark, n in zip(marks, orders, strict=False))
 
 
 @dataclass(frozen=True)

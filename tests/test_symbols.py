@@ -114,6 +114,7 @@ def test_a_module_call_obeys_the_chain_rule_per_argument():
     part = Part()
     call = part.net(part.x**2, part.k * part.x)
     module = call.args[0]
+    assert str(ModuleCall(module, sp.Tuple(2, 1), part.x, part.k)) == "net'''2(x, k)"
     expected = 2 * part.x * ModuleCall(module, sp.Tuple(1, 0), *call.args[2:])
     expected += part.k * ModuleCall(module, sp.Tuple(0, 1), *call.args[2:])
     assert sp.expand(sp.diff(call, part.x) - expected) == 0

@@ -39,6 +39,7 @@ from acausal.networks.potential import (
 from acausal.networks.scaled import (
     Potential,
     Scaled,
+    law_of,
 )
 from acausal.networks.slope import (
     Continued,
@@ -77,4 +78,5 @@ __all__ = [
     "Scaled",
     "Steeper",
     "ThroughZero",
+    "law_of",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -58,3 +59,13 @@ class Potential(eqx.Module):
         """Magnitude of the law of the first input."""
         scale = self.input_scale
         return self.energy_scale / (scale[0] if isinstance(scale, tuple) else scale)
+
+
+def law_of(network: Any) -> Callable[..., Array]:
+    """The law that a network stands for: itself, or the slope of an energy."""
+    return network.law if isinstance(network, Potential) else network
+
+
+def inputs_of(network: Any) -> int:
+    """How many of a network's inputs its law is about; the others are secondary."""
+    return network.inputs if isinstance(network, Potential) else 1

@@ -16,7 +16,8 @@ import jax.numpy as jnp
 from jax import Array
 
 from acausal.errors import TrainingError, nearest
-from acausal.neural import inputs, law, output_scale
+from acausal.networks.scaled import inputs_of, law_of
+from acausal.neural import output_scale
 
 
 class Context(eqx.Module):
@@ -62,11 +63,11 @@ class ZeroCrossing(eqx.Module):
             given = jnp.asarray(self.secondary[name], float)
             others = given[:, None] if given.ndim == 1 else given
         else:
-            others = context.arguments[name][:, inputs(network) :]
+            others = context.arguments[name][:, inputs_of(network) :]
         if others.shape[1] == 0:
             others = others[:1]
-        zeros = [jnp.zeros(())] * inputs(network)
-        force = jax.vmap(lambda row: law(network)(*zeros, *row))(others)
+        zeros = [jnp.zeros(())] * inputs_of(network)
+        force = jax.vmap(lambda row: law_of(network)(*zeros, *row))(others)
         return jnp.mean((force / output_scale(network)) ** 2)
 
 
@@ -95,7 +96,7 @@ def _sum(terms: list[Array]) -> Array:
 
 
 def _mean_square(network: Any, arguments: Array) -> Array:
-    force = jax.vmap(lambda row: law(network)(*row))(arguments)
+    force = jax.vmap(lambda row: law_of(network)(*row))(arguments)
     return jnp.mean((force / output_scale(network)) ** 2)
 
 

@@ -9,13 +9,21 @@ ICINCO 2023, doi 10.5220/0012160100003543.
 """
 
 from .compliance import Compliance
+from .hysteresis import Hysteresis
 from .inductance import Inductance
-from .interfaces import PartialNeural, PartialTwoPort
+from .interfaces import PartialNetwork, PartialNeural, PartialTwoPort
+from .multiport import CompliancePort, MultiportCompliance
 from .resistance import Resistance
+from .transformer import LossyTransformer
 
 __all__ = [
     "Compliance",
+    "CompliancePort",
+    "Hysteresis",
     "Inductance",
+    "LossyTransformer",
+    "MultiportCompliance",
+    "PartialNetwork",
     "PartialNeural",
     "PartialTwoPort",
     "Resistance",

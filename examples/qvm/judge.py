@@ -68,7 +68,9 @@ def judge(fit: ac.Fit, ride: Ride) -> Verdict:
         sigma = float(fit.seen[name].sigma[0])
         x = np.linspace(-2 * sigma, 2 * sigma, 2001)
         x = jnp.asarray(x[np.abs(x) > gap])
-        return float(jnp.sqrt(jnp.mean((jax.vmap(params[name])(x) - true[name](x)) ** 2)))
+        return float(
+            jnp.sqrt(jnp.mean((jax.vmap(ac.networks.law_of(params[name]))(x) - true[name](x)) ** 2))
+        )
 
     factors = {n: (1 + m) / (1 + UNCERTAIN[n]) for n, m in fit.modifiers.items()}
     return Verdict(
