@@ -79,7 +79,10 @@ class Scope:
         return _settled(option, self.value(raw, where), where)
 
     def argument(self, raw: Any, where: str) -> Any:
-        """An argument of a class: a class by its name, or a value."""
+        """An argument of a class: a class by its name, a value, or a list of them."""
+        if isinstance(raw, list):
+            items = cast(list[Any], raw)
+            return [self.argument(item, f"{where}[{i}]") for i, item in enumerate(items)]
         if isinstance(raw, str):
             try:
                 return library.find(self.libraries, raw)
