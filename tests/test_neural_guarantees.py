@@ -52,7 +52,7 @@ LAWS: dict[str, Law] = {
     **zero_crossings(Law),
     **zero_crossings(Law, monotone=True),
     "bent monotone": Law(
-        monotone=True, activation="relu", floor=0.1, input_scale=SCALE, output_scale=OUT
+        monotone=True, activation="tanh", floor=0.1, input_scale=SCALE, output_scale=OUT
     ),
 }
 ENERGIES: dict[str, Energy] = {

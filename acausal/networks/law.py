@@ -82,9 +82,9 @@ class Law(Recipe):
 
     @property
     def rho(self) -> str:
-        """The activation: by default ReLU, as in the paper, and tanh for monotone laws."""
+        """The activation: by default ReLU, as in the paper."""
         if self.monotone:
-            return checked(self.activation or "tanh", RISING, "a monotone network")
+            return checked(self.activation or "relu", RISING, "a monotone network")
         return checked(self.activation or "relu")
 
     @property

@@ -44,7 +44,7 @@ class Monotone(Layered):
         secondary: int = 0,
         width: int = 16,
         depth: int = 2,
-        activation: str = "tanh",
+        activation: str = "relu",
         *,
         last_layer: float = 0.1,
         key: Key,

@@ -13,15 +13,34 @@ from jax.typing import ArrayLike
 START = -2.0
 """What is added to a network inside a softplus, so that a law begins small: softplus(-2) = 0.13."""
 
+STEEPEST = 7.0
+"""Logarithm of the greatest steepness, about 1100."""
+
+
+class Passage(eqx.Module):
+    """``x + c tanh(k x)`` with trained ``c, k > 0``: it rises through zero, steeply if it is a dry friction."""
+
+    height: Array
+    steepness: Array
+
+    def __init__(self, height: float = -1.0, steepness: float = 1.5) -> None:
+        self.height, self.steepness = jnp.asarray(height, float), jnp.asarray(steepness, float)
+
+    def __call__(self, x: ArrayLike) -> Array:
+        """The output for a scalar input."""
+        k = jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
+        return x + jax.nn.softplus(self.height) * jnp.tanh(k * x)
+
 
 class Passive(eqx.Module):
-    """``x softplus(F(x, T))``, in which the second factor is positive whatever the network says."""
+    """``p(x) softplus(F(x, T))`` with a `Passage` ``p``: it has the sign of ``x`` whatever the network says."""
 
     net: Callable[..., Array]
+    passage: Passage = eqx.field(default_factory=Passage)
 
     def __call__(self, *inputs: ArrayLike) -> Array:
         """The output for scalar inputs."""
-        return jnp.asarray(inputs[0]) * jax.nn.softplus(self.net(*inputs) + START)
+        return self.passage(inputs[0]) * jax.nn.softplus(self.net(*inputs) + START)
 
 
 class SameSign(eqx.Module):
