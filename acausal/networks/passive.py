@@ -29,7 +29,7 @@ class Passage(eqx.Module):
     def __call__(self, x: ArrayLike) -> Array:
         """The output for a scalar input."""
         k = jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
-        return x + jax.nn.softplus(self.height) * jnp.tanh(k * x)
+        return jnp.asarray(x) + jax.nn.softplus(self.height) * jnp.tanh(k * x)
 
 
 class Passive(eqx.Module):
