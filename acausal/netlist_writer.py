@@ -281,6 +281,11 @@ class Writer:
                 return within(where, lambda: written(value.xreplace(names)))
             case type():
                 return self._class(value, where)
+            case _ if isinstance(declared, Module):
+                raise NetlistError(
+                    f"{where}: a file cannot hold a network; save the model without it and give it after loading, "
+                    f"by modify({where.rpartition('.')[2]}=...)"
+                )
             case _:
                 for library in self.libraries:
                     name = library.constant_name(value)

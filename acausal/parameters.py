@@ -91,7 +91,13 @@ class ParameterLayout:
     def _make(self, name: str, value: Any, key: Any) -> Any:
         if isinstance(value, eqx.Module):
             return value
-        module = value(key)
+        try:
+            module = value(key)
+        except TypeError as error:
+            raise DeclarationError(
+                f"'{name}': a function is called with a key and gives a module, but this one fails "
+                f"({str(error).splitlines()[0]}); give a law of your own as an equinox module"
+            ) from error
         if not callable(module):
             raise DeclarationError(
                 f"'{name}': the function gave {type(module).__name__}, not a callable module"

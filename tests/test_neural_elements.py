@@ -14,7 +14,7 @@ import acausal as ac
 from acausal.components import electrical, fluid, magnetic, neural, rotational, thermal
 from acausal.components import translational as tl
 from acausal.flatten import flatten
-from acausal.networks import Energy, Law
+from acausal.networks import Energy, Law, law_of
 from tests.oscillator import force
 
 DOMAINS = {
@@ -131,6 +131,25 @@ def test_energy_in_every_domain(domain: str) -> None:
         assert np.ptp(E) > 1e-5
         assert np.abs(taken - (E - E[0])).max() < 2e-3 * np.ptp(E)
     assert np.abs(np.asarray(run["hysteresis.z"])).max() <= 10
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        neural.Inductance(electrical.Pin, input_scale=2.0, output_scale=6.0),
+        neural.Compliance(electrical.Pin, monotone=True, input_scale=2.0, output_scale=6.0),
+        neural.Compliance(
+            electrical.Pin, energy=True, convex=True, input_scale=2.0, output_scale=6.0
+        ),
+    ],
+    ids=["inductance", "monotone capacity", "convex capacity"],
+)
+def test_what_is_divided_by_starts_near_its_scales(element: Any) -> None:
+    """A fresh coil of almost no inductance would make its circuit stiff."""
+    net = element._fresh(jax.random.key(0))
+    slopes = jax.vmap(jax.grad(law_of(net)))(jnp.linspace(-4, 4, 9))
+    assert (slopes >= 3).all()
+    assert (slopes <= 6).all()
 
 
 def test_heat_flows_from_hot_to_cold() -> None:

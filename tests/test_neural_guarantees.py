@@ -52,7 +52,7 @@ LAWS: dict[str, Law] = {
     **zero_crossings(Law),
     **zero_crossings(Law, monotone=True),
     "bent monotone": Law(
-        monotone=True, activation="tanh", floor=0.1, input_scale=SCALE, output_scale=OUT
+        monotone=True, activation="tanh", floor=0.1, start=1.0, input_scale=SCALE, output_scale=OUT
     ),
 }
 ENERGIES: dict[str, Energy] = {
@@ -60,7 +60,7 @@ ENERGIES: dict[str, Energy] = {
     **zero_crossings(Energy),
     **zero_crossings(Energy, convex=True),
     "curved convex": Energy(
-        convex=True, activation="elu", floor=0.1, input_scale=SCALE, output_scale=OUT
+        convex=True, activation="elu", floor=0.1, start=1.0, input_scale=SCALE, output_scale=OUT
     ),
 }
 SINGLE = (

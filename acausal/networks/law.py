@@ -13,7 +13,7 @@ from acausal.networks.monotone import Monotone
 from acausal.networks.passive import Passive, SameSign
 from acausal.networks.recipe import Net, Recipe, ZeroCrossing
 from acausal.networks.scaled import Scaled
-from acausal.networks.slope import Steeper
+from acausal.networks.slope import Steeper, start_at
 from acausal.networks.symmetry import Even, Odd
 from acausal.networks.zero import OffsetCorrected, ThroughZero
 
@@ -70,10 +70,11 @@ class Law(Recipe):
         for name in ("passive", "odd"):
             if getattr(self, name):
                 self.refuse_regularizer(name)
-        if self.floor and not self.monotone:
-            raise DeclarationError(
-                "floor=... is the least slope of a monotone law; say monotone=True, too"
-            )
+        for name in ("floor", "start"):
+            if getattr(self, name) and not self.monotone:
+                raise DeclarationError(
+                    f"{name}=... is a slope of a monotone law; say monotone=True, too"
+                )
 
     @property
     def in_size(self) -> int:
@@ -119,7 +120,8 @@ class Law(Recipe):
 
     def _monotone(self, own: dict[str, Any]) -> Net:
         net: Net = Monotone(self.secondary, **own)
-        net = Steeper(net, self.floor) if self.floor else net
+        if self.floor or self.start:
+            net = Steeper(net, self.floor, start_at(self.start))
         if self.zero_crossing == "offset":
             return OffsetCorrected(net)
         return MONOTONE[self.passive or self.zero_crossing == "exact", self.odd](net)

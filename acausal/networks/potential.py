@@ -13,7 +13,7 @@ from acausal.networks.energy import Bowl, FromRest, Levelled
 from acausal.networks.mlp import MLP, Key
 from acausal.networks.recipe import Net, Recipe
 from acausal.networks.scaled import Potential
-from acausal.networks.slope import Rounder
+from acausal.networks.slope import Rounder, start_at
 from acausal.networks.symmetry import Even
 
 Shape = Callable[[Net, int], Net]
@@ -63,10 +63,11 @@ class Energy(Recipe):
         for name in ("passive", "odd"):
             if getattr(self, name):
                 self.refuse_regularizer(name)
-        if self.floor and not self.convex:
-            raise DeclarationError(
-                "floor=... is the least curvature of a convex energy; say convex=True, too"
-            )
+        for name in ("floor", "start"):
+            if getattr(self, name) and not self.convex:
+                raise DeclarationError(
+                    f"{name}=... is a curvature of a convex energy; say convex=True, too"
+                )
         if self.extrapolation and self.inputs > 1:
             raise DeclarationError("extrapolation=... is for energies of one input; leave it out")
         if self.extrapolation and self.passive and not self.convex:
@@ -113,5 +114,6 @@ class Energy(Recipe):
 
     def _convex(self, own: dict[str, Any]) -> Net:
         net: Net = Convex(self.inputs, self.secondary, **own)
-        net = Rounder(net, self.floor, self.inputs) if self.floor else net
+        if self.floor or self.start:
+            net = Rounder(net, self.floor, start_at(self.start), self.inputs)
         return CONVEX[self.vanishes, self.odd](net, self.inputs)

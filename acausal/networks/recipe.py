@@ -40,6 +40,8 @@ class Recipe:
         limits: of the first input, in its unit: a pair, or one number for both sides. The default is three input
             scales.
         floor: the least slope of a monotone law, relative to ``output_scale / input_scale``.
+        start: a slope that a fresh monotone law has besides, likewise, and that is trained. A law that is divided by
+            had better not start near zero.
     """
 
     secondary: int = 0
@@ -53,6 +55,7 @@ class Recipe:
     extrapolation: Extrapolation | None = None
     limits: tuple[float, float] | float | None = None
     floor: float = 0.0
+    start: float = 0.0
 
     def __post_init__(self) -> None:
         for name, known in (("zero_crossing", ZeroCrossing), ("extrapolation", Extrapolation)):
@@ -67,8 +70,9 @@ class Recipe:
             raise DeclarationError(
                 "input_scale and output_scale are magnitudes; give positive numbers"
             )
-        if not 0 <= self.floor < math.inf:
-            raise DeclarationError(f"floor={self.floor} is a least slope; give zero or more")
+        for name, slope in (("floor", self.floor), ("start", self.start)):
+            if not 0 <= slope < math.inf:
+                raise DeclarationError(f"{name}={slope} is a slope; give zero or more")
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
                 "limits=... says where a law is continued; say how by extrapolation='linear' or 'saturating'"

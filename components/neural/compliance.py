@@ -29,7 +29,8 @@ class Compliance(PartialNeural):
     energy and no force at zero. See `acausal.networks.Energy`, and `PartialNeural` for the other arguments.
 
     A monotone or convex law of what is stored rises by at least ``floor output_scale / input_scale``, so that it can be
-    solved for the difference; ``floor`` is 1e-3 there, where none is given.
+    solved for the difference; ``floor`` is 1e-3 there, where none is given. It starts near a slope of
+    ``output_scale / input_scale``.
     """
 
     passive = ac.Option(False, doc="it never gives back more energy than it took")
@@ -73,12 +74,14 @@ class Compliance(PartialNeural):
             raise ac.DeclarationError(
                 f"passive=True is for laws that rise where something is stored; say {missing}=True, too"
             )
-        floor = FLOOR if rising and not self._is_mechanical else 0.0
+        divided = rising and not self._is_mechanical
+        floor = FLOOR if divided else 0.0
         given: dict[str, Any] = {
             **self._sizes,
             "passive": self.passive,
             "zero_crossing": self.zero_crossing,
             "floor": floor if self.floor is None else self.floor,
+            "start": 1.0 if divided else 0.0,
         }
         if self.energy:
             return ac.networks.Energy(convex=self.convex, **given)

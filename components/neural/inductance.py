@@ -22,7 +22,8 @@ class Inductance(PartialNeural):
     The stored energy is ``E = v momentum - C(v)``, with the flow in place of the speed elsewhere. It is never negative,
     and what flows in is what is stored: a convex function lies above its tangents, so ``C(0) >= C(v) - v C'(v)``, and
     ``C(0) = 0``; and ``der(E) = v der(momentum)``, the power. The mass, inductance or inertance is the slope of the
-    momentum, at least ``floor output_scale / input_scale``, so that it can be divided by.
+    momentum, at least ``floor output_scale / input_scale``, so that it can be divided by. It starts near
+    ``output_scale / input_scale``: choose the scales so that this is a likely one.
 
     In the magnetic domain, where ``V_m der(Phi)`` is the power, this is an eddy current loss. Heat has no inertia.
 
@@ -57,7 +58,9 @@ class Inductance(PartialNeural):
             setattr(self, _speed(kind.rate), speed)
 
     def _recipe(self) -> Callable[[Any], Any]:
-        return ac.networks.Energy(convex=True, passive=True, floor=self.floor, **self._sizes)
+        return ac.networks.Energy(
+            convex=True, passive=True, floor=self.floor, start=1.0, **self._sizes
+        )
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from self._body() if self._is_mechanical else self._between()
