@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT))
 
 from tests.test_docs import blocks  # noqa: E402
 
-PAGES = ("getting-started.md", "quarter-vehicle.md")
+PAGES = ("getting-started.md", "quarter-vehicle.md", "neural.md")
 
 
 def main() -> None:
