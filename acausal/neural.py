@@ -8,7 +8,6 @@ from typing import Any
 
 import equinox as eqx
 import jax
-from jax import Array
 
 from acausal.networks.energy import Levelled
 from acausal.networks.scaled import Potential
