@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import jax
 import numpy as np
 import optax
+from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
@@ -53,6 +54,7 @@ def fit(
     dt: float | None = None,
     solver: str | Solver = "heun",
     x0: Start | Mapping[str, float] = "data",
+    dtype: DTypeLike = np.float64,
     seed: int = 0,
     evaluate_every: int | None = None,
     progress: bool = True,
@@ -85,6 +87,7 @@ def fit(
         solver: of the fixed steps, by name or a diffrax solver.
         x0: state at the record's start, for sequences that begin there and for the loss over the whole record:
             ``"data"`` as measured, ``"model"`` as the model starts, or values by name that replace the measured ones.
+        dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
         seed: of the networks, the sequences and the points. The same seed gives the same result.
         evaluate_every: updates between two evaluations over the whole record, among which the best is
             returned; by default a tenth of the epochs.
@@ -116,6 +119,7 @@ def fit(
         dt=dt,
         solver=solver,
         x0=x0,
+        dtype=dtype,
     )
     chosen = default_optimizer(epochs) if optimizer is None else optimizer
     trainer = Trainer(

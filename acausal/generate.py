@@ -60,7 +60,8 @@ class SolveLoop:
             return solve(lambda tears: _torn(self.shape, tears, t, known), guess, scale)
 
         named = {s.name: v for s, v in values.items()}
-        guess, scale = jnp.asarray(self.guess), jnp.asarray(self.scale)
+        dtype = arrays[STATE].dtype
+        guess, scale = jnp.asarray(self.guess, dtype), jnp.asarray(self.scale, dtype)
         if self.size == 1:
             return list(one(guess[0], scale[0], named))
         if any(isinstance(v, ModuleValue) and isinstance(v.module, tuple) for v in named.values()):
@@ -199,7 +200,7 @@ class Program:
     def _run(self, wanted: Iterable[int], t: Any, x: Any, u: Any, packed: Packed) -> list[Any]:
         """Run the instructions that the wanted arrays depend on."""
         u = u if (self.input_signs == 1).all() else u * self.input_signs
-        arrays: list[Any] = [x, u, jnp.zeros(()), *[None] * (len(self.sizes) - 3)]
+        arrays: list[Any] = [x, u, jnp.zeros((), x.dtype), *[None] * (len(self.sizes) - 3)]
         needed = set(wanted)
         active: list[int] = []
         for i in range(len(self.instructions) - 1, -1, -1):

@@ -14,7 +14,10 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-TOLERANCE, STALLED = 1e-10, 1e-6
+Tolerance = dict[str, float]
+"""By precision."""
+TOLERANCE: Tolerance = {"float64": 1e-10, "float32": 1e-5}
+STALLED: Tolerance = {"float64": 1e-6, "float32": 1e-3}
 """Relative size of the last step, and of one that rounding keeps from making the residual smaller."""
 FIRST, SHORTEST = 0.1, 1e-7
 """Of the path: the first stride, and the length below which it is given up."""
@@ -59,7 +62,7 @@ def root(
     unit = jnp.abs(guess) + scale
     units = jnp.append(unit, 1.0)
     first = residual(guess)
-    upward = jnp.zeros(len(guess) + 1).at[-1].set(1.0)
+    upward = jnp.zeros_like(units).at[-1].set(1.0)
     begin = jnp.append(guess / unit, 0.0)
 
     def off(point: Any) -> Any:
@@ -169,5 +172,6 @@ def _norm(v: Any) -> Any:
     return jnp.sqrt(jnp.sum(v * v))
 
 
-def _is_tiny(step: Any, at: Any, tolerance: float = TOLERANCE) -> Any:
-    return jnp.all(jnp.abs(step) < tolerance * (jnp.abs(at) + tolerance))
+def _is_tiny(step: Any, at: Any, tolerance: Tolerance = TOLERANCE) -> Any:
+    relative = tolerance[step.dtype.name]
+    return jnp.all(jnp.abs(step) < relative * (jnp.abs(at) + relative))

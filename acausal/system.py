@@ -20,6 +20,7 @@ from acausal.flatten import FlatModel, flatten
 from acausal.generate import Program, generate
 from acausal.initialize import Initialization, Initializer, initializer
 from acausal.parameters import Packed, ParameterLayout, lay_out_parameters
+from acausal.precision import floating
 from acausal.reduce import ReducedModel, reduce
 
 Params = Mapping[str, Any] | Packed
@@ -269,8 +270,8 @@ class System:
         return self.reduced.resolve(index)
 
     def _check_shapes(self, x: Any, u: Any) -> tuple[Any, Any]:
-        x = jnp.asarray(x, dtype=float)
-        u = jnp.zeros(0) if u is None else jnp.asarray(u, dtype=float)
+        x = floating(x)
+        u = jnp.zeros(0, x.dtype) if u is None else floating(u)
         if x.shape != (len(self.reduced.states),):
             raise DataError(f"x has shape {x.shape}; the model has {len(self.states)} states")
         if u.shape != (len(self.reduced.inputs),):

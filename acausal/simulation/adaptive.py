@@ -11,6 +11,7 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import SimulationError, StepLimitError
+from acausal.precision import cast
 from acausal.simulation import inputs, solvers
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
@@ -27,6 +28,7 @@ def simulate_adaptive(
     atol: Tolerance,
     max_steps: int,
     adjoint: dfx.AbstractAdjoint | None,
+    dtype: np.dtype[Any],
 ) -> Solution:
     """Simulate in steps that a PID controller chooses, and that end where an input is known to jump.
 
@@ -38,13 +40,14 @@ def simulate_adaptive(
         atol: absolute tolerance, in the states' units.
         max_steps: limit of steps.
         adjoint: how to differentiate; ``None`` is diffrax's reverse mode with checkpoints.
+        dtype: precision of time and states.
 
     Raises:
         SimulationError: if the end is not reached.
     """
     solver = solvers.adaptive(solver)
-    t = jnp.asarray(saved)
     jumps = jnp.asarray(inputs.jumps(run.drive, run.start, run.end))
+    run, t, jumps = cast((run, jnp.asarray(saved), jumps), dtype)
     chosen = dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint
     x, reached, last, result = _solve(run, t, solver, rtol, atol, jumps, max_steps, chosen)
     if not traced(x, reached):

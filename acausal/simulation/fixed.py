@@ -10,6 +10,7 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import DataError, SimulationError
+from acausal.precision import cast
 from acausal.simulation import inputs, solvers
 from acausal.simulation.integrate import Steps, integrate
 from acausal.simulation.run import Run
@@ -50,6 +51,7 @@ def simulate_fixed(
     saved: np.ndarray | None,
     solver: solvers.Solver,
     *,
+    dtype: np.dtype[Any],
     direct: bool = False,
 ) -> Solution:
     """Simulate in equal steps.
@@ -59,6 +61,7 @@ def simulate_fixed(
         ends: the steps' ends, from `grid`.
         saved: times to save, all among ``ends``; ``None`` saves all.
         solver: a one-step scheme.
+        dtype: precision of the steps.
         direct: whether derivatives in forward mode must work, too.
 
     Raises:
@@ -69,7 +72,8 @@ def simulate_fixed(
     h = (ends[-1] - ends[0]) / (len(ends) - 1)
     samples = inputs.over_steps(run.drive, ends)
     steps = Steps(jnp.asarray(ends[:-1]), jnp.asarray(h), samples)
-    x = _scan(run.system, run.packed, run.x0, steps, solvers.fixed(solver), direct)
+    packed, x0, steps = cast((run.packed, run.x0, steps), dtype)
+    x = _scan(run.system, packed, x0, steps, solvers.fixed(solver, dtype), direct)
     if not traced(x):
         _check(run, ends, np.asarray(x))
     t = jnp.asarray(ends)[rows]
@@ -77,7 +81,7 @@ def simulate_fixed(
         u = inputs.evaluate_all(run.drive, t)
     else:
         u = jnp.concatenate([samples.start, samples.end[-1:]])[rows]
-    return Solution(t, x[rows], u, run.system, run.packed)
+    return Solution(*cast((t, x[rows], u), dtype), run.system, packed)
 
 
 @eqx.filter_jit

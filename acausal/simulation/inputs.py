@@ -42,7 +42,7 @@ class Function(eqx.Module):
 
     def __call__(self, t: ArrayLike) -> Array:
         """The function's value as a scalar array."""
-        value = jnp.asarray(self.function(t), float)
+        value = jnp.asarray(self.function(t), jnp.result_type(t))
         if value.shape != ():
             raise DataError(
                 f"Input '{self.name}' is a function that returns shape {value.shape}, no scalar."

@@ -121,8 +121,8 @@ def integrate(
     def whole(x: Array, args: _Args, slope: Array | None) -> Array:
         if substeps == 1:
             return advance(field, x, args[2].h, args, slope)
-        x = part(x, jnp.zeros(()), args, slope)
-        rest = jnp.arange(1.0, substeps)
+        x = part(x, jnp.zeros((), x.dtype), args, slope)
+        rest = jnp.arange(1.0, substeps, dtype=x.dtype)
         return jax.lax.scan(lambda x, j: (part(x, j, args, None), None), x, rest)[0]
 
     def observe(x: Array, args: _Args) -> tuple[Array | None, Array | None]:
@@ -185,4 +185,6 @@ def _implicit(solver: Solver) -> Stepper:
 
 def _strong(tree: Any) -> Any:
     """Arrays without JAX's weak types, which diffrax would take for a change of type within its loops."""
-    return jax.tree.map(lambda a: jax.lax.convert_element_type(a, a.dtype), tree)
+    return jax.tree.map(
+        lambda a: jax.lax.convert_element_type(a, a.dtype) if eqx.is_array(a) else a, tree
+    )

@@ -20,9 +20,9 @@ STIFF_STEPS = 5000
 STABILITY = 3.3
 """Reach of the stability region of Tsit5 along the negative real axis, in units of 1/step."""
 
-IMPLICIT, PATIENCE = 1e-9, 100
-"""Of the nonlinear equations of implicit fixed steps: the tolerance of the state, relative and absolute, and the
-corrections that are allowed; there is no shorter step to fall back to.
+IMPLICIT, PATIENCE = {"float64": 1e-9, "float32": 1e-5}, 100
+"""Of the nonlinear equations of implicit fixed steps: the tolerance of the state by precision, relative and absolute,
+and the corrections that are allowed; there is no shorter step to fall back to.
 """
 
 
@@ -89,8 +89,12 @@ def adaptive(solver: Solver) -> Solver:
     return solver
 
 
-def fixed(solver: Solver) -> Solver:
+def fixed(solver: Solver, dtype: Any = np.float64) -> Solver:
     """The solver for fixed steps: an implicit one gets tolerances, which no step-size controller sets.
+
+    Arguments:
+        solver: as the user chose it.
+        dtype: precision of the steps.
 
     Raises:
         SimulationError: for a solver that is no Runge–Kutta scheme.
@@ -102,7 +106,8 @@ def fixed(solver: Solver) -> Solver:
         raise SimulationError(
             f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
         )
-    newton = StageNewton(rtol=IMPLICIT, atol=IMPLICIT, diverges=np.inf)
+    tolerance = IMPLICIT[np.dtype(dtype).name]
+    newton = StageNewton(rtol=tolerance, atol=tolerance, diverges=np.inf)
     return eqx.tree_at(lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, PATIENCE))
 
 

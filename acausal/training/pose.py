@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
+from jax.typing import DTypeLike
 
 from acausal.data import Data
 from acausal.errors import DataError, TrainingError, listing, nearest
 from acausal.neural import networks
+from acausal.precision import precision
 from acausal.simulation import solvers
 from acausal.training import losses
 from acausal.training import modifiers as parameter_modifiers
@@ -46,6 +48,7 @@ def pose(
     dt: float | None,
     solver: str | solvers.Solver,
     x0: Start | Mapping[str, float],
+    dtype: DTypeLike = np.float64,
 ) -> Problem:
     """The problem of a training; arguments as those of `acausal.fit`, data in the model's units.
 
@@ -85,8 +88,9 @@ def pose(
         loss=losses.named(loss),
         regularizers=_labelled(regularizers),
         context=Context((), {}),
-        solver=solvers.fixed(solvers.named(solver)),
+        solver=solvers.fixed(solvers.named(solver), precision(dtype)),
         substeps=_substeps(data, dt),
+        dtype=precision(dtype),
     )
     if not regularizers:
         return problem

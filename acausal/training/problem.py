@@ -10,6 +10,7 @@ import jax
 import jax.numpy as jnp
 from jax import Array
 
+from acausal.precision import cast
 from acausal.simulation.integrate import integrate
 from acausal.simulation.solvers import Solver
 from acausal.training.arguments import arguments
@@ -50,6 +51,7 @@ class Problem(eqx.Module):
         regularizers: penalties by name.
         context: what regularizers may know.
         solver, substeps: how a step from sample to sample is made.
+        dtype: the precision of steps; of weights and losses it is double.
     """
 
     system: System = eqx.field(static=True)
@@ -65,6 +67,7 @@ class Problem(eqx.Module):
     context: Context
     solver: Solver = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
+    dtype: Any = eqx.field(static=True)
 
     def start(self) -> Trainable:
         """What is trained, where training starts."""
@@ -144,15 +147,13 @@ class Problem(eqx.Module):
         """States and targets at every sample."""
         x, predicted, _ = integrate(
             self.system,
-            packed,
-            x0,
-            steps,
+            *cast((packed, x0, steps), self.dtype),
             self.solver,
             outputs=self.targets,
             substeps=self.substeps,
         )
         assert predicted is not None
-        return x, predicted
+        return cast((x, predicted), float)
 
     def _measured(self, start: Array) -> Array:
         assert self.record.x is not None

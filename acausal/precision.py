@@ -1,0 +1,41 @@
+"""Precision: the floating-point numbers that a model computes with are those of its state and parameters."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+from jax.typing import ArrayLike, DTypeLike
+
+from acausal.errors import DataError
+
+PRECISIONS = ("float64", "float32")
+
+Tree = TypeVar("Tree")
+
+
+def precision(dtype: DTypeLike) -> np.dtype[Any]:
+    """One of `PRECISIONS`.
+
+    Raises:
+        DataError: for another.
+    """
+    chosen = np.dtype(dtype)
+    if chosen.name not in PRECISIONS:
+        raise DataError(f"dtype={chosen.name}: models compute in {' or '.join(PRECISIONS)}.")
+    return chosen
+
+
+def cast(tree: Tree, dtype: DTypeLike) -> Tree:
+    """The tree with its floating-point arrays in a precision."""
+    return jax.tree.map(lambda a: a.astype(dtype) if eqx.is_inexact_array(a) else a, tree)
+
+
+def floating(value: ArrayLike) -> Array:
+    """An array of floating-point numbers, in its own precision; of what has none, in double precision."""
+    array = jnp.asarray(value)
+    return array if jnp.issubdtype(array.dtype, jnp.floating) else jnp.asarray(array, float)
