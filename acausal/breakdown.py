@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
 
 from acausal.errors import listing
-from acausal.generate import Program, SolveLoop
 from acausal.instructions import Accumulate, Evaluate
 from acausal.parameters import Packed
+from acausal.program import Program
 from acausal.reduce import ReducedModel
+from acausal.solve_loop import SolveLoop
+from acausal.solve_mesh import SolveMesh
 
 
 def explain_breakdown(
@@ -32,22 +34,24 @@ def explain_breakdown(
             if not len(bad):
                 continue
             row = int(bad[0])
-            if isinstance(instruction, SolveLoop):
-                return _loop(reduced, program, instruction, first, row, t, arrays, packed)
-            return _formula(reduced, program, instruction, first + offset, row, values[row])
+            match instruction:
+                case SolveLoop():
+                    names = [_name(reduced, program, first + i, row) for i in range(len(results))]
+                    nearest = partial(instruction.nearest, row)
+                case SolveMesh():
+                    names = [_name(reduced, program, first, i) for i in range(len(values))]
+                    nearest = instruction.nearest
+                case _:
+                    name = _name(reduced, program, first + offset, row)
+                    return _formula(name, instruction, values[row])
+            if instruction.is_linear:
+                return _singular(names)
+            return _stopped(names, instruction.origins, *nearest(t, arrays, packed))
         arrays += results
     return None
 
 
-def _formula(
-    reduced: ReducedModel,
-    program: Program,
-    instruction: Evaluate | Accumulate,
-    array: int,
-    row: int,
-    value: float,
-) -> str:
-    name = reduced.name(_node(program, array, row))
+def _formula(name: str, instruction: Evaluate | Accumulate, value: float) -> str:
     formula = f" = {instruction.expression}" if isinstance(instruction, Evaluate) else ", a sum,"
     return (
         f"'{name}'{formula} is {value}: a division by zero, or a function outside its domain? "
@@ -55,30 +59,17 @@ def _formula(
     )
 
 
-def _loop(
-    reduced: ReducedModel,
-    program: Program,
-    instruction: SolveLoop,
-    first: int,
-    row: int,
-    t: Any,
-    arrays: Sequence[Any],
-    packed: Packed,
-) -> str:
-    names = [
-        reduced.name(_node(program, first + i, row)) for i in range(instruction.shape.n_unknowns)
-    ]
-    if instruction.shape.is_linear:
-        return (
-            f"the linear equations for {listing(names)} are singular there; "
-            "does a parameter make two of them alike, or one of them empty?"
-        )
-    values, rest = instruction.nearest(row, t, arrays, packed)
-    shape = instruction.shape
-    told = [
-        f"{shape.equations[e].template.origin} (off by {abs(float(r)):.3g})"
-        for e, r in zip(shape.torn.residuals, rest, strict=True)
-    ]
+def _singular(names: list[str]) -> str:
+    return (
+        f"the linear equations for {listing(names)} are singular there; "
+        "does a parameter make two of them alike, or one of them empty?"
+    )
+
+
+def _stopped(names: list[str], origins: list[str], values: Any, residuals: Any) -> str:
+    """What is said of nonlinear equations, from where the search for their solution ended."""
+    off = np.abs(np.asarray(residuals))
+    told = [f"{origins[i]} (off by {off[i]:.3g})" for i in np.argsort(-off, kind="stable")]
     at = ", ".join(f"{n} = {float(v):.6g}" for n, v in list(zip(names, values, strict=True))[:6])
     return (
         f"the equations for {listing(names)} have no solution that Newton's method finds; "
@@ -87,5 +78,6 @@ def _loop(
     )
 
 
-def _node(program: Program, array: int, row: int) -> int:
-    return int(np.flatnonzero((program.source == array) & (program.index == row))[0])
+def _name(reduced: ReducedModel, program: Program, array: int, row: int) -> str:
+    found = np.flatnonzero((program.source == array) & (program.index == row))
+    return reduced.name(int(found[0]))

@@ -13,10 +13,10 @@ import numpy as np
 import sympy as sp
 
 from acausal.flatten import FlatModel
-from acausal.generate import Program
 from acausal.instructions import chosen_module
 from acausal.lower import evaluate
 from acausal.parameters import Packed, ParameterLayout
+from acausal.program import Program
 from acausal.reduce import ReducedModel
 from acausal.symbols import time
 from acausal.template import Binding, EquationGroup

@@ -64,24 +64,31 @@ def specialised(
 
 
 @cache
-def alias(template: Statement) -> tuple[int, ...] | None:
-    """``(s,)`` if the template states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
-    if isinstance(template, Total) or template.parameters or template.modules:
-        return None
-    if not 1 <= len(template.variables) <= 2:
+def coefficients(template: Statement) -> tuple[Any, ...] | None:
+    """Numbers that the slots are multiplied by, where the residual is nothing but the sum of that; else None."""
+    if isinstance(template, Total):
+        return template.coefficients
+    if template.parameters or template.modules or not template.variables:
         return None
     slopes = [template.residual.diff(s) for s in template.variables]
     if not all(s.is_number and s != 0 for s in slopes):
         return None
-    rest = template.residual - sp.Add(
-        *(c * s for c, s in zip(slopes, template.variables, strict=True))
-    )
-    if sp.expand(rest) != 0:
+    terms = (c * s for c, s in zip(slopes, template.variables, strict=True))
+    return tuple(slopes) if sp.expand(template.residual - sp.Add(*terms)) == 0 else None
+
+
+@cache
+def alias(template: Statement) -> tuple[int, ...] | None:
+    """``(s,)`` if the template states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
+    if isinstance(template, Total) or len(template.variables) > 2:
         return None
-    if len(slopes) == 1:
-        return ()
-    ratio = -slopes[1] / slopes[0]
-    return (int(ratio),) if ratio in (1, -1) else None
+    match coefficients(template):
+        case (_,):
+            return ()
+        case (first, second) if -second / first in (1, -1):
+            return (int(-second / first),)
+        case _:
+            return None
 
 
 @cache

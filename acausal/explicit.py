@@ -11,7 +11,7 @@ from typing import Any
 import sympy as sp
 
 from acausal import derive
-from acausal.reduce import Accumulation, Assignment, Loop, ReducedModel, Step
+from acausal.reduce import Accumulation, Assignment, Loop, Mesh, ReducedModel, Step
 from acausal.symbols import ModuleCall, primes
 from acausal.symbols import time as internal_time
 from acausal.template import Integers
@@ -52,7 +52,7 @@ class _Writer:
         self._known = {*reduced.states.tolist(), *reduced.inputs.tolist()}
         self._origin: dict[int, tuple[Step, int]] = {}
         for step in reduced.steps:
-            rows = step.unknowns if isinstance(step, Loop) else step.unknowns[:, None]
+            rows = _rows(step)
             for i, row in enumerate(rows.tolist()):
                 self._origin.update(dict.fromkeys(row, (step, i)))
 
@@ -82,6 +82,8 @@ class _Writer:
                         self._values[current] = self._sum(step, row)
                     case Loop():
                         self._write_loop(step, row)
+                    case Mesh():
+                        self._write_mesh(step)
         return self._values[node]
 
     def _needs(self, step: Step, row: int) -> list[int]:
@@ -92,6 +94,8 @@ class _Writer:
                 return step.terms[row].tolist()
             case Loop():
                 return step.externals[row].tolist()
+            case Mesh():
+                return step.externals.tolist()
 
     def _sum(self, step: Accumulation, row: int) -> sp.Expr:
         pairs = zip(step.weights[row].tolist(), step.terms[row].tolist(), strict=True)
@@ -138,6 +142,32 @@ class _Writer:
         else:
             self._values.update(dict(zip(unknowns, own, strict=True)))
             self.implicit += [sp.Eq(r, 0, evaluate=False) for r in residuals]
+
+    def _write_mesh(self, mesh: Mesh) -> None:
+        self._values.update({v: self.symbol(v) for v in mesh.unknowns.tolist()})
+        for g in mesh.groups:
+            for row, own, called in zip(g.variables, g.parameters, g.modules, strict=True):
+                names = self._parameters(g.template, own, called)
+                slots = zip(g.template.variables, row.tolist(), strict=True)
+                names |= {s: self._values[v] for s, v in slots}
+                residual = _readable(g.template.residual.xreplace(names))
+                self.implicit.append(sp.Eq(residual, 0, evaluate=False))
+        sums = mesh.sums
+        terms: dict[int, list[sp.Expr]] = {}
+        for row, v, factor in zip(sums.rows, sums.nodes.tolist(), sums.factors, strict=True):
+            terms.setdefault(int(row), []).append(sp.nsimplify(factor) * self._values[v])
+        self.implicit += [sp.Eq(sp.Add(*parts), 0, evaluate=False) for parts in terms.values()]
+
+
+def _rows(step: Step) -> Any:
+    """The unknowns that are found together, row by row."""
+    match step:
+        case Loop():
+            return step.unknowns
+        case Mesh():
+            return step.unknowns[None]
+        case _:
+            return step.unknowns[:, None]
 
 
 def _readable(expression: Any) -> Any:

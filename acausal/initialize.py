@@ -16,9 +16,9 @@ import optimistix as optx
 from acausal.breakdown import explain_breakdown
 from acausal.conditions import Conditions, FixedStart, initial_conditions
 from acausal.errors import DataError, InitializationError, listing, nearest
-from acausal.generate import Program
-from acausal.newton import root
+from acausal.newton import Dense, root
 from acausal.parameters import Packed, ParameterLayout
+from acausal.program import Program
 from acausal.reduce import ReducedModel
 from acausal.tracing import traced
 
@@ -298,7 +298,7 @@ def _stop_gradient(tree: Any) -> Any:
 
 def _least_change(residual: Any, guess: Any) -> Any:
     """Newton's method with the smallest steps: a root near the guess also where there are many."""
-    return root(residual, guess, _smallest, max_steps=MAX_STEPS)[0]
+    return root(Dense(residual, _smallest), guess, max_steps=MAX_STEPS)[0]
 
 
 def _smallest(jacobian: Any, r: Any) -> Any:

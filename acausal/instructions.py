@@ -15,6 +15,9 @@ from acausal.lower import ModuleValue, collect, evaluate
 from acausal.parameters import Packed
 from acausal.symbols import time
 
+STATE = 0
+"""Where the states lie among a program's arrays."""
+
 
 @dataclass(frozen=True)
 class Arguments:
@@ -83,7 +86,8 @@ class Accumulate:
     def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
         """The sums, as one array."""
         values = jnp.broadcast_to(self.values.read(arrays), (self.terms * self.size,))
-        total = (values.reshape(self.terms, self.size) * self.weights).sum(axis=0)
+        weights = jnp.asarray(self.weights, values.dtype)
+        total = (values.reshape(self.terms, self.size) * weights).sum(axis=0)
         return [total[0] if self.size == 1 else total]
 
 

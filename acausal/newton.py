@@ -9,7 +9,8 @@ E. Allgower, K. Georg: Introduction to Numerical Continuation Methods, SIAM 2003
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
 
 import jax
 import jax.numpy as jnp
@@ -31,8 +32,70 @@ ALONE, ON_THE_WAY, AT_THE_END, DONE, LOST = 0, 1, 2, 3, 4
 
 Residual = Callable[[Any], Any]
 """From unknowns (m,) to residuals (k,)."""
-Solve = Callable[[Any, Any], Any]
-"""From a matrix (k, m) and residuals (k,) to a step (m,)."""
+
+
+class Slopes(Protocol):
+    """The slopes (k, m) of residuals at a point, in whatever form."""
+
+    def reach(self, sizes: Any) -> Any:
+        """How far residuals may move, (k,), when unknowns move by up to ``sizes``, (m,)."""
+        ...
+
+    def step(self, r: Any, column: Any, row: Any) -> Any:
+        """``z`` (m + 1,) with ``slopes @ z[:-1] + column * z[-1] = r`` and ``row @ z = 0``."""
+        ...
+
+
+class Equations(Protocol):
+    """Equations whose root is looked for."""
+
+    def residual(self, z: Any, /) -> Any:
+        """From unknowns (m,) to residuals (k,)."""
+        ...
+
+    def linearized(self, z: Any, /) -> tuple[Any, Slopes]:
+        """The residuals and their slopes."""
+        ...
+
+
+@dataclass(frozen=True)
+class Dense:
+    """Equations whose slopes are a matrix, found by differentiation.
+
+    Attributes:
+        residual: of the equations. ``solve``: solves linear equations, of which there are as many as unknowns,
+            or fewer: from a matrix (k, m) and right sides (k,) to (m,).
+    """
+
+    residual: Residual
+    solve: Callable[[Any, Any], Any]
+
+    def linearized(self, z: Any) -> tuple[Any, Matrix]:
+        """The residuals and their slopes, which share their evaluation."""
+
+        def doubled(z: Any) -> tuple[Any, Any]:
+            r = self.residual(z)
+            return r, r
+
+        slopes, r = jax.lax.optimization_barrier(jax.jacfwd(doubled, has_aux=True)(z))
+        return r, Matrix(slopes, self.solve)
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """Slopes as a matrix."""
+
+    values: Any
+    solve: Callable[[Any, Any], Any]
+
+    def reach(self, sizes: Any) -> Any:
+        """See `Slopes`."""
+        return jnp.abs(self.values) @ sizes
+
+    def step(self, r: Any, column: Any, row: Any) -> Any:
+        """See `Slopes`."""
+        above = jnp.concatenate([self.values, column[:, None]], axis=1)
+        return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
 
 
 class _Walk(NamedTuple):
@@ -50,36 +113,36 @@ class _Walk(NamedTuple):
 
 
 def root(
-    residual: Residual, guess: Any, solve: Solve, scale: Any = 1.0, max_steps: int = 300
+    equations: Equations, guess: Any, scale: Any = 1.0, max_steps: int = 300
 ) -> tuple[Any, Any]:
     """A root near a guess, and whether it was reached.
 
     Arguments:
-        solve: solves linear equations, of which there are as many as unknowns, or fewer.
         scale: typical magnitude of the unknowns, (m,) or one for all.
         max_steps: of Newton's method.
     """
     unit = jnp.abs(guess) + scale
     units = jnp.append(unit, 1.0)
-    first = residual(guess)
+    first = equations.residual(guess)
     upward = jnp.zeros_like(units).at[-1].set(1.0)
     begin = jnp.append(guess / unit, 0.0)
 
     def off(point: Any) -> Any:
-        return residual(point[:-1] * unit) - (1 - point[-1]) * first
+        return equations.residual(point[:-1] * unit) - (1 - point[-1]) * first
 
-    def bordered(point: Any, direction: Any) -> tuple[Any, Any]:
-        slopes, r = jax.lax.optimization_barrier(_jacobian(residual)(point[:-1] * unit))
-        above = jnp.concatenate([slopes, first[:, None]], axis=1)
-        rest = jnp.append(r - (1 - point[-1]) * first, 0.0)
-        return jnp.concatenate([above, (direction / units)[None]]), rest
+    def linearized(point: Any, direction: Any) -> tuple[Any, Any, Any]:
+        r, slopes = equations.linearized(point[:-1] * unit)
+        rest = r - (1 - point[-1]) * first
+        sizes = units * (jnp.abs(point) + 1.0)
+        reach = slopes.reach(sizes[:-1]) + jnp.abs(first) * sizes[-1]
+        return rest, reach, slopes.step(rest, first, direction / units) / units
 
     def go_on(w: _Walk) -> _Walk:
         walking = w.phase == ON_THE_WAY
         direction = jnp.where(walking, w.direction, upward)
         ahead = jnp.where(walking, w.point + w.stride * w.direction, w.point.at[-1].set(1.0))
         limit = jnp.where(walking, CORRECTIONS, max_steps)
-        point, arrived = _newton(off, lambda p: bordered(p, direction), ahead, solve, units, limit)
+        point, arrived = _newton(off, lambda p: linearized(p, direction), ahead, limit)
         taken = point - w.point
         length = _norm(taken)
         straight = (jnp.sum(taken * w.direction) > STRAIGHT * length) & (length < 3 * w.stride)
@@ -109,10 +172,8 @@ def root(
 
 def _newton(
     residual: Residual,
-    linearized: Callable[[Any], tuple[Any, Any]],
+    linearized: Callable[[Any], tuple[Any, Any, Any]],
     guess: Any,
-    solve: Solve,
-    units: Any,
     max_steps: Any,
 ) -> tuple[Any, Any]:
     """A root near a guess by Newton's method, and whether it was reached.
@@ -122,18 +183,15 @@ def _newton(
     the step is small, rounding is all that is left; otherwise the method is stuck.
 
     Arguments:
-        linearized: from a point to the matrix and the right-hand side of Newton's step. Its last row, which
-            ``residual`` has not, holds at every point.
-        units: in which points are measured, (m + 1,).
+        linearized: from a point to the residuals, how far each may move, and the step that the slopes ask for.
     """
 
     def advance(state: Any) -> Any:
         z, _, k = state
-        slopes, r = linearized(z)
-        full = jnp.where(jnp.all(r == 0), 0.0, solve(slopes, r) / units)
-        reach = jnp.abs(slopes[:-1]) @ (units * (jnp.abs(z) + 1.0))
+        r, reach, step = linearized(z)
+        full = jnp.where(jnp.all(r == 0), 0.0, step)
         weight = 1 / jnp.where(reach > 0, reach, 1.0)
-        size = _norm(weight * r[:-1])
+        size = _norm(weight * r)
 
         def too_far(trial: Any) -> Any:
             dz, new = trial
@@ -156,16 +214,6 @@ def _newton(
 
     z, status, _ = jax.lax.while_loop(unfinished, advance, (guess, jnp.array(GOING), 0))
     return z, status == ARRIVED
-
-
-def _jacobian(residual: Residual) -> Callable[[Any], tuple[Any, Any]]:
-    """From unknowns to the Jacobian (k, m) and the residuals (k,), which share their evaluation."""
-
-    def doubled(z: Any) -> tuple[Any, Any]:
-        r = residual(z)
-        return r, r
-
-    return jax.jacfwd(doubled, has_aux=True)
 
 
 def _norm(v: Any) -> Any:

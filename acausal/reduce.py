@@ -18,6 +18,7 @@ from acausal.errors import StructureError
 from acausal.flatten import FlatModel
 from acausal.hidden import expose_constraints
 from acausal.loops import BlockEquation, BlockShape, Loop
+from acausal.meshes import Mesh
 from acausal.states import select_states
 from acausal.steps import Accumulation, Assignment, Step, order_steps
 from acausal.template import Integers
@@ -28,6 +29,7 @@ __all__ = [
     "BlockEquation",
     "BlockShape",
     "Loop",
+    "Mesh",
     "ReducedModel",
     "Step",
     "reduce",

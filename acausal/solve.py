@@ -8,7 +8,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from acausal.newton import Residual, root
+from acausal.newton import Dense, Residual, root
 
 Block = Callable[[Any], tuple[Any, Any]]
 """From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
@@ -33,7 +33,7 @@ def solve_nonlinear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
         return block(tears)[1]
 
     def solve(function: Residual, start: Any) -> Any:
-        found, converged = root(function, start, _solve, scale)
+        found, converged = root(Dense(function, _solve), start, scale)
         return jnp.where(converged, found, jnp.nan)
 
     def tangent(linear: Residual, y: Any) -> Any:
@@ -44,7 +44,7 @@ def solve_nonlinear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
 
 def nearest(block: Block, guess: Any, scale: Any = 1.0) -> Any:
     """Tearing variables where the search for a root of a nonlinear block ends, whether it is one or not."""
-    return root(lambda tears: block(tears)[1], guess, _solve, scale)[0]
+    return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
 
 
 def _solve(a: Any, b: Any) -> Any:

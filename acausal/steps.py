@@ -12,6 +12,7 @@ from acausal import derive, graph
 from acausal.equations import Equations
 from acausal.errors import StructureError, listing
 from acausal.loops import Loop, block_of, loop_of, matrix
+from acausal.meshes import LARGE, Mesh, mesh_of
 from acausal.slopes import parameter_values
 from acausal.template import Integers, Template
 from acausal.totals import Total, balance
@@ -42,7 +43,7 @@ class Accumulation:
     weights: np.ndarray
 
 
-Step = Assignment | Accumulation | Loop
+Step = Assignment | Accumulation | Loop | Mesh
 
 
 def order_steps(
@@ -61,12 +62,15 @@ def order_steps(
     vanishing = system.vanishing(values)
     sums: dict[tuple[int, int], list[_Sum]] = {}
     found: dict[Any, list[Any]] = {}
+    meshes: dict[int, list[int]] = {}
     for a, b in itertools.pairwise(bounds):
         equations = order[a:b].tolist()
         level = int(blocks.level[blocks.block[equations[0]]])
         e, unknown = equations[0], variable_of[equations[0]]
         template, column = system.template[e], system.variables[e].index(unknown)
-        if len(equations) > 1 or not derive.is_solvable(template, column):
+        if len(equations) > LARGE:
+            meshes.setdefault(level, []).extend(equations)
+        elif len(equations) > 1 or not derive.is_solvable(template, column):
             for outside in _close(system, equations, [variable_of[e] for e in equations]):
                 sums.setdefault((level, len(outside.terms)), []).append(outside)
             block = block_of(system, equations, [variable_of[e] for e in equations], vanishing)
@@ -84,6 +88,10 @@ def order_steps(
         if isinstance(key[1], Template)
         else (key[0], loop_of(system, members, values))
         for key, members in found.items()
+    ]
+    steps += [
+        (level, mesh_of(system, members, [variable_of[e] for e in members], values))
+        for level, members in meshes.items()
     ]
     return tuple(step for _, step in sorted(steps, key=lambda s: s[0]))
 

@@ -17,10 +17,11 @@ from acausal.component import Component
 from acausal.errors import DataError, ModelError, nearest
 from acausal.explicit import explicit_equations
 from acausal.flatten import FlatModel, flatten
-from acausal.generate import Program, generate
+from acausal.generate import generate
 from acausal.initialize import Initialization, Initializer, initializer
 from acausal.parameters import Packed, ParameterLayout, lay_out_parameters
 from acausal.precision import floating
+from acausal.program import Program
 from acausal.reduce import ReducedModel, reduce
 
 Params = Mapping[str, Any] | Packed

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.newton import root
+from acausal.newton import Dense, root
 from examples.qvm.model import with_networks
 from examples.qvm.record import INPUT, rough_road
 from tests.oscillator import force, learned, plain, record
@@ -94,7 +94,7 @@ def test_newton_knows_the_rounding():
     def residual(z):
         return jnp.stack([z[0] ** 3 - 2, z[1] * jnp.exp(z[1]) - z[0]])
 
-    found, converged = root(residual, jnp.ones(2, jnp.float32), jnp.linalg.solve)
+    found, converged = root(Dense(residual, jnp.linalg.solve), jnp.ones(2, jnp.float32))
     assert converged
     assert found.dtype == jnp.float32
     assert float(found[0]) == pytest.approx(2 ** (1 / 3), rel=1e-6)
