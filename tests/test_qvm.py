@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 import acausal as ac
-from examples.qvm import demo, experiments
+from examples.qvm import demo, experiments, promises
 from examples.qvm.judge import DAMPER, SPRING, loss, true_forces
 from examples.qvm.model import linear, truth, with_networks
 from examples.qvm.record import INPUT, Ride, ride, rough_road
@@ -106,3 +106,11 @@ def test_a_short_demo_writes_its_page(tmp_path: Path, monkeypatch: pytest.Monkey
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert f"{report['loss']:.4f}" in page
     assert INPUT not in page
+
+
+@pytest.mark.parametrize("way", promises.WAYS, ids=lambda way: way.name)
+def test_networks_made_in_every_way_fit_the_vehicle(way: promises.Way) -> None:
+    system = ac.compile(promises.vehicle(way))
+    params = system.parameters(0)
+    still = system.observe(["spring_nn.f", "damper_nn.f"], 0.0, [0.0] * 5, [0.0], params)
+    assert (np.abs(still) < 1e-9).tolist() == [bool(way.spring), bool(way.damper)]

@@ -29,6 +29,9 @@ from acausal.networks.mlp import (
 from acausal.networks.monotone import (
     Monotone,
 )
+from acausal.networks.passage import (
+    Passage,
+)
 from acausal.networks.passive import (
     Passive,
     SameSign,
@@ -70,6 +73,7 @@ __all__ = [
     "Monotone",
     "Odd",
     "OffsetCorrected",
+    "Passage",
     "Passive",
     "Positive",
     "Potential",

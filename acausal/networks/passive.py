@@ -10,26 +10,10 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
+from acausal.networks.passage import Passage
+
 START = -2.0
 """What is added to a network inside a softplus, so that a law begins small: softplus(-2) = 0.13."""
-
-STEEPEST = 7.0
-"""Logarithm of the greatest steepness, about 1100."""
-
-
-class Passage(eqx.Module):
-    """``x + c tanh(k x)`` with trained ``c, k > 0``: it rises through zero, steeply if it is a dry friction."""
-
-    height: Array
-    steepness: Array
-
-    def __init__(self, height: float = -1.0, steepness: float = 1.5) -> None:
-        self.height, self.steepness = jnp.asarray(height, float), jnp.asarray(steepness, float)
-
-    def __call__(self, x: ArrayLike) -> Array:
-        """The output for a scalar input."""
-        k = jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
-        return jnp.asarray(x) + jax.nn.softplus(self.height) * jnp.tanh(k * x)
 
 
 class Passive(eqx.Module):

@@ -9,6 +9,8 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
+from acausal.networks.passage import Passage
+
 
 class OffsetCorrected(eqx.Module):
     """A network less its value at zero: ``F̃(x) = F(x) − F(0)``, the paper's (5).
@@ -24,10 +26,11 @@ class OffsetCorrected(eqx.Module):
 
 
 class ThroughZero(eqx.Module):
-    """``x F(x, T)``: zero at zero to the last bit, for one evaluation of the network."""
+    """``p(x) F(x, T)`` with a `Passage` ``p``: zero at zero to the last bit, for one evaluation of the network."""
 
     net: Callable[..., Array]
+    passage: Passage = eqx.field(default_factory=Passage)
 
     def __call__(self, *inputs: ArrayLike) -> Array:
         """The output for scalar inputs."""
-        return jnp.asarray(inputs[0]) * self.net(*inputs)
+        return self.passage(inputs[0]) * self.net(*inputs)
