@@ -111,6 +111,7 @@ from acausal.system import (
     System,
     compile,
 )
+from acausal.training.lbfgs import lbfgs
 from acausal.training.regularizers import (
     SmallCorrection,
     ZeroCrossing,
@@ -167,6 +168,7 @@ __all__ = [
     "exp",
     "fit",
     "floor",
+    "lbfgs",
     "linearize",
     "load",
     "log",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -15,7 +14,6 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError
 from acausal.neural import remove_offset
 from acausal.simulation.solvers import Solver
 from acausal.training.history import History
@@ -26,7 +24,7 @@ from acausal.training.pose import Start, pose
 from acausal.training.problem import Problem, modified
 from acausal.training.progress import Observer, display
 from acausal.training.regularizers import Regularizer
-from acausal.training.trainer import Trainer, begin
+from acausal.training.strategy import legs
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -49,7 +47,8 @@ def fit(
     sequence_length: float | None = None,
     batch_size: int = 1,
     subsample: float | None = None,
-    epochs: int = 1000,
+    strategy: str | Sequence[str] = "sequences",
+    epochs: int | Sequence[int] | None = None,
     optimizer: optax.GradientTransformation | None = None,
     dt: float | None = None,
     solver: str | Solver = "heun",
@@ -81,12 +80,21 @@ def fit(
         sequence_length: in seconds; ``None`` takes the whole record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
-        epochs: number of updates.
-        optimizer: any optax optimizer; by default Adam, its rate falling from 0.01 to 0.0001 as a cosine.
+        strategy: what to do, or several one after the other, each from where the one before was best:
+            ``"sequences"`` as the arguments above say; ``"equation_error"``: targets computed from measured
+            states without simulation, in a second or so, biased by noise; ``"whole_record"``: L-BFGS on the
+            simulation of the whole record. ``("equation_error", "whole_record")`` is the fastest way where all
+            states are measured, ``"whole_record"`` with ``x0="fit"`` where they are not.
+        epochs: number of updates, or one for each part of the strategy; by default 1000 for sequences, 300 for
+            the equation error and 200 for the whole record.
+        optimizer: of sequences: any optax optimizer; by default Adam, its rate falling from 0.01 to 0.0001 as a
+            cosine.
         dt: step of the integration in seconds, a whole part of the sample time (the default).
         solver: of the fixed steps, by name or a diffrax solver.
         x0: state at the record's start, for sequences that begin there and for the loss over the whole record:
             ``"data"`` as measured, ``"model"`` as the model starts, or values by name that replace the measured ones.
+            ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
+            then lie side by side (multiple shooting). No state need be measured.
         dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
         seed: of the networks, the sequences and the points. The same seed gives the same result.
         evaluate_every: updates between two evaluations over the whole record, among which the best is
@@ -101,8 +109,6 @@ def fit(
         DataError: if the data do not fit the model; one sentence says where.
         TrainingError: if there is nothing to train or the training cannot go on.
     """
-    if epochs < 1:
-        raise TrainingError(f"epochs={epochs}; at least one is needed.")
     problem = pose(
         system,
         Data.of(data).for_system(system),
@@ -121,22 +127,12 @@ def fit(
         x0=x0,
         dtype=dtype,
     )
-    chosen = default_optimizer(epochs) if optimizer is None else optimizer
-    trainer = Trainer(
-        optax.with_extra_args_support(chosen), DIVERGED if loss == "nrmse" else np.inf, modified
-    )
-    state = begin(trainer, problem.start(), jax.random.key(seed))
-    every = max(1, epochs // 10) if evaluate_every is None else evaluate_every
-    with display(progress, epochs) as show:
-        trained = run(problem, trainer, state, epochs, every, (show, *observers))
+    limit = DIVERGED if loss == "nrmse" else np.inf
+    plan = legs(problem, strategy, epochs, evaluate_every, optimizer, limit)
+    with display(progress, sum(leg.epochs for leg in plan)) as show:
+        trained = run(problem, plan, jax.random.key(seed), (show, *observers))
     _warn(trained)
     return _result(problem, trained)
-
-
-@cache
-def default_optimizer(epochs: int) -> optax.GradientTransformation:
-    """Adam, its rate falling from 0.01 to 0.0001 as a cosine over the epochs."""
-    return optax.adam(optax.cosine_decay_schedule(1e-2, epochs, 1e-2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,6 +162,7 @@ class Fit:
         loss: over one simulation of the whole record, every point of it; infinite if the model diverges there.
         loss_before: the same before training.
         best_epoch: updates after which ``params`` were reached.
+        x0: the state at the record's start, by name.
         modifiers: relative change p̃/p − 1 of every parameter that was trained.
         seen: by network, the statistics of what it was called with.
         history: the training, update by update.
@@ -179,6 +176,7 @@ class Fit:
     loss: float
     loss_before: float
     best_epoch: int
+    x0: dict[str, float]
     modifiers: dict[str, float]
     seen: dict[str, Seen]
     history: History
@@ -219,6 +217,7 @@ def _result(problem: Problem, trained: Trained) -> Fit:
         loss=best.loss,
         loss_before=float(history.full_loss[0, 1]),
         best_epoch=best.epoch,
+        x0=dict(zip(problem.system.states, best.x[0].tolist(), strict=True)),
         modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},
         seen=statistics,
         history=history,

@@ -422,7 +422,8 @@ def test_outputs_alone_suffice_for_the_whole_record():
     [
         ({"data": ["mass.a", "push.f"]}, ac.DataError,
          ("The data lack 'mass.s', 'mass.v': sequences start from measured states. "
-          "Train on the whole record (sequence_length=None) with x0='model' or x0={...}.")),
+          "Let the training find where they start (x0='fit'), or train on the whole record "
+          "(sequence_length=None) with x0='model' or x0={...}.")),
         ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1}, ac.DataError,
          ("The data lack 'mass.v', with which the record starts: "
           "give x0={'mass.v': ...}, or x0='model' for the model's start values.")),

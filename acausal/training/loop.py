@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import jax
@@ -15,9 +15,11 @@ from jax import Array
 
 from acausal.errors import TrainingError
 from acausal.training.history import History, Log
+from acausal.training.lbfgs import Search
 from acausal.training.problem import Problem, Trainable
 from acausal.training.progress import Observer, Progress
-from acausal.training.trainer import CHUNK, State, Trainer, advance
+from acausal.training.strategy import Leg
+from acausal.training.trainer import CHUNK, State, advance, begin
 
 LOOK = 0.5
 """Seconds between two looks at the training, about."""
@@ -62,21 +64,14 @@ class Trained:
 
 
 def train(
-    problem: Problem,
-    trainer: Trainer,
-    state: State,
-    epochs: int,
-    evaluate_every: int,
-    observers: Sequence[Observer],
+    problem: Problem, legs: Sequence[Leg], key: Array, observers: Sequence[Observer]
 ) -> Trained:
-    """Train until ``epochs`` updates are done, or until the user interrupts.
+    """Train leg by leg, each from where the one before was best, or until the user interrupts.
 
     Arguments:
-        problem: what to minimise.
-        trainer: how.
-        state: where to begin.
-        epochs: updates.
-        evaluate_every: updates between two evaluations over the whole record, among which the best is chosen.
+        problem: what every leg serves: evaluations over the whole record, among which the best is chosen.
+        legs: what to minimise and how.
+        key: source of all batches.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
 
     Raises:
@@ -85,53 +80,106 @@ def train(
     began = time.perf_counter()
     times = np.asarray(problem.record.steps.t)
     log = Log(times, tuple(problem.regularizers), problem.modifiers.names)
-    best = _evaluate(problem, state, log, None)
-    compiling = updating = 0.0
-    interrupted, evaluated, size = False, 0, 1
+    run = _Run(problem, observers, log, began, sum(leg.epochs for leg in legs))
+    run.evaluate(problem.start())
+    interrupted = False
     try:
-        clock = time.perf_counter()
-        jax.block_until_ready(
-            advance(problem, trainer, state, state.epoch)
-        )  # compiles, and does nothing
-        compiling = time.perf_counter() - clock
-        while log.epochs < epochs:
-            due = min(evaluated + evaluate_every, epochs)
-            count = min(size, due - log.epochs, CHUNK)
-            clock = time.perf_counter()
-            state, entry = jax.block_until_ready(
-                advance(problem, trainer, state, jnp.asarray(log.epochs + count, int))
-            )
-            ended = time.perf_counter()
-            new = log.add(entry, count, clock - began, ended - began)
-            per_epoch = (ended - clock) / count
-            updating += ended - clock
-            size = max(1, min(CHUNK, int(LOOK / per_epoch)))
-            _check_rejections(log, int(state.rejected))
-            if log.epochs == due:
-                evaluated = due
-                best = _evaluate(problem, state, log, best)
-            progress = Progress(
-                log.epochs, epochs, log.loss, best.loss, ended - began, per_epoch, tuple(new)
-            )
-            for observe in observers:
-                observe(progress)
+        for i, leg in enumerate(legs):
+            run.follow(leg, jax.random.fold_in(key, i) if i else key)
     except KeyboardInterrupt:
         interrupted = True
-    if evaluated != log.epochs:
-        best = _evaluate(problem, state, log, best)
+        run.evaluate(run.last)
     return Trained(
-        best, log.history(), time.perf_counter() - began, compiling, updating, interrupted
+        run.best,
+        log.history(),
+        time.perf_counter() - began,
+        run.compiling,
+        run.updating,
+        interrupted,
     )
 
 
-def _evaluate(problem: Problem, state: State, log: Log, best: Best | None) -> Best:
-    """Simulate the whole record, and keep the better of the state and the best so far."""
-    value, x = problem.simulate(state.trainable)
-    loss = float(value) if math.isfinite(float(value)) else math.inf
-    log.evaluated(loss)
-    if best is None or loss < best.loss or math.isinf(best.loss):
-        return Best(loss, log.epochs, state.trainable, x)
-    return best
+class _Run:
+    """A training on its way."""
+
+    best: Best
+    last: Trainable
+
+    def __init__(
+        self,
+        problem: Problem,
+        observers: Sequence[Observer],
+        log: Log,
+        began: float,
+        epochs: int,
+    ) -> None:
+        self.problem, self.observers, self.log = problem, observers, log
+        self.began, self.epochs = began, epochs
+        self.compiling = self.updating = 0.0
+        self.evaluated = -1
+
+    def follow(self, leg: Leg, key: Array) -> None:
+        """Make all updates of a leg."""
+        log, first = self.log, self.log.epochs
+        state = begin(leg.trainer, self._entry(leg), key)
+        clock = time.perf_counter()
+        jax.block_until_ready(
+            advance(leg.objective, leg.trainer, state, state.epoch)
+        )  # compiles, and does nothing
+        self.compiling += time.perf_counter() - clock
+        size = 1
+        while (done := log.epochs - first) < leg.epochs and not _is_converged(state):
+            due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
+            count = min(size, due - done, CHUNK)
+            clock = time.perf_counter()
+            state, entry = jax.block_until_ready(
+                advance(leg.objective, leg.trainer, state, jnp.asarray(done + count, int))
+            )
+            ended = time.perf_counter()
+            new = log.add(entry, count, clock - self.began, ended - self.began)
+            self.last = state.trainable
+            per_epoch = (ended - clock) / count
+            self.updating += ended - clock
+            size = max(1, min(CHUNK, int(LOOK / per_epoch)))
+            _check_rejections(log, int(state.rejected))
+            if done + count == due:
+                self.evaluate(state.trainable)
+            progress = Progress(
+                log.epochs,
+                self.epochs,
+                log.loss,
+                self.best.loss,
+                ended - self.began,
+                per_epoch,
+                tuple(new),
+            )
+            for observe in self.observers:
+                observe(progress)
+        self.evaluate(state.trainable)
+
+    def _entry(self, leg: Leg) -> Trainable:
+        """Where a leg begins: at the best up to now, with as many initial states as it has sequences."""
+        best, needed = self.best.trainable, leg.objective.start().states
+        if needed is None or best.states is None:
+            return best
+        return replace(best, states=best.states[: len(needed)])
+
+    def evaluate(self, trainable: Trainable) -> None:
+        """Simulate the whole record, and keep the better of the trainable and the best so far."""
+        if self.evaluated == self.log.epochs:
+            return
+        self.evaluated = self.log.epochs
+        value, x = self.problem.simulate(trainable)
+        loss = float(value) if math.isfinite(float(value)) else math.inf
+        self.log.evaluated(loss)
+        first = self.log.epochs == 0
+        if first or loss < self.best.loss or math.isinf(self.best.loss):
+            self.best = Best(loss, self.log.epochs, trainable, x)
+        self.last = trainable
+
+
+def _is_converged(state: State) -> bool:
+    return isinstance(state.optimizer, Search) and bool(state.optimizer.converged)
 
 
 def _check_rejections(log: Log, rejected: int) -> None:

@@ -18,8 +18,9 @@ from acausal.precision import precision
 from acausal.simulation import solvers
 from acausal.training import losses
 from acausal.training import modifiers as parameter_modifiers
+from acausal.training.nodes import Nodes
 from acausal.training.problem import Problem
-from acausal.training.record import lay_out, sequences
+from acausal.training.record import Sequences, lay_out, sequences
 from acausal.training.regularizers import Context, Regularizer, label
 
 if TYPE_CHECKING:
@@ -28,7 +29,10 @@ if TYPE_CHECKING:
 REFERENCE_POINTS = 1000
 """Points of the record at which regularizers look at networks."""
 
-Start = Literal["data", "model"]
+CONTINUITY = 10.0
+"""Weight of the gaps between sequences whose initial states are trained."""
+
+Start = Literal["data", "model", "fit"]
 
 
 def pose(
@@ -68,10 +72,13 @@ def pose(
         raise DataError("The record has less than two samples.")
     cut = sequences(data, sequence_length, batch_size, subsample)
     missing = [n for n in system.states if n not in data.signals]
-    if missing and not cut.whole:
+    if x0 == "fit":
+        cut = cut.tile()
+    elif missing and not cut.whole:
         raise DataError(
             f"The data lack {listing(missing)}: sequences start from measured states. "
-            "Train on the whole record (sequence_length=None) with x0='model' or x0={...}."
+            "Let the training find where they start (x0='fit'), or train on the whole record "
+            "(sequence_length=None) with x0='model' or x0={...}."
         )
     record = lay_out(data, system.inputs, targets, None if missing else system.states)
     problem = Problem(
@@ -84,7 +91,8 @@ def pose(
         targets=targets,
         record=record,
         sequences=cut,
-        x0=_first_state(system, data, x0, missing),
+        x0=None if x0 == "fit" else _first_state(system, data, x0, missing),
+        nodes=None,
         loss=losses.named(loss),
         regularizers=_labelled(regularizers),
         context=Context((), {}),
@@ -92,9 +100,18 @@ def pose(
         substeps=_substeps(data, dt),
         dtype=precision(dtype),
     )
-    if not regularizers:
-        return problem
-    return replace(problem, context=_context(problem))
+    if x0 == "fit":
+        problem = replace(problem, nodes=_nodes(problem, data))
+    return replace(problem, context=_context(problem)) if regularizers else problem
+
+
+def over_whole_record(problem: Problem) -> Problem:
+    """The same problem with the whole record as one sequence, every point of it."""
+    count, nodes = len(problem.record), problem.nodes
+    whole = Sequences(count, count, 1, None, side_by_side=problem.sequences.side_by_side)
+    if nodes is not None:
+        nodes = Nodes(nodes.start[:1], nodes.scale, nodes.continuity, count)
+    return replace(problem, sequences=whole, nodes=nodes)
 
 
 def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:
@@ -128,6 +145,20 @@ def _first_state(
     return jnp.asarray([given[n] if n in given else data[n][0] for n in system.states], float)
 
 
+def _nodes(problem: Problem, data: Data) -> Nodes:
+    """Initial states of all parts: as measured, else as the model passes through them before training."""
+    states, cut = problem.system.states, problem.sequences
+    passed = np.array(_trajectory(problem))
+    for i, name in enumerate(states):
+        if name in data.signals:
+            passed[:, i] = data[name]
+    spread = passed.std(axis=0)
+    largest = np.abs(passed).max(axis=0)
+    scale = np.where(spread > 1e-9 * largest, spread, np.where(largest > 0, largest, 1.0))
+    starts = passed[: cut.parts * cut.length : cut.length]
+    return Nodes(jnp.asarray(starts), jnp.asarray(scale), jnp.asarray(CONTINUITY), cut.length)
+
+
 def _labelled(regularizers: tuple[Regularizer, ...]) -> dict[str, Regularizer]:
     named: dict[str, Regularizer] = {}
     for regularizer in regularizers:
@@ -153,14 +184,23 @@ def _substeps(data: Data, dt: float | None) -> int:
 
 
 def _context(problem: Problem) -> Context:
-    """What networks are called with over the record: in the measured states, else in a simulation."""
-    trainable = problem.start()
-    x = problem.record.x
-    if x is None:
-        _, x = problem.simulate(trainable)
-        if not bool(jnp.isfinite(x).all()):
-            raise TrainingError(
-                "The model diverges over the record before training; start from better parameters."
-            )
+    """What networks are called with over the record."""
     rows = np.unique(np.linspace(0, len(problem.record) - 1, REFERENCE_POINTS).astype(int))
-    return Context(problem.networks, problem.seen(trainable, x, jnp.asarray(rows)))
+    x = _trajectory(problem)
+    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)))
+
+
+def _trajectory(problem: Problem) -> Array:
+    """The states at every sample: as measured, else as the model has them before training.
+
+    Raises:
+        TrainingError: if the model diverges.
+    """
+    if problem.record.x is not None:
+        return problem.record.x
+    _, x = problem.simulate(problem.start())
+    if not bool(jnp.isfinite(x).all()):
+        raise TrainingError(
+            "The model diverges over the record before training; start from better parameters."
+        )
+    return x

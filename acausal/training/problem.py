@@ -16,6 +16,7 @@ from acausal.simulation.solvers import Solver
 from acausal.training.arguments import arguments
 from acausal.training.losses import Loss
 from acausal.training.modifiers import Modifiers
+from acausal.training.nodes import Nodes
 from acausal.training.record import Batch, Record, Sequences
 from acausal.training.regularizers import Context, Regularizer
 
@@ -29,10 +30,13 @@ class Trainable(eqx.Module):
     Attributes:
         networks: the arrays of every network that is trained, by name.
         modifiers: the free variable δ of every parameter that is trained, by name.
+        states: where sequences begin, in the units of `Nodes`, shape (parts, number of states); ``None`` where
+            that is not trained.
     """
 
     networks: dict[str, Any]
     modifiers: dict[str, Array]
+    states: Array | None = None
 
 
 class Problem(eqx.Module):
@@ -47,6 +51,7 @@ class Problem(eqx.Module):
         record: the data.
         sequences: how batches are drawn from it.
         x0: the state at the record's start, shape (number of states,), or ``None`` for the model's start values.
+        nodes: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
         regularizers: penalties by name.
         context: what regularizers may know.
@@ -62,6 +67,7 @@ class Problem(eqx.Module):
     record: Record
     sequences: Sequences
     x0: Array | None
+    nodes: Nodes | None
     loss: Loss = eqx.field(static=True)
     regularizers: dict[str, Regularizer]
     context: Context
@@ -72,7 +78,8 @@ class Problem(eqx.Module):
     def start(self) -> Trainable:
         """What is trained, where training starts."""
         networks = {n: eqx.filter(self.params[n], eqx.is_inexact_array) for n in self.networks}
-        return Trainable(networks, self.modifiers.start())
+        states = None if self.nodes is None else jnp.zeros_like(self.nodes.start)
+        return Trainable(networks, self.modifiers.start(), states)
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
         """The model's parameters, with physical values, for some state of the training."""
@@ -91,11 +98,14 @@ class Problem(eqx.Module):
 
         def one(start: Array, points: Array | None) -> Array:
             steps, measured = self.record.window(start, self.sequences.length)
-            x0 = self._first_state(packed) if self.sequences.whole else self._measured(start)
-            _, predicted = self._integrate(packed, x0, steps)
+            x0 = self._start_of(trainable, packed, start)
+            _, predicted, end = self._integrate(packed, x0, steps)
             if points is not None:
                 predicted, measured = predicted[points], measured[points]
-            return self.loss(predicted, measured, self.record.sigma)
+            loss = self.loss(predicted, measured, self.record.sigma)
+            if self.nodes is None:
+                return loss
+            return loss + self.nodes.gap(trainable.states, start // self.nodes.length, end)
 
         if batch.start.shape[0] == 1:
             first = jax.tree.map(lambda a: a[0], (batch.start, batch.points))
@@ -114,7 +124,9 @@ class Problem(eqx.Module):
         The states have shape (N, number of states).
         """
         packed = self.system.pack(self.assemble(trainable))
-        x, predicted = self._integrate(packed, self._first_state(packed), self.record.steps)
+        x, predicted, _ = self._integrate(
+            packed, self.first_state(trainable, packed), self.record.steps
+        )
         return self.loss(predicted, self.record.y, self.record.sigma), x
 
     @eqx.filter_jit
@@ -143,9 +155,28 @@ class Problem(eqx.Module):
 
         return {name: at(name) for name in self.networks}
 
-    def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array]:
-        """States and targets at every sample."""
-        x, predicted, _ = integrate(
+    def first_state(self, trainable: Trainable, packed: Any) -> Array:
+        """The state at the record's start, shape (number of states,)."""
+        if self.nodes is not None:
+            return self.nodes.state(trainable.states, 0)
+        if self.x0 is not None:
+            return self.x0
+        steps = self.record.steps
+        t0: Any = steps.t[0]
+        return self.system.initial_state(packed, None, steps.inputs.start[0], t0)
+
+    def _start_of(self, trainable: Trainable, packed: Any, start: Array) -> Array:
+        """The state at which the sequence from a sample on begins."""
+        if self.sequences.whole:
+            return self.first_state(trainable, packed)
+        if self.nodes is not None:
+            return self.nodes.state(trainable.states, start // self.nodes.length)
+        assert self.record.x is not None
+        return self.record.x[start]
+
+    def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array, Array]:
+        """States and targets at every sample, and the state at the end."""
+        x, predicted, end = integrate(
             self.system,
             *cast((packed, x0, steps), self.dtype),
             self.solver,
@@ -153,20 +184,10 @@ class Problem(eqx.Module):
             substeps=self.substeps,
         )
         assert predicted is not None
-        return cast((x, predicted), float)
-
-    def _measured(self, start: Array) -> Array:
-        assert self.record.x is not None
-        return self.record.x[start]
-
-    def _first_state(self, packed: Any) -> Array:
-        if self.x0 is not None:
-            return self.x0
-        steps = self.record.steps
-        t0: Any = steps.t[0]
-        return self.system.initial_state(packed, None, steps.inputs.start[0], t0)
+        return cast((x, predicted, end), float)
 
 
-def modified(problem: Problem, trainable: Trainable) -> Mapping[str, Array]:
+def modified(objective: Any, trainable: Trainable) -> Mapping[str, Array]:
     """The relative changes ``p̃/p − 1`` of the parameters that are trained."""
+    problem = objective if isinstance(objective, Problem) else objective.problem
     return problem.modifiers.relative(trainable.modifiers)

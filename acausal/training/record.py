@@ -100,23 +100,43 @@ class Sequences(eqx.Module):
         length: samples in a sequence.
         batch_size: sequences in a batch.
         points: samples that count in each sequence, or ``None`` for all.
+        side_by_side: whether sequences begin where others end; else they begin at any sample.
     """
 
     record_length: int = eqx.field(static=True)
     length: int = eqx.field(static=True)
     batch_size: int = eqx.field(static=True)
     points: int | None = eqx.field(static=True)
+    side_by_side: bool = eqx.field(static=True, default=False)
 
     @property
     def whole(self) -> bool:
         """Whether the one sequence is the whole record."""
         return self.length == self.record_length
 
+    @property
+    def parts(self) -> int:
+        """How many sequences lie side by side in the record."""
+        return self.record_length // self.length
+
+    @property
+    def always_alike(self) -> bool:
+        """Whether all batches hold the same."""
+        complete = self.whole or (self.side_by_side and self.batch_size == self.parts)
+        return complete and self.points is None
+
+    def tile(self) -> Sequences:
+        """Sequences side by side, a little longer where the record would not be filled otherwise."""
+        parts = max(1, round(self.record_length / self.length))
+        length = self.record_length // parts
+        return Sequences(
+            self.record_length, length, min(self.batch_size, parts), self.points, side_by_side=True
+        )
+
     def draw(self, key: Array) -> Batch:
         """A batch; the same key gives the same batch."""
         for_start, for_points = jax.random.split(key)
-        last = self.record_length - self.length
-        start = jax.random.randint(for_start, (self.batch_size,), 0, last + 1)
+        start = self._starts(for_start)
         points = None
         if (count := self.points) is not None:
             keys = jax.random.split(for_points, self.batch_size)
@@ -125,9 +145,14 @@ class Sequences(eqx.Module):
             )
         return Batch(start, jnp.ones(self.batch_size), points)
 
-    def all(self) -> Batch:
-        """The whole record as one sequence, every point of it."""
-        return Batch(jnp.zeros(1, int), jnp.ones(1), None)
+    def _starts(self, key: Array) -> Array:
+        if not self.side_by_side:
+            last = self.record_length - self.length
+            return jax.random.randint(key, (self.batch_size,), 0, last + 1)
+        part = jnp.arange(self.parts)
+        if self.batch_size < self.parts:
+            part = jax.random.choice(key, part, (self.batch_size,), replace=False)
+        return part * self.length
 
 
 def sequences(

@@ -15,6 +15,8 @@ import jax.numpy as jnp
 import optax
 from jax import Array
 
+from acausal.training.lbfgs import Search
+
 CHUNK = 128
 """At most so many updates between two looks at the training."""
 
@@ -150,17 +152,19 @@ class _Gradient(eqx.Module):
 def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
     drawn = problem.draw(jax.random.fold_in(state.key, state.epoch))
     batch, result, bad = _gradient(problem, trainer, state.trainable, drawn)
-    accepted = _finite((result.total, result.gradient)) & ~_diverged(result.losses, trainer).any()
+    usable = _finite((result.total, result.gradient)) & ~_diverged(result.losses, trainer).any()
+    none = jax.tree.map(jnp.zeros_like, result.gradient)
+    gradient = _select(usable, result.gradient, none)
     steps, optimizer = trainer.optimizer.update(
-        result.gradient,
+        gradient,
         state.optimizer,
         state.trainable,
-        value=result.total,
-        grad=result.gradient,
+        value=jnp.where(usable, result.total, jnp.inf),
+        grad=gradient,
         value_fn=lambda trainable: _total(problem, trainable, batch)[0],
     )
     moved = optax.apply_updates(state.trainable, steps)
-    accepted &= _finite(moved)
+    accepted = _finite(moved) & (usable | _takes_back(optimizer))
     trainable, optimizer = _select(accepted, (moved, optimizer), (state.trainable, state.optimizer))
     rejected = jnp.where(accepted, 0, state.rejected + 1)
     entry = Entry(
@@ -221,6 +225,11 @@ def _total(
     losses = problem.losses(trainable, batch)
     penalties = problem.penalties(trainable)
     return jnp.average(losses, weights=batch.weight) + sum(penalties.values()), (losses, penalties)
+
+
+def _takes_back(optimizer: Any) -> Any:
+    """Whether the optimizer itself goes back from a point that diverges, to a better one it knows."""
+    return jnp.isfinite(optimizer.value) if isinstance(optimizer, Search) else False
 
 
 def _diverged(losses: Array, trainer: Trainer) -> Array:
