@@ -1,123 +1,139 @@
-"""Connect physical components in Python; get, simulate and train a physics-enhanced neural ODE in JAX."""
+"""Connect physical components in Python; get, simulate and train a physics-enhanced neural ODE in JAX.
+
+A public name's module is imported when the name is first asked for: who builds a model and simulates it waits for no
+optimizer and no plots.
+"""
 
 import os as _os
+from importlib import import_module as _import_module
+from typing import TYPE_CHECKING, Any
 
 import jax as _jax
 from jaxlib.version import __version__ as _jaxlib
 
+from acausal import compilation_cache as _compilation_cache
 from acausal import xla as _xla
 
 _jax.config.update("jax_enable_x64", True)
 _xla.compile_small_loops(_os.environ, _jaxlib)
+_compilation_cache.begin(_os.environ)
 
-from acausal import networks
-from acausal.analyse import (
-    Linearization,
-    linearize,
-)
-from acausal.component import (
-    Component,
-)
-from acausal.connector import (
-    Connector,
-)
-from acausal.data import (
-    Data,
-)
-from acausal.diagram import (
-    diagram,
-)
-from acausal.errors import (
-    AcausalError,
-    ConnectionError,
-    DataError,
-    DeclarationError,
-    InitializationError,
-    ModelError,
-    SimulationError,
-    StructureError,
-    TrainingError,
-    UnitError,
-)
-from acausal.fit import (
-    Fit,
-    fit,
-)
-from acausal.functions import (
-    Abs,
-    acos,
-    asin,
-    atan,
-    atan2,
-    cos,
-    cosh,
-    exp,
-    floor,
-    log,
-    maximum,
-    minimum,
-    pi,
-    prescribed,
-    sign,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-    where,
-)
-from acausal.initialize import Initialization
-from acausal.netlist import (
-    load,
-    save,
-)
-from acausal.netlist_file import (
-    NetlistError,
-)
-from acausal.networks.mlp import (
-    MLP,
-)
-from acausal.networks.zero import (
-    OffsetCorrected,
-)
-from acausal.neural import (
-    remove_offset,
-)
-from acausal.signals import (
-    Signal,
-)
-from acausal.simulate import (
-    simulate,
-)
-from acausal.simulation.solution import (
-    Solution,
-)
-from acausal.symbols import (
-    Eq,
-    Flow,
-    InitialParameter,
-    Input,
-    Module,
-    Option,
-    Output,
-    Parameter,
-    Potential,
-    Start,
-    Variable,
-    der,
-    time,
-)
-from acausal.system import (
-    System,
-    compile,
-)
-from acausal.training.lbfgs import lbfgs
-from acausal.training.regularizers import (
-    SmallCorrection,
-    ZeroCrossing,
-)
+if TYPE_CHECKING:
+    from acausal import networks
+    from acausal.analyse import Linearization, linearize
+    from acausal.compilation_cache import use_compilation_cache
+    from acausal.component import Component
+    from acausal.connector import Connector
+    from acausal.data import Data
+    from acausal.draw import diagram
+    from acausal.errors import (
+        AcausalError,
+        ConnectionError,
+        DataError,
+        DeclarationError,
+        InitializationError,
+        ModelError,
+        SimulationError,
+        StructureError,
+        TrainingError,
+        UnitError,
+    )
+    from acausal.functions import (
+        Abs,
+        acos,
+        asin,
+        atan,
+        atan2,
+        cos,
+        cosh,
+        exp,
+        floor,
+        log,
+        maximum,
+        minimum,
+        pi,
+        prescribed,
+        sign,
+        sin,
+        sinh,
+        sqrt,
+        tan,
+        tanh,
+        where,
+    )
+    from acausal.initialize import Initialization
+    from acausal.netlist import load, save
+    from acausal.netlist_file import NetlistError
+    from acausal.networks.mlp import MLP
+    from acausal.networks.zero import OffsetCorrected
+    from acausal.neural import remove_offset
+    from acausal.signals import Signal
+    from acausal.simulation.simulate import simulate
+    from acausal.simulation.solution import Solution
+    from acausal.symbols import (
+        Eq,
+        Flow,
+        InitialParameter,
+        Input,
+        Module,
+        Option,
+        Output,
+        Parameter,
+        Potential,
+        Start,
+        Variable,
+        der,
+        time,
+    )
+    from acausal.system import System, compile
+    from acausal.training.fit import Fit, fit
+    from acausal.training.lbfgs import lbfgs
+    from acausal.training.regularizers import SmallCorrection, ZeroCrossing
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "analyse": "Linearization linearize",
+    "compilation_cache": "use_compilation_cache",
+    "component": "Component",
+    "connector": "Connector",
+    "data": "Data",
+    "draw": "diagram",
+    "errors": "AcausalError ConnectionError DataError DeclarationError InitializationError ModelError "
+    "SimulationError StructureError TrainingError UnitError",
+    "functions": "Abs acos asin atan atan2 cos cosh exp floor log maximum minimum pi prescribed sign sin sinh "
+    "sqrt tan tanh where",
+    "initialize": "Initialization",
+    "netlist": "load save",
+    "netlist_file": "NetlistError",
+    "networks.mlp": "MLP",
+    "networks.zero": "OffsetCorrected",
+    "neural": "remove_offset",
+    "signals": "Signal",
+    "simulation.simulate": "simulate",
+    "simulation.solution": "Solution",
+    "symbols": "Eq Flow InitialParameter Input Module Option Output Parameter Potential Start Variable der time",
+    "system": "System compile",
+    "training.fit": "Fit fit",
+    "training.lbfgs": "lbfgs",
+    "training.regularizers": "SmallCorrection ZeroCrossing",
+}
+_HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "networks":
+        return _import_module("acausal.networks")
+    if name not in _HOME:
+        raise AttributeError(f"module 'acausal' has no attribute {name!r}")
+    value = getattr(_import_module(f"acausal.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]
+
 
 __all__ = [
     "MLP",
@@ -187,5 +203,6 @@ __all__ = [
     "tan",
     "tanh",
     "time",
+    "use_compilation_cache",
     "where",
 ]

@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from acausal.fit import Fit, Seen
+    from acausal.training.fit import Fit, Seen
     from acausal.training.history import History
 
 TRUTH = "#22303c"

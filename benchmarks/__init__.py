@@ -2,3 +2,7 @@
 
 Run one by ``python -m benchmarks.chain --n 10 100 1000``; all print a table, and one JSON line at the end.
 """
+
+import os
+
+os.environ.setdefault("ACAUSAL_COMPILATION_CACHE", "off")  # what compiling costs is measured

@@ -5,6 +5,7 @@ from typing import Any
 
 import hypothesis
 
+os.environ.setdefault("ACAUSAL_COMPILATION_CACHE", "off")
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
 os.environ.setdefault("MPLBACKEND", "Agg")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import equinox as eqx
 import jax
@@ -103,20 +104,30 @@ def layers(
     in_size: int, width: int, depth: int, last_layer: float, key: Key
 ) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     """Fresh weights, of shape (rows, columns), and biases of ``depth`` hidden layers and the last one."""
+    return _layers(in_size, width, depth, last_layer, as_key(key))
+
+
+@partial(jax.jit, static_argnums=(0, 1, 2, 3))  # one program to compile, not one for every draw
+def _layers(
+    in_size: int, width: int, depth: int, last_layer: float, key: Array
+) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     sizes = [in_size, *[width] * depth, 1]
-    keys = jax.random.split(as_key(key), 2 * (depth + 1))
+    shapes = list(zip(sizes[1:], sizes, strict=False))
     limits = [
         SPREAD / in_size**0.5,
         *[(6 / width) ** 0.5] * (depth - 1),
         last_layer * width**-0.5,
     ][-depth - 1 :]
+    largest = max(rows * columns for rows, columns in shapes)
+    keys = jax.random.split(key, 2 * len(shapes))
+    drawn = jax.vmap(lambda k: uniform(k, (largest,), 1.0))(keys)
     weights = tuple(
-        uniform(k, (rows, columns), limit)
-        for k, columns, rows, limit in zip(keys[::2], sizes, sizes[1:], limits, strict=False)
+        limit * numbers[: rows * columns].reshape(rows, columns)
+        for numbers, (rows, columns), limit in zip(drawn[::2], shapes, limits, strict=True)
     )
     first, *others = sizes[1:]
-    spread = SPREAD if depth else 0.0
-    return weights, (uniform(keys[1], (first,), spread), *(jnp.zeros(n) for n in others))
+    bias = (SPREAD if depth else 0.0) * drawn[1, :first]
+    return weights, (bias, *(jnp.zeros(n) for n in others))
 
 
 def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) -> None:

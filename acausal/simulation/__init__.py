@@ -1,1 +1,1 @@
-"""What `acausal.simulate` is made of: inputs, solvers, fixed and adaptive steps, and the solution."""
+"""`acausal.simulate` and what it is made of: inputs, solvers, fixed and adaptive steps, and the solution."""

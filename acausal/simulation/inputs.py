@@ -144,22 +144,24 @@ def over_steps(drives: tuple[Drive, ...], grid: np.ndarray) -> Samples:
     return Samples(start, end, functions)
 
 
-def _on_grid(drive: Drive, grid: np.ndarray) -> tuple[Array, Array] | None:
+def _on_grid(drive: Drive, grid: np.ndarray) -> tuple[ArrayLike, ArrayLike] | None:
     if isinstance(drive, Constant):
         value = jnp.broadcast_to(drive.value, (len(grid) - 1,))
         return value, value
     if not isinstance(drive, Signal) or traced(drive.ts):
         return None
-    ts = np.asarray(drive.ts)
+    ts, values = np.asarray(drive.ts), drive.values
+    if not traced(values):
+        values = np.asarray(values)  # spares the compilation of every operation below
     if drive.interpolation == "cubic" or drive.extrapolation != "hold" or not _knots_on(grid, ts):
         return None
     if drive.interpolation == "previous":
-        value = drive.values[np.maximum(np.searchsorted(ts, (grid[1:] + grid[:-1]) / 2) - 1, 0)]
+        value = values[np.maximum(np.searchsorted(ts, (grid[1:] + grid[:-1]) / 2) - 1, 0)]
         return value, value
     i = np.clip(np.searchsorted(ts, grid, side="right") - 1, 0, len(ts) - 2)
     w = np.clip((grid - ts[i]) / (ts[i + 1] - ts[i]), 0.0, 1.0)
     w = np.where(np.abs(w - np.round(w)) < ON_GRID, np.round(w), w)
-    value = drive.values[i] + w * (drive.values[i + 1] - drive.values[i])
+    value = values[i] + w * (values[i + 1] - values[i])
     return value[:-1], value[1:]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import diffrax as dfx
+import jax.numpy as jnp
 import numpy as np
 from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
@@ -84,7 +85,8 @@ def simulate(
     known = _in_model_units(system, inputs) if isinstance(inputs, Data) else inputs
     drive = drives.read(system.inputs, known, ends)
     packed = system.pack(params)
-    x_start = system.initial_state(packed, x0, drives.evaluate(drive, start), start)
+    u_start = drives.evaluate_all(drive, jnp.asarray([start]))[0]
+    x_start = system.initial_state(packed, x0, u_start, start)
     run = Run(system, packed, x_start, drive, start, end)
     run.check_start()
     if ends is not None:
