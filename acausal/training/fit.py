@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -24,6 +24,7 @@ from acausal.training.pose import Start, pose
 from acausal.training.problem import Problem, modified
 from acausal.training.progress import Observer, display
 from acausal.training.regularizers import Regularizer
+from acausal.training.spread import Device, local
 from acausal.training.strategy import legs
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def fit(
     solver: str | Solver = "heun",
     x0: Start | Mapping[str, float] = "data",
     dtype: DTypeLike = np.float64,
+    devices: Sequence[Device] | None = None,
     seed: int = 0,
     evaluate_every: int | None = None,
     progress: bool = True,
@@ -96,6 +98,8 @@ def fit(
             ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
             then lie side by side (multiple shooting). No state need be measured.
         dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
+        devices: that the sequences of every batch are spread over, such as ``jax.devices()``; ``batch_size`` is a
+            multiple of their number. By default JAX's default device alone.
         seed: of the networks, the sequences and the points. The same seed gives the same result.
         evaluate_every: updates between two evaluations over the whole record, among which the best is
             returned; by default a tenth of the epochs.
@@ -126,10 +130,12 @@ def fit(
         solver=solver,
         x0=x0,
         dtype=dtype,
+        devices=devices,
     )
     limit = DIVERGED if loss == "nrmse" else np.inf
     plan = legs(problem, strategy, epochs, evaluate_every, optimizer, limit)
-    with display(progress, sum(leg.epochs for leg in plan)) as show:
+    shown = progress and jax.process_index() == 0
+    with display(shown, sum(leg.epochs for leg in plan)) as show:
         trained = run(problem, plan, jax.random.key(seed), (show, *observers))
     _warn(trained)
     return _result(problem, trained)
@@ -206,7 +212,8 @@ class Fit:
 
 
 def _result(problem: Problem, trained: Trained) -> Fit:
-    best, history = trained.best, trained.history
+    best, history = local(trained.best, problem.mesh), trained.history
+    problem = replace(problem, mesh=None)
     seen = problem.seen(best.trainable, best.x)
     statistics = {
         n: Seen(np.mean(seen[n], axis=0), np.std(seen[n], axis=0)) for n in problem.networks

@@ -18,6 +18,7 @@ from acausal.training.history import History, Log
 from acausal.training.lbfgs import Search
 from acausal.training.problem import Problem, Trainable
 from acausal.training.progress import Observer, Progress
+from acausal.training.spread import agreed, local, shared
 from acausal.training.strategy import Leg
 from acausal.training.trainer import CHUNK, State, advance, begin
 
@@ -81,7 +82,7 @@ def train(
     times = np.asarray(problem.record.steps.t)
     log = Log(times, tuple(problem.regularizers), problem.modifiers.names)
     run = _Run(problem, observers, log, began, sum(leg.epochs for leg in legs))
-    run.evaluate(problem.start())
+    run.evaluate(shared(problem.start(), problem.mesh))
     interrupted = False
     try:
         for i, leg in enumerate(legs):
@@ -113,7 +114,8 @@ class _Run:
         began: float,
         epochs: int,
     ) -> None:
-        self.problem, self.observers, self.log = problem, observers, log
+        self.mesh, self.problem = problem.mesh, shared(problem, problem.mesh)
+        self.observers, self.log = observers, log
         self.began, self.epochs = began, epochs
         self.compiling = self.updating = 0.0
         self.evaluated = -1
@@ -121,10 +123,11 @@ class _Run:
     def follow(self, leg: Leg, key: Array) -> None:
         """Make all updates of a leg."""
         log, first = self.log, self.log.epochs
-        state = begin(leg.trainer, self._entry(leg), key)
+        entry = local(self._entry(leg), self.mesh)
+        objective, state = shared((leg.objective, begin(leg.trainer, entry, key)), self.mesh)
         clock = time.perf_counter()
         jax.block_until_ready(
-            advance(leg.objective, leg.trainer, state, state.epoch)
+            advance(objective, leg.trainer, state, state.epoch)
         )  # compiles, and does nothing
         self.compiling += time.perf_counter() - clock
         size = 1
@@ -132,13 +135,12 @@ class _Run:
             due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
             count = min(size, due - done, CHUNK)
             clock = time.perf_counter()
-            state, entry = jax.block_until_ready(
-                advance(leg.objective, leg.trainer, state, jnp.asarray(done + count, int))
-            )
+            until = shared(jnp.asarray(done + count, int), self.mesh)
+            state, told = jax.block_until_ready(advance(objective, leg.trainer, state, until))
             ended = time.perf_counter()
-            new = log.add(entry, count, clock - self.began, ended - self.began)
+            new = log.add(told, count, clock - self.began, ended - self.began)
             self.last = state.trainable
-            per_epoch = (ended - clock) / count
+            per_epoch = agreed((ended - clock) / count, self.mesh)
             self.updating += ended - clock
             size = max(1, min(CHUNK, int(LOOK / per_epoch)))
             _check_rejections(log, int(state.rejected))

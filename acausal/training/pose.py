@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -22,6 +22,7 @@ from acausal.training.nodes import Nodes
 from acausal.training.problem import Problem
 from acausal.training.record import Sequences, lay_out, sequences
 from acausal.training.regularizers import Context, Regularizer, label
+from acausal.training.spread import Device, mesh
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -53,6 +54,7 @@ def pose(
     solver: str | solvers.Solver,
     x0: Start | Mapping[str, float],
     dtype: DTypeLike = np.float64,
+    devices: Sequence[Device] | None = None,
 ) -> Problem:
     """The problem of a training; arguments as those of `acausal.fit`, data in the model's units.
 
@@ -99,6 +101,7 @@ def pose(
         solver=solvers.fixed(solvers.named(solver), precision(dtype)),
         substeps=_substeps(data, dt),
         dtype=precision(dtype),
+        mesh=mesh(devices, cut.batch_size),
     )
     if x0 == "fit":
         problem = replace(problem, nodes=_nodes(problem, data))
@@ -111,7 +114,7 @@ def over_whole_record(problem: Problem) -> Problem:
     whole = Sequences(count, count, 1, None, side_by_side=problem.sequences.side_by_side)
     if nodes is not None:
         nodes = Nodes(nodes.start[:1], nodes.scale, nodes.continuity, count)
-    return replace(problem, sequences=whole, nodes=nodes)
+    return replace(problem, sequences=whole, nodes=nodes, mesh=None)
 
 
 def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax import Array
+from jax.sharding import Mesh
 
 from acausal.precision import cast
 from acausal.simulation.integrate import integrate
@@ -19,6 +20,7 @@ from acausal.training.modifiers import Modifiers
 from acausal.training.nodes import Nodes
 from acausal.training.record import Batch, Record, Sequences
 from acausal.training.regularizers import Context, Regularizer
+from acausal.training.spread import spread
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -57,6 +59,7 @@ class Problem(eqx.Module):
         context: what regularizers may know.
         solver, substeps: how a step from sample to sample is made.
         dtype: the precision of steps; of weights and losses it is double.
+        mesh: devices that batches are spread over, if any.
     """
 
     system: System = eqx.field(static=True)
@@ -74,6 +77,7 @@ class Problem(eqx.Module):
     solver: Solver = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
     dtype: Any = eqx.field(static=True)
+    mesh: Mesh | None = eqx.field(static=True)
 
     def start(self) -> Trainable:
         """What is trained, where training starts."""
@@ -94,6 +98,15 @@ class Problem(eqx.Module):
 
     def losses(self, trainable: Trainable, batch: Batch) -> Array:
         """The loss of every sequence of a batch, shape (B,)."""
+        arrays, rest = eqx.partition(self, eqx.is_array)
+
+        def share(same: tuple[Problem, Trainable], rows: Any) -> Array:
+            arrays, trainable = same
+            return eqx.combine(arrays, rest)._losses(trainable, *rows)
+
+        return spread(share, self.mesh, (arrays, trainable), (batch.start, batch.points))
+
+    def _losses(self, trainable: Trainable, starts: Array, points: Array | None) -> Array:
         packed = self.system.pack(self.assemble(trainable))
 
         def one(start: Array, points: Array | None) -> Array:
@@ -107,10 +120,10 @@ class Problem(eqx.Module):
                 return loss
             return loss + self.nodes.gap(trainable.states, start // self.nodes.length, end)
 
-        if batch.start.shape[0] == 1:
-            first = jax.tree.map(lambda a: a[0], (batch.start, batch.points))
+        if starts.shape[0] == 1:
+            first = jax.tree.map(lambda a: a[0], (starts, points))
             return one(*first)[None]
-        return jax.vmap(one)(batch.start, batch.points)
+        return jax.vmap(one)(starts, points)
 
     def penalties(self, trainable: Trainable) -> dict[str, Array]:
         """What every regularizer adds to the loss."""

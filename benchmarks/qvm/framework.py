@@ -12,25 +12,27 @@ import acausal as ac
 from acausal.training.pose import pose
 from acausal.training.problem import Problem
 from acausal.training.record import Batch
+from acausal.training.spread import shared
 from benchmarks.qvm.task import NETWORKS, Gradient, Task, flat
 from examples.qvm.model import with_networks
 from examples.qvm.record import OUTPUTS, SAMPLE_TIME
 
 
-def gradient(task: Task) -> Callable[[], Gradient]:
-    problem = posed(task)
+def gradient(task: Task, **choice: Any) -> Callable[[], Gradient]:
+    """Ready to run; ``choice`` may name the ``dtype`` and the ``devices``, as for `acausal.fit`."""
+    problem = posed(task, **choice)
     batch = Batch(jnp.asarray(task.starts), jnp.ones(len(task.starts)), None)
     compiled = jax.jit(jax.value_and_grad(_loss))
-    start = problem.start()
+    arguments = shared((problem.start(), problem, batch), problem.mesh)
 
     def run() -> Gradient:
-        loss, by = jax.block_until_ready(compiled(start, problem, batch))
+        loss, by = jax.block_until_ready(compiled(*arguments))
         return loss, flat([(by.networks[n].weights, by.networks[n].biases) for n in NETWORKS])
 
     return run
 
 
-def posed(task: Task) -> Problem:
+def posed(task: Task, **choice: Any) -> Problem:
     """The training problem behind a task."""
     is_whole = len(task.starts) == 1
     return pose(
@@ -49,6 +51,7 @@ def posed(task: Task) -> Problem:
         dt=None,
         solver="heun",
         x0="data",
+        **choice,
     )
 
 
