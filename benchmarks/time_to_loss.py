@@ -1,7 +1,7 @@
 """How long a training takes from the start of its process: ``python -m benchmarks.time_to_loss``.
 
-The quarter vehicle over 42 s with noise of 2 %. The data lie in a file; all else counts: Python, imports, the model, XLA,
-training, evaluation. Two ways, each for several seeds of the networks, with an empty cache of compiled programs
+The quarter vehicle over 42 s with noise of 2 %. The data lie in a file; all else counts: Python, imports, the model,
+XLA, training, evaluation. Two ways, each for several seeds of the networks, with an empty cache of compiled programs
 and with a full one:
 
 - to the paper's loss, 0.035 over a simulation of the whole ride: by equation error alone;
@@ -98,7 +98,7 @@ def _exact(seed: int, path: str) -> dict[str, float]:
         seed,
         path,
         strategy=("equation_error", "whole_record"),
-        epochs=(200, 250),
+        epochs=(500, 100),
         evaluate_every=100,
         solver="rk4",
     )
@@ -117,7 +117,13 @@ def _train(seed: int, path: str, **settings: Any) -> dict[str, float]:
     data = ac.Data(signals.pop("time"), signals)
     at_rest = dict.fromkeys(STATES, 0.0)
     fit = ac.fit(
-        ac.compile(with_networks()), data, OUTPUTS, x0=at_rest, seed=seed, progress=False, **settings
+        ac.compile(with_networks()),
+        data,
+        OUTPUTS,
+        x0=at_rest,
+        seed=seed,
+        progress=False,
+        **settings,
     )
     ended = time.time()
     solution = ac.simulate(

@@ -14,6 +14,7 @@ import pytest
 import acausal as ac
 from acausal.training.pose import over_whole_record, pose
 from acausal.training.record import Batch
+from acausal.training.smoothing import smoothed
 from tests.oscillator import learned, record
 
 QUIET: dict[str, Any] = {"progress": False}
@@ -87,6 +88,27 @@ def test_legs_follow_each_other_from_the_best():
     assert fit.loss < first.loss
     assert list(fit.history.full_loss[:, 0]) == sorted(set(fit.history.full_loss[:, 0]))
     np.testing.assert_allclose(fit.history.loss[:100], first.history.loss)
+
+
+def test_smoothing_takes_out_noise_and_leaves_what_has_none():
+    t = np.linspace(0, 10, 2001)
+    clean = np.sin(4 * t) + 0.3 * np.sin(21 * t)
+    noisy = clean + 0.05 * np.random.default_rng(0).standard_normal(len(t))
+    assert np.std(smoothed(noisy) - clean) < 0.4 * 0.05
+    np.testing.assert_allclose(smoothed(clean), clean, atol=1e-5)
+    np.testing.assert_array_equal(smoothed(np.full(50, 2.0)), 2.0)
+    np.testing.assert_array_equal(smoothed(clean[:3]), clean[:3])
+
+
+def test_smoothed_states_lessen_the_bias_of_noise():
+    data, rng = record(), np.random.default_rng(1)
+    signals = {n: s + 0.05 * s.std() * rng.standard_normal(len(s)) for n, s in data.signals.items()}
+    noisy = ac.Data(data.time, {**signals, "push.f": data["push.f"]})
+    fit = ac.fit(
+        learned(), noisy, "mass.a", strategy="equation_error", epochs=60, x0="model", **QUIET
+    )
+    assert fit.loss < 0.12
+    assert fit.loss_before > 0.5
 
 
 # -- initial states that are found -------------------------------------------------------------------

@@ -13,6 +13,7 @@ from jax import Array
 from acausal.errors import TrainingError, listing
 from acausal.training.problem import Problem, Trainable
 from acausal.training.record import Batch
+from acausal.training.smoothing import smoothed
 
 POINTS = 5000
 """Samples of the record that are looked at, evenly spread."""
@@ -21,16 +22,19 @@ POINTS = 5000
 class EquationError(eqx.Module):
     """The loss of targets that are observed in the measured states and inputs, sample by sample.
 
-    It costs next to nothing, but noise in the states biases it, as it is taken for the truth: a good place to
-    start from. It sees what targets depend on at an instant (an acceleration shows a force; a position does not).
+    It costs next to nothing, but what noise is left in the states biases it, as it is taken for the truth: a good
+    place to start from. It sees what targets depend on at an instant (an acceleration shows a force; a position
+    does not).
 
     Attributes:
         problem: the model and the record.
         rows: indices of the samples that count.
+        x: the states there, smoothed, shape (number of rows, number of states).
     """
 
     problem: Problem
     rows: Array
+    x: Array
 
     def start(self) -> Trainable:
         """What is trained, where training starts."""
@@ -44,10 +48,11 @@ class EquationError(eqx.Module):
         """The loss over all samples, shape (1,)."""
         p = self.problem
         packed = p.system.pack(p.assemble(trainable))
-        assert p.record.x is not None
         steps = p.record.steps
-        t, x, u, y = (a[self.rows] for a in (steps.t, p.record.x, steps.inputs.start, p.record.y))
-        predicted = jax.vmap(lambda t, x, u: p.system.observe(p.targets, t, x, u, packed))(t, x, u)
+        t, u, y = (a[self.rows] for a in (steps.t, steps.inputs.start, p.record.y))
+        predicted = jax.vmap(lambda t, x, u: p.system.observe(p.targets, t, x, u, packed))(
+            t, self.x, u
+        )
         return p.loss(predicted, y, p.record.sigma)[None]
 
     def penalties(self, trainable: Trainable) -> dict[str, Array]:
@@ -68,7 +73,7 @@ def equation_error(problem: Problem) -> EquationError:
         )
     count = len(problem.record)
     rows = np.unique(np.linspace(0, count - 1, min(count, POINTS)).astype(int))
-    objective = EquationError(problem, jnp.asarray(rows))
+    objective = EquationError(problem, jnp.asarray(rows), jnp.asarray(_states(problem)[rows]))
     unseen = _unseen(objective)
     if unseen:
         raise TrainingError(
@@ -76,6 +81,14 @@ def equation_error(problem: Problem) -> EquationError:
             "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out."
         )
     return objective
+
+
+def _states(problem: Problem) -> np.ndarray:
+    """The measured states at every sample; smoothed, if samples are evenly spaced."""
+    x = np.asarray(problem.record.x)
+    if problem.record.steps.h.ndim > 0:
+        return x
+    return np.stack([smoothed(column) for column in x.T], axis=1)
 
 
 def _unseen(objective: EquationError) -> list[str]:

@@ -57,7 +57,7 @@ class Search(eqx.Module):
 
 
 @cache
-def lbfgs(memory: int = 20) -> LineSearch:
+def lbfgs(memory: int = 60) -> LineSearch:
     """L-BFGS with a search for Wolfe's conditions by interpolation and bisection.
 
     An update takes the gradient and the loss (`value=...`) at one point. A point
