@@ -26,7 +26,7 @@ def smoothed(signal: np.ndarray) -> np.ndarray:
         if window > len(signal) // 2:
             break
         centre = savgol_coeffs(window, DEGREE)[window // 2]
-        found = savgol_filter(signal, window, DEGREE)
+        found = np.asarray(savgol_filter(signal, window, DEGREE))
         score = np.mean((signal - found) ** 2) / (1 - centre) ** 2
         if score < kept:
             best, kept = found, score
