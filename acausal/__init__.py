@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from acausal.component import Component
     from acausal.connector import Connector
     from acausal.data import Data
+    from acausal.distilled import Distilled, distill
     from acausal.draw import diagram
     from acausal.errors import (
         AcausalError,
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
         TrainingError,
         UnitError,
     )
+    from acausal.formula import Formula
     from acausal.functions import (
         Abs,
         acos,
@@ -98,9 +100,11 @@ _HOMES = {
     "component": "Component",
     "connector": "Connector",
     "data": "Data",
+    "distilled": "Distilled distill",
     "draw": "diagram",
     "errors": "AcausalError ConnectionError DataError DeclarationError InitializationError ModelError "
     "SimulationError StructureError TrainingError UnitError",
+    "formula": "Formula",
     "functions": "Abs acos asin atan atan2 cos cosh exp floor log maximum minimum pi prescribed sign sin sinh "
     "sqrt tan tanh where",
     "initialize": "Initialization",
@@ -145,9 +149,11 @@ __all__ = [
     "Data",
     "DataError",
     "DeclarationError",
+    "Distilled",
     "Eq",
     "Fit",
     "Flow",
+    "Formula",
     "InitialParameter",
     "Initialization",
     "InitializationError",
@@ -181,6 +187,7 @@ __all__ = [
     "cosh",
     "der",
     "diagram",
+    "distill",
     "exp",
     "fit",
     "floor",
