@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -14,8 +15,11 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
+from acausal.errors import TrainingError
 from acausal.neural import remove_offset
 from acausal.simulation.solvers import Solver
+from acausal.training import checkpoint as checkpoints
+from acausal.training.fingerprint import fingerprint
 from acausal.training.history import History
 from acausal.training.loop import Trained
 from acausal.training.loop import train as run
@@ -60,6 +64,9 @@ def fit(
     evaluate_every: int | None = None,
     progress: bool = True,
     observers: Sequence[Observer] = (),
+    checkpoint: str | Path | None = None,
+    checkpoint_every: float = 60.0,
+    resume: bool = False,
 ) -> Fit:
     """Train networks and parameters of a model so that its outputs follow a measured record.
 
@@ -105,13 +112,18 @@ def fit(
             returned; by default a tenth of the epochs.
         progress: whether to show progress, if there is a terminal or a notebook.
         observers: called with a `Progress` about twice a second.
+        checkpoint: a file ``….safetensors``, or a folder for it, that holds all of the training: written before the
+            first update, then at intervals and at the end, also after Ctrl-C; never half.
+        checkpoint_every: seconds between two writings.
+        resume: whether to go on from the checkpoint if there is one; all other arguments must be as they were. The
+            training ends where it would have ended without the break, bit for bit on the same machine.
 
     Returns:
         The best of the training, also after Ctrl-C.
 
     Raises:
-        DataError: if the data do not fit the model; one sentence says where.
-        TrainingError: if there is nothing to train or the training cannot go on.
+        DataError: if the data do not fit the model, or the checkpoint is damaged or of another training.
+        TrainingError: if there is nothing to train, the training cannot go on, or no checkpoint can be written.
     """
     problem = pose(
         system,
@@ -134,9 +146,14 @@ def fit(
     )
     limit = DIVERGED if loss == "nrmse" else np.inf
     plan = legs(problem, strategy, epochs, evaluate_every, optimizer, limit)
-    shown = progress and jax.process_index() == 0
-    with display(shown, sum(leg.epochs for leg in plan)) as show:
-        trained = run(problem, plan, jax.random.key(seed), (show, *observers))
+    first = jax.process_index() == 0
+    identity = fingerprint(problem, plan, seed)
+    path, stored = _checkpoint(checkpoint, resume, identity)
+    with (
+        display(progress and first, sum(leg.epochs for leg in plan)) as show,
+        checkpoints.keeping(path if first else None, checkpoint_every, identity) as keep,
+    ):
+        trained = run(problem, plan, jax.random.key(seed), (show, *observers), keep, stored)
     _warn(trained)
     return _result(problem, trained)
 
@@ -209,6 +226,25 @@ class Fit:
             [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
         )
         return "\n".join(lines)
+
+
+def _checkpoint(
+    path: str | Path | None, resume: bool, identity: Mapping[str, str]
+) -> tuple[Path | None, checkpoints.Stored | None]:
+    """Where to write checkpoints, and the one to go on from."""
+    if path is None:
+        if resume:
+            raise TrainingError("resume=True needs a checkpoint to go on from: checkpoint='...'.")
+        return None, None
+    file = checkpoints.place(path)
+    if not file.exists():
+        return file, None
+    if not resume:
+        raise TrainingError(
+            f"There is a checkpoint '{file}' already: resume=True goes on from it; "
+            "to begin anew, remove it or name another file."
+        )
+    return file, checkpoints.read(file, identity)
 
 
 def _result(problem: Problem, trained: Trained) -> Fit:

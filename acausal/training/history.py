@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
-import jax
 import numpy as np
+
+from acausal.errors import DataError, listing
 
 
 @dataclass(frozen=True)
@@ -60,63 +61,118 @@ class History:
         return len(self.loss)
 
 
+class Rows(NamedTuple):
+    """What a `Log` holds at some moment.
+
+    Attributes:
+        chunks: columns of some updates each, by name.
+        evaluations: (epochs done, loss over the whole record).
+    """
+
+    chunks: tuple[dict[str, np.ndarray], ...]
+    evaluations: tuple[tuple[int, float], ...]
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """All of it as arrays: a column each, of all updates, and the evaluations."""
+        joined = {n: np.concatenate([c[n] for c in self.chunks]) for n in self.chunks[0]}
+        return {**joined, EVALUATIONS: np.asarray(self.evaluations, float).reshape(-1, 2)}
+
+
+EVALUATIONS = "evaluations"
+
+
 class Log:
-    """Collects a `History` while training runs."""
+    """Collects a `History` while training runs.
+
+    Arguments:
+        times: of the record's samples.
+        penalties, modifiers: names of what updates tell.
+    """
 
     def __init__(
         self, times: np.ndarray, penalties: tuple[str, ...], modifiers: tuple[str, ...]
     ) -> None:
         self._times, self._penalties, self._modifiers = times, penalties, modifiers
-        self._entries: list[Any] = []
-        self._seconds: list[np.ndarray] = []
-        self._full: list[tuple[int, float]] = []
+        whole = {n: np.zeros(0, int) for n in ("diverged", "first")}
+        names = ("loss", "seconds", *map(_penalty, penalties), *map(_modifier, modifiers))
+        numbers = {n: np.zeros(0) for n in names}
+        self._chunks = [{**numbers, **whole, "rejected": np.zeros(0, bool)}]
+        self._evaluations: list[tuple[int, float]] = []
         self.divergences: list[Divergence] = []
         self.epochs = 0
 
     def add(self, entry: Any, count: int, started: float, ended: float) -> list[Divergence]:
         """Add the first ``count`` rows of a chunk's log; returns its divergences."""
-        rows = _rows(entry, count)
+        told = {
+            "loss": entry.loss,
+            "diverged": entry.diverged,
+            "first": entry.first,
+            "rejected": entry.rejected,
+            **{_penalty(n): entry.penalties[n] for n in self._penalties},
+            **{_modifier(n): entry.logged[n] for n in self._modifiers},
+        }
+        seconds = started + (ended - started) * np.arange(1, count + 1) / count
+        rows = {n: np.asarray(column)[:count] for n, column in told.items()}
+        return self._append({**rows, "seconds": seconds})
+
+    def _append(self, chunk: dict[str, np.ndarray]) -> list[Divergence]:
+        diverged, first, rejected = (chunk[n] for n in ("diverged", "first", "rejected"))
         new = [
             Divergence(
                 self.epochs + i,
-                float(self._times[rows.first[i]]),
-                int(rows.diverged[i]),
-                bool(rows.rejected[i]),
+                float(self._times[first[i]]),
+                int(diverged[i]),
+                bool(rejected[i]),
             )
-            for i in np.flatnonzero(rows.rejected | (rows.diverged > 0)).tolist()
+            for i in np.flatnonzero(rejected | (diverged > 0)).tolist()
         ]
-        self._entries.append(rows)
-        self._seconds.append(started + (ended - started) * np.arange(1, count + 1) / count)
+        self._chunks.append(chunk)
         self.divergences += new
-        self.epochs += count
+        self.epochs += len(rejected)
         return new
 
     def evaluated(self, loss: float) -> None:
         """Add a loss over the whole record."""
-        self._full.append((self.epochs, loss))
+        self._evaluations.append((self.epochs, loss))
 
     @property
     def loss(self) -> float:
         """The loss of the last update."""
-        return float(self._entries[-1].loss[-1]) if self._entries else float("nan")
+        last = self._chunks[-1]["loss"]
+        return float(last[-1]) if len(last) else float("nan")
+
+    def rows(self) -> Rows:
+        """What was collected up to now."""
+        return Rows(tuple(self._chunks), tuple(self._evaluations))
+
+    def go_on(self, columns: Mapping[str, np.ndarray]) -> None:
+        """Take what another log had collected (its ``rows().columns()``) for the beginning of this empty one.
+
+        Raises:
+            DataError: if they are not the columns of such a log.
+        """
+        chunk = {n: column for n, column in columns.items() if n != EVALUATIONS}
+        if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
+            raise DataError(f"The log of the training has other columns: {listing(columns)}.")
+        self._append(chunk)
+        self._evaluations += [(int(epoch), float(loss)) for epoch, loss in columns[EVALUATIONS]]
 
     def history(self) -> History:
         """What was collected."""
-        entries = self._entries
-
-        def join(names: tuple[str, ...], read: Callable[[Any], Mapping[str, np.ndarray]]) -> Any:
-            none = np.zeros(0)
-            return {n: np.concatenate([none, *(read(e)[n] for e in entries)]) for n in names}
-
+        columns = self.rows().columns()
         return History(
-            np.concatenate([e.loss for e in entries]) if entries else np.zeros(0),
-            join(self._penalties, lambda e: e.penalties),
-            join(self._modifiers, lambda e: e.logged),
-            np.concatenate(self._seconds) if entries else np.zeros(0),
-            np.asarray(self._full).reshape(-1, 2),
+            columns["loss"],
+            {n: columns[_penalty(n)] for n in self._penalties},
+            {n: columns[_modifier(n)] for n in self._modifiers},
+            columns["seconds"],
+            columns[EVALUATIONS],
             tuple(self.divergences),
         )
 
 
-def _rows(entry: Any, count: int) -> Any:
-    return jax.tree.map(lambda a: np.asarray(a)[:count], entry)
+def _penalty(name: str) -> str:
+    return f"penalty {name}"
+
+
+def _modifier(name: str) -> str:
+    return f"modifier {name}"

@@ -14,6 +14,7 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError
+from acausal.training.checkpoint import Keep, Snapshot, Stored
 from acausal.training.history import History, Log
 from acausal.training.lbfgs import Search
 from acausal.training.problem import Problem, Trainable
@@ -65,7 +66,12 @@ class Trained:
 
 
 def train(
-    problem: Problem, legs: Sequence[Leg], key: Array, observers: Sequence[Observer]
+    problem: Problem,
+    legs: Sequence[Leg],
+    key: Array,
+    observers: Sequence[Observer],
+    keep: Keep = lambda snapshot, rows: None,
+    stored: Stored | None = None,
 ) -> Trained:
     """Train leg by leg, each from where the one before was best, or until the user interrupts.
 
@@ -74,26 +80,31 @@ def train(
         legs: what to minimise and how.
         key: source of all batches.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
+        keep: called with all that is needed to go on from there, before the first update and after every few.
+        stored: where to go on from; by default from the start.
 
     Raises:
         TrainingError: if `PATIENCE` updates in a row had to be rejected.
+        DataError: if what was stored is of another training.
     """
-    began = time.perf_counter()
-    times = np.asarray(problem.record.steps.t)
-    log = Log(times, tuple(problem.regularizers), problem.modifiers.names)
-    run = _Run(problem, observers, log, began, sum(leg.epochs for leg in legs))
-    run.evaluate(shared(problem.start(), problem.mesh))
+    run = _Run(problem, legs, key, observers, keep)
     interrupted = False
+    if stored is None:
+        run.evaluate(shared(problem.start(), problem.mesh))
+        first, state = 0, None
+    else:
+        first, state = run.resume(stored)
     try:
-        for i, leg in enumerate(legs):
-            run.follow(leg, jax.random.fold_in(key, i) if i else key)
+        for i in range(first, len(legs)):
+            run.follow(i, run.enter(i) if state is None else state)
+            state = None
     except KeyboardInterrupt:
         interrupted = True
         run.evaluate(run.last)
     return Trained(
         run.best,
-        log.history(),
-        time.perf_counter() - began,
+        run.log.history(),
+        time.perf_counter() - run.began,
         run.compiling,
         run.updating,
         interrupted,
@@ -109,29 +120,56 @@ class _Run:
     def __init__(
         self,
         problem: Problem,
+        legs: Sequence[Leg],
+        key: Array,
         observers: Sequence[Observer],
-        log: Log,
-        began: float,
-        epochs: int,
+        keep: Keep,
     ) -> None:
+        self.began = time.perf_counter()
         self.mesh, self.problem = problem.mesh, shared(problem, problem.mesh)
-        self.observers, self.log = observers, log
-        self.began, self.epochs = began, epochs
+        self.legs, self.observers, self.keep = legs, observers, keep
+        self.keys = [jax.random.fold_in(key, i) if i else key for i in range(len(legs))]
+        times = np.asarray(problem.record.steps.t)
+        self.log = Log(times, tuple(problem.regularizers), problem.modifiers.names)
+        self.epochs = sum(leg.epochs for leg in legs)
         self.compiling = self.updating = 0.0
         self.evaluated = -1
+        self.before = 0
 
-    def follow(self, leg: Leg, key: Array) -> None:
-        """Make all updates of a leg."""
-        log, first = self.log, self.log.epochs
-        entry = local(self._entry(leg), self.mesh)
-        objective, state = shared((leg.objective, begin(leg.trainer, entry, key)), self.mesh)
-        clock = time.perf_counter()
-        jax.block_until_ready(
-            advance(objective, leg.trainer, state, state.epoch)
-        )  # compiles, and does nothing
-        self.compiling += time.perf_counter() - clock
+    def resume(self, stored: Stored) -> tuple[int, State]:
+        """Be where a training was when it was stored; returns its leg and the trainer's state."""
+        start, leg = self.problem.start(), self.legs[stored.leg]
+        state = begin(leg.trainer, local(_entry(leg, start), self.mesh), self.keys[stored.leg])
+        like = Snapshot(stored.leg, 0, state, 0.0, 0, start, 0, 0.0, 0.0, 0.0)
+        snapshot = shared(stored.snapshot(like), self.mesh)
+        self.log.go_on(stored.columns)
+        _, x = self.problem.simulate(snapshot.best)
+        self.best = Best(snapshot.best_loss, snapshot.best_epoch, snapshot.best, x)
+        self.last = snapshot.state.trainable
+        self.before, self.evaluated = snapshot.before, snapshot.evaluated
+        self.began -= snapshot.seconds
+        self.compiling, self.updating = snapshot.compiling, snapshot.updating
+        return stored.leg, snapshot.state
+
+    def enter(self, i: int) -> State:
+        """The trainer's state at the start of a leg."""
+        leg, self.before = self.legs[i], self.log.epochs
+        entry = local(_entry(leg, self.best.trainable), self.mesh)
+        return shared(begin(leg.trainer, entry, self.keys[i]), self.mesh)
+
+    def follow(self, i: int, state: State) -> None:
+        """Make all updates of a leg that are not done yet."""
+        leg, log = self.legs[i], self.log
+        objective = shared(leg.objective, self.mesh)
+        self._keep(i, state)
+        if log.epochs - self.before < leg.epochs:
+            clock = time.perf_counter()
+            jax.block_until_ready(
+                advance(objective, leg.trainer, state, state.epoch)
+            )  # compiles, and does nothing
+            self.compiling += time.perf_counter() - clock
         size = 1
-        while (done := log.epochs - first) < leg.epochs and not _is_converged(state):
+        while (done := log.epochs - self.before) < leg.epochs and not _is_converged(state):
             due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
             count = min(size, due - done, CHUNK)
             clock = time.perf_counter()
@@ -146,6 +184,7 @@ class _Run:
             _check_rejections(log, int(state.rejected))
             if done + count == due:
                 self.evaluate(state.trainable)
+            self._keep(i, state)
             progress = Progress(
                 log.epochs,
                 self.epochs,
@@ -158,13 +197,16 @@ class _Run:
             for observe in self.observers:
                 observe(progress)
         self.evaluate(state.trainable)
+        self._keep(i, state)
 
-    def _entry(self, leg: Leg) -> Trainable:
-        """Where a leg begins: at the best up to now, with as many initial states as it has sequences."""
-        best, needed = self.best.trainable, leg.objective.start().states
-        if needed is None or best.states is None:
-            return best
-        return replace(best, states=best.states[: len(needed)])
+    def _keep(self, leg: int, state: State) -> None:
+        """Hand out all that is needed to go on from here."""
+        best, seconds = self.best, time.perf_counter() - self.began
+        snapshot = Snapshot(
+            leg, self.before, state, best.loss, best.epoch, best.trainable, self.evaluated,
+            seconds, self.compiling, self.updating,
+        )  # fmt: skip
+        self.keep(snapshot, self.log.rows())
 
     def evaluate(self, trainable: Trainable) -> None:
         """Simulate the whole record, and keep the better of the trainable and the best so far."""
@@ -178,6 +220,14 @@ class _Run:
         if first or loss < self.best.loss or math.isinf(self.best.loss):
             self.best = Best(loss, self.log.epochs, trainable, x)
         self.last = trainable
+
+
+def _entry(leg: Leg, best: Trainable) -> Trainable:
+    """Where a leg begins: at the best up to now, with as many initial states as it has sequences."""
+    needed = leg.objective.start().states
+    if needed is None or best.states is None:
+        return best
+    return replace(best, states=best.states[: len(needed)])
 
 
 def _is_converged(state: State) -> bool:

@@ -23,12 +23,14 @@ class Leg(NamedTuple):
     """A part of a training.
 
     Attributes:
+        name: of its kind.
         objective: what it minimises.
         trainer: how.
         epochs: updates at most; fewer where the optimizer finds nothing better.
         evaluate_every: updates between two evaluations over the whole record.
     """
 
+    name: str
     objective: Any
     trainer: Trainer
     epochs: int
@@ -75,7 +77,7 @@ def legs(
         if name not in KINDS:
             raise TrainingError(f"No strategy '{name}': {nearest(name, KINDS)}")
     return tuple(
-        _leg(problem, KINDS[name], count, evaluate_every, optimizer, limit)
+        _leg(problem, name, count, evaluate_every, optimizer, limit)
         for name, count in zip(names, _epochs(names, epochs), strict=True)
     )
 
@@ -97,12 +99,13 @@ def _epochs(names: tuple[str, ...], given: int | Sequence[int] | None) -> tuple[
 
 def _leg(
     problem: Problem,
-    kind: _Kind,
+    name: str,
     epochs: int,
     evaluate_every: int | None,
     optimizer: optax.GradientTransformation | None,
     limit: float,
 ) -> Leg:
+    kind = KINDS[name]
     if kind.optimizer is not None:
         chosen = kind.optimizer(epochs)
     else:
@@ -114,7 +117,7 @@ def _leg(
             )
     trainer = Trainer(optax.with_extra_args_support(chosen), limit, modified)
     every = max(1, epochs // EVALUATIONS) if evaluate_every is None else evaluate_every
-    return Leg(kind.objective(problem), trainer, epochs, every)
+    return Leg(name, kind.objective(problem), trainer, epochs, every)
 
 
 @cache

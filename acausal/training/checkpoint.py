@@ -1,0 +1,197 @@
+"""Checkpoints: a training in a file, from which it goes on as if it had never stopped."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from acausal import tensors
+from acausal.errors import DataError, TrainingError, listing
+from acausal.training.history import Rows
+
+KIND = "checkpoint of a training, version 1"
+
+LOG = "log: "
+"""What columns of the log are called in a file, before their names."""
+
+
+class Snapshot(NamedTuple):
+    """All that a training needs to go on from between two updates.
+
+    Attributes:
+        leg: of the strategy, by number; ``before``: updates done in the legs before it.
+        state: of the leg's trainer.
+        best_loss, best_epoch, best: the best trainable up to now, its loss over the whole record, when it was found.
+        evaluated: updates that were done at the last evaluation.
+        seconds, compiling, updating: what the training took up to now.
+    """
+
+    leg: int
+    before: int
+    state: Any
+    best_loss: float
+    best_epoch: int
+    best: Any
+    evaluated: int
+    seconds: float
+    compiling: float
+    updating: float
+
+
+Keep = Callable[[Snapshot, Rows], None]
+"""Called with a snapshot and the log between updates."""
+
+
+class Stored(NamedTuple):
+    """A checkpoint that was read.
+
+    Attributes:
+        path: where from.
+        leg: in which it was written.
+        columns: of the log.
+        arrays: of the snapshot, by name.
+    """
+
+    path: Path
+    leg: int
+    columns: dict[str, np.ndarray]
+    arrays: dict[str, np.ndarray]
+
+    def snapshot(self, like: Snapshot) -> Snapshot:
+        """The snapshot; ``like`` is one of the same training in the same leg.
+
+        Raises:
+            DataError: if that has other parts.
+        """
+        return tensors.filled(like, self.arrays, f"Checkpoint '{self.path}'")
+
+
+def place(path: str | Path) -> Path:
+    """The file of a checkpoint: itself, or in a folder, which is made."""
+    path = Path(path)
+    file = path if path.suffix == ".safetensors" else path / "checkpoint.safetensors"
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise TrainingError(
+            f"The folder of checkpoint '{file}' cannot be made: {_reason(error)}."
+        ) from error
+    return file
+
+
+def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
+    """Read a checkpoint of the training with a fingerprint.
+
+    Raises:
+        DataError: if it cannot be read, is damaged, or belongs to another training.
+    """
+    arrays, about = tensors.read(path)
+    if about.get("kind") != KIND:
+        raise DataError(f"'{path}' is no {KIND}, but: {about.get('kind', 'it does not say what')}.")
+    theirs = about["fingerprint"]
+    names = [*fingerprint, *(theirs.keys() - fingerprint.keys())]
+    differ = [n for n in names if fingerprint.get(n) != theirs.get(n)]
+    if differ:
+        raise DataError(
+            f"Checkpoint '{path}' is of another training: {listing(differ)} differ. "
+            "Resume with the arguments it was begun with, or name another file."
+        )
+    columns = {n.removeprefix(LOG): a for n, a in arrays.items() if n.startswith(LOG)}
+    snapshot = {n: a for n, a in arrays.items() if not n.startswith(LOG)}
+    return Stored(path, int(about["leg"]), columns, snapshot)
+
+
+@contextmanager
+def keeping(path: Path | None, every: float, fingerprint: Mapping[str, str]) -> Generator[Keep]:
+    """Write checkpoints: at once, then at intervals of ``every`` seconds, and at the end, however it comes.
+
+    Raises:
+        TrainingError: if the first one cannot be written. When a later one can't, this warns and goes on.
+    """
+    if path is None:
+        yield lambda snapshot, rows: None
+        return
+    keeper = _Keeper(path, every, fingerprint)
+    try:
+        yield keeper.keep
+    finally:
+        keeper.close()
+
+
+class _Keeper:
+    """Writes the latest snapshot now and then."""
+
+    def __init__(self, path: Path, every: float, fingerprint: Mapping[str, str]) -> None:
+        self.path, self.every, self.fingerprint = path, every, dict(fingerprint)
+        self.latest: tuple[Snapshot, Rows] | None = None
+        self.written: tuple[Snapshot, Rows] | None = None
+        self.tried = -np.inf
+        self.warned = False
+
+    def keep(self, snapshot: Snapshot, rows: Rows) -> None:
+        """Take a snapshot, and write it if it is time."""
+        self.latest = (snapshot, rows)
+        if self.written is None:
+            self._write_first()
+        elif time.monotonic() - self.tried >= self.every:
+            error = self._try()
+            if error and not self.warned:
+                self.warned = True
+                warnings.warn(f"{self._told(error)} The training goes on.", stacklevel=2)
+
+    def close(self) -> None:
+        """Write the latest snapshot if that was not done yet."""
+        if self.written is None or self.latest is self.written:
+            return
+        error = self._try()
+        if error:
+            warnings.warn(
+                f"{self._told(error)} The training has ended: save its result elsewhere, "
+                "ac.save_params(fit.params, ...).",
+                stacklevel=2,
+            )
+
+    def _write_first(self) -> None:
+        error = self._try()
+        if error:
+            self.latest = None
+            raise TrainingError(
+                f"Checkpoint '{self.path}' cannot be written: {_reason(error)}. Nothing was trained."
+            ) from error
+
+    def _try(self) -> OSError | None:
+        assert self.latest is not None
+        snapshot, rows = self.latest
+        log = {f"{LOG}{n}": a for n, a in rows.columns().items()}
+        about = {"kind": KIND, "leg": snapshot.leg, "fingerprint": self.fingerprint}
+        try:
+            tensors.write(self.path, {**tensors.named(snapshot), **log}, about)
+        except OSError as error:
+            return error
+        finally:
+            self.tried = time.monotonic()
+        self.written = self.latest
+        return None
+
+    def _told(self, error: OSError) -> str:
+        assert self.latest is not None
+        assert self.written is not None
+        now, before = (_epochs(rows) for _, rows in (self.latest, self.written))
+        return (
+            f"Checkpoint '{self.path}' cannot be written at epoch {now}: {_reason(error)}; "
+            f"that of epoch {before} is still there."
+        )
+
+
+def _epochs(rows: Rows) -> int:
+    return sum(len(chunk["loss"]) for chunk in rows.chunks)
+
+
+def _reason(error: OSError) -> str:
+    return error.strerror or str(error)

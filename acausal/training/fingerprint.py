@@ -1,0 +1,151 @@
+"""Fingerprints: what a training is made of, as digests that are the same in every process."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import hashlib
+import types
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import jax
+import numpy as np
+import sympy as sp
+
+from acausal.system import System
+from acausal.tensors import named
+from acausal.training.problem import Problem
+from acausal.training.strategy import Leg
+
+ASIDE = ("context", "nodes", "mesh")
+"""Parts of a problem that follow from the others, or say only where to compute it."""
+
+ARGUMENTS = {
+    "system": "system", "networks": "train", "record": "data", "substeps": "dt",
+    "sequences": "sequence_length, batch_size or subsample",
+}  # fmt: skip
+"""What parts of a problem are called by those who pose it, where they have another name."""
+
+
+def fingerprint(problem: Problem, legs: Sequence[Leg], seed: int) -> dict[str, str]:
+    """A digest of everything that decides how a training goes, by argument of `acausal.fit`."""
+    parts = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
+    posed = {ARGUMENTS.get(n, n): part for n, part in parts.items() if n not in ASIDE}
+    planned = {
+        "x0": (problem.x0, problem.nodes is None),
+        "strategy": [leg.name for leg in legs],
+        "epochs": [leg.epochs for leg in legs],
+        "evaluate_every": [leg.evaluate_every for leg in legs],
+        "optimizer": [leg.trainer for leg in legs],
+        "seed": seed,
+    }
+    return {name: digest(part) for name, part in {**posed, **planned}.items()}
+
+
+def digest(thing: Any) -> str:
+    """A digest of what a thing is made of, down to arrays and the code of functions."""
+    total = hashlib.sha256()
+    for piece in _pieces(thing, ()):
+        total.update(len(piece).to_bytes(8, "little"))
+        total.update(piece)
+    return total.hexdigest()[:16]
+
+
+def _pieces(thing: Any, above: tuple[int, ...]) -> Iterator[bytes]:
+    """The pieces of a thing, after its type; ``above`` are the things that hold it, by id."""
+    yield f"{type(thing).__module__}.{type(thing).__qualname__}".encode()
+    if id(thing) in above:  # a function that calls itself holds itself
+        return
+    if isinstance(thing, np.ndarray | jax.Array):
+        (array,) = named(thing).values()
+        yield f"{array.dtype}{array.shape}".encode()
+        yield array.tobytes()
+        return
+    parts = _parts(thing)
+    if isinstance(parts, str):
+        yield parts.encode()
+        return
+    yield str(len(parts)).encode()
+    for part in parts:
+        yield from _pieces(part, (*above, id(thing)))
+
+
+@functools.singledispatch
+def _parts(thing: Any) -> Sequence[Any] | str:
+    """What a thing is made of: other things, or a text."""
+    if dataclasses.is_dataclass(thing) and not isinstance(thing, type):
+        return [(f.name, getattr(thing, f.name)) for f in dataclasses.fields(thing)]
+    wrapped = getattr(thing, "__wrapped__", None)
+    if wrapped is not None:
+        return (wrapped,)
+    if hasattr(thing, "__dict__") and vars(thing):
+        return sorted(vars(thing).items())
+    return str(getattr(thing, "__qualname__", ""))
+
+
+@_parts.register(bool | int | float | complex | str | np.generic | np.dtype | types.NoneType)
+def _(thing: Any) -> str:
+    return repr(thing)
+
+
+@_parts.register
+def _(thing: bytes) -> str:
+    return thing.hex()
+
+
+@_parts.register(sp.Basic)
+def _(thing: sp.Basic) -> str:
+    return str(thing)
+
+
+@_parts.register(tuple | list)
+def _(thing: Sequence[Any]) -> Sequence[Any]:
+    return thing
+
+
+@_parts.register(Mapping)
+def _(thing: Mapping[Any, Any]) -> Sequence[Any]:
+    return list(thing.items())
+
+
+@_parts.register
+def _(thing: type) -> str:
+    return f"{thing.__module__}.{thing.__qualname__}"
+
+
+@_parts.register
+def _(thing: types.ModuleType) -> str:
+    return thing.__name__
+
+
+@_parts.register(functools.partial)
+def _(thing: functools.partial[Any]) -> Sequence[Any]:
+    return (thing.func, thing.args, thing.keywords)
+
+
+@_parts.register
+def _(thing: types.MethodType) -> Sequence[Any]:
+    return (thing.__func__, thing.__self__)
+
+
+@_parts.register
+def _(thing: types.FunctionType) -> Sequence[Any]:
+    held = [cell.cell_contents for cell in thing.__closure__ or ()]
+    return (thing.__module__, thing.__qualname__, thing.__code__, thing.__defaults__, held)
+
+
+@_parts.register
+def _(thing: types.CodeType) -> Sequence[Any]:
+    return (thing.co_code, thing.co_names, thing.co_consts)
+
+
+@_parts.register
+def _(thing: System) -> Sequence[Any]:
+    statements = [
+        (str(group.template), group.variables, group.parameters, group.modules)
+        for group in (*thing.flat.groups, *thing.flat.initial)
+    ]
+    names = (thing.variables, thing.states, thing.inputs, thing.layout.names)
+    flat = thing.flat
+    return (*names, flat.start, flat.starts, flat.value, flat.folded, flat.bindings, statements)
