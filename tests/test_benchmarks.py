@@ -8,11 +8,13 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import acausal as ac
-from benchmarks import chain, gears, grid, ladder, measure
+from benchmarks import chain, gears, grid, ladder, measure, peers, sweep
 from benchmarks.command import growth_exponent
 from benchmarks.measure import Stopwatch
 from benchmarks.qvm import by_hand, c, framework, task
@@ -107,3 +109,20 @@ def test_all_take_the_same_gradient_of_the_quarter_vehicle(ride, count, length):
             other_loss, by = other(asked)()
             assert float(other_loss) == pytest.approx(float(loss), rel=1e-12)
             assert by == pytest.approx(expected, abs=1e-10 * abs(expected).max())
+
+
+def test_a_sweep_finds_what_single_simulations_find():
+    system, steps = ac.compile(with_networks()), 30
+    many = sweep.variants(system, 11, steps)
+    one = sweep.roughness(system, steps, jnp.float64)
+    together = jax.jit(jax.vmap(one))(many)
+    alone = [jax.jit(one)(jax.tree.map(lambda a, i=i: a[i], many)) for i in (0, 10)]
+    assert together[jnp.asarray([0, 10])] == pytest.approx(np.asarray(alone), rel=1e-11)
+    assert len(np.unique(together)) == 11
+
+
+def test_peers_agree_on_the_chain():
+    ours, byhand = (peers.PEERS[name](3) for name in ("acausal", "diffrax"))
+    assert ours.simulate() == pytest.approx(byhand.simulate(), abs=1e-9)
+    np.testing.assert_allclose(ours.gradient(), byhand.gradient(), atol=1e-9)
+    assert peers.measured("diffrax", 2).keys() == {"first", "position", "again", "gradient"}
