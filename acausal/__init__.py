@@ -69,6 +69,7 @@ if TYPE_CHECKING:
     from acausal.networks.mlp import MLP
     from acausal.networks.zero import OffsetCorrected
     from acausal.neural import remove_offset
+    from acausal.params_file import load_params, save_params
     from acausal.signals import Signal
     from acausal.simulation.simulate import simulate
     from acausal.simulation.solution import Solution
@@ -113,6 +114,7 @@ _HOMES = {
     "networks.mlp": "MLP",
     "networks.zero": "OffsetCorrected",
     "neural": "remove_offset",
+    "params_file": "load_params save_params",
     "signals": "Signal",
     "simulation.simulate": "simulate",
     "simulation.solution": "Solution",
@@ -194,6 +196,7 @@ __all__ = [
     "lbfgs",
     "linearize",
     "load",
+    "load_params",
     "log",
     "maximum",
     "minimum",
@@ -202,6 +205,7 @@ __all__ = [
     "prescribed",
     "remove_offset",
     "save",
+    "save_params",
     "sign",
     "simulate",
     "sin",

@@ -70,7 +70,7 @@ def read(path: Path) -> tuple[Arrays, dict[str, Any]]:
 def named(tree: Any) -> Arrays:
     """The arrays and numbers of a pytree, by their place in it."""
     leaves, _ = jax.tree_util.tree_flatten_with_path(eqx.filter(tree, eqx.is_array_like))
-    return {jax.tree_util.keystr(place): _stored(leaf) for place, leaf in leaves}
+    return {_place(path): _stored(leaf) for path, leaf in leaves}
 
 
 def filled(like: Any, arrays: Mapping[str, np.ndarray], where: str) -> Any:
@@ -81,7 +81,7 @@ def filled(like: Any, arrays: Mapping[str, np.ndarray], where: str) -> Any:
     """
     numbers, others = eqx.partition(like, eqx.is_array_like)
     leaves, structure = jax.tree_util.tree_flatten_with_path(numbers)
-    places = [jax.tree_util.keystr(place) for place, _ in leaves]
+    places = [_place(path) for path, _ in leaves]
     if lacking := [place for place in places if place not in arrays]:
         raise DataError(f"{where} lacks {listing(lacking)}: it belongs to another model.")
     if superfluous := sorted(arrays.keys() - set(places)):
@@ -95,6 +95,14 @@ def filled(like: Any, arrays: Mapping[str, np.ndarray], where: str) -> Any:
             )
     new = [_restored(leaf, arrays[p]) for p, (_, leaf) in zip(places, leaves, strict=True)]
     return eqx.combine(jax.tree.unflatten(structure, new), others)
+
+
+def _place(path: tuple[Any, ...]) -> str:
+    """Where a leaf is, such as ``extra.net.weights[0]``: what a dict at the top calls its entries needs no quotes."""
+    top, rest = path[:1], path[1:]
+    named = top and isinstance(top[0], jax.tree_util.DictKey)
+    first = str(top[0].key) if named else jax.tree_util.keystr(top).removeprefix(".")
+    return first + jax.tree_util.keystr(rest)
 
 
 def _stored(leaf: Any) -> np.ndarray:

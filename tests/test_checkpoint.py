@@ -307,21 +307,3 @@ def test_a_digest_of_something_that_holds_itself_ends():
         return recursive(x)
 
     assert digest(recursive) == digest(recursive)
-
-
-def test_trees_come_back_as_they_were():
-    tree = {
-        "numbers": (1, 2.5, True), "key": jax.random.key(3), "function": np.sin, "none": None,
-        "arrays": [np.zeros((2, 0)), jax.numpy.arange(3), np.float64(1 / 3)], "infinite": np.inf,
-    }  # fmt: skip
-    back = tensors.filled(tree, tensors.named(tree), "it")
-    assert jax.tree.structure(back) == jax.tree.structure(tree)
-    for a, b in zip(jax.tree.leaves(back), jax.tree.leaves(tree), strict=True):
-        assert type(a) is type(b)
-        assert a is b or np.array_equal(*(tensors._stored(x) for x in (a, b)))
-    with pytest.raises(ac.DataError, match=r"^it lacks '\['x'\]'"):
-        tensors.filled({"x": 1.0}, {}, "it")
-    with pytest.raises(ac.DataError, match=r"^it has '.*' besides"):
-        tensors.filled({}, {"x": np.zeros(1)}, "it")
-    with pytest.raises(ac.DataError, match=r"as float64\[2\], but here it is float64\[3\]"):
-        tensors.filled({"x": np.zeros(3)}, {"['x']": np.zeros(2)}, "it")

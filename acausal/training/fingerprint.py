@@ -81,7 +81,7 @@ def _parts(thing: Any) -> Sequence[Any] | str:
         return (wrapped,)
     if hasattr(thing, "__dict__") and vars(thing):
         return sorted(vars(thing).items())
-    return str(getattr(thing, "__qualname__", ""))
+    return str(getattr(thing, "__name__", ""))
 
 
 @_parts.register(bool | int | float | complex | str | np.generic | np.dtype | types.NoneType)
