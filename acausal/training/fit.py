@@ -5,9 +5,11 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import equinox as eqx
 import jax
 import numpy as np
 import optax
@@ -15,19 +17,23 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError
+from acausal.distilled import Distilled, distill
+from acausal.errors import TrainingError, nearest
 from acausal.neural import remove_offset
 from acausal.simulation.solvers import Solver
 from acausal.training import checkpoint as checkpoints
+from acausal.training.confidence import Confidence, confidence
 from acausal.training.fingerprint import fingerprint
 from acausal.training.history import History
 from acausal.training.loop import Trained
 from acausal.training.loop import train as run
 from acausal.training.losses import Loss
+from acausal.training.page import write_page
 from acausal.training.pose import Start, pose
-from acausal.training.problem import Problem, modified
+from acausal.training.problem import Problem, Trainable, modified
 from acausal.training.progress import Observer, display
 from acausal.training.regularizers import Regularizer
+from acausal.training.residuals import Residuals, residuals
 from acausal.training.spread import Device, local
 from acausal.training.strategy import legs
 
@@ -192,6 +198,7 @@ class Fit:
         seconds: what all of it took, of which ``compile_seconds`` in XLA's compiler.
         seconds_per_epoch: what an update took on average.
         interrupted: whether the user ended it early.
+        problem, trained: what was posed and what came of it, for further questions.
     """
 
     system: System
@@ -207,6 +214,59 @@ class Fit:
     compile_seconds: float
     seconds_per_epoch: float
     interrupted: bool
+    problem: Problem
+    trained: Trainable
+
+    def confidence(self) -> Confidence:
+        """How well the record determines the learned laws and the trained parameters."""
+        return confidence(self.problem, self.trained, self._arguments)
+
+    def residuals(self) -> tuple[Residuals, ...]:
+        """What the trained model leaves over of every target."""
+        record, inputs = self.problem.record, self.system.inputs
+        left = np.asarray(record.y - self.predicted)
+        u = np.asarray(record.steps.inputs.start)
+        drivers = {n: u[:, i] for i, n in enumerate(inputs)}
+        return tuple(residuals(n, left[:, i], drivers) for i, n in enumerate(self.problem.targets))
+
+    @cached_property
+    def predicted(self) -> np.ndarray:
+        """The targets in one simulation of the record, shape (N, number of targets)."""
+        return np.asarray(_predict(self.problem, self.trained))
+
+    @cached_property
+    def predicted_before(self) -> np.ndarray:
+        """The same before training."""
+        return np.asarray(_predict(self.problem, self.problem.start()))
+
+    def samples(self, network: str, most: int = 400) -> np.ndarray:
+        """Some of the values that a network's first argument had over the record, at most so many."""
+        values = np.asarray(self._arguments[network])[:, 0]
+        return values[:: max(1, len(values) // most)]
+
+    @cached_property
+    def _arguments(self) -> dict[str, Any]:
+        _, x = self.problem.simulate(self.trained)
+        return self.problem.seen(self.trained, x)
+
+    def distill(self, network: str, sigmas: float = 2.0, **wishes: Any) -> Distilled:
+        """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of what it has seen.
+
+        Arguments:
+            network: its name, such as ``"damper.net"``.
+            sigmas: how far the formula reaches.
+            wishes: further arguments of `acausal.distill`.
+        """
+        if network not in self.seen:
+            raise TrainingError(
+                f"There is no trained network '{network}': {nearest(network, self.seen)}"
+            )
+        low, high = self.seen[network].interval(sigmas)
+        return distill(self.params[network], float(low[0]), float(high[0]), **wishes)
+
+    def report(self, folder: str | Path, title: str = "Training") -> Path:
+        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""
+        return write_page(self, Path(folder) / "index.html", title)
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
@@ -268,7 +328,14 @@ def _result(problem: Problem, trained: Trained) -> Fit:
         compile_seconds=trained.compiling,
         seconds_per_epoch=trained.updating / max(history.epochs, 1),
         interrupted=trained.interrupted,
+        problem=problem,
+        trained=best.trainable,
     )
+
+
+@eqx.filter_jit
+def _predict(problem: Problem, trainable: Trainable) -> Any:
+    return problem.predict(trainable, problem.assemble(trainable))
 
 
 def _warn(trained: Trained) -> None:

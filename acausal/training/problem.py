@@ -168,6 +168,20 @@ class Problem(eqx.Module):
 
         return {name: at(name) for name in self.networks}
 
+    def predict(
+        self, trainable: Trainable, params: dict[str, Any], *, direct: bool = False
+    ) -> Array:
+        """The targets at every sample of one simulation with other parameters, shape (N, number of targets).
+
+        Arguments:
+            trainable: gives the state at the start, where that is trained.
+            params: physical values and networks.
+            direct: whether derivatives in forward mode must work.
+        """
+        packed = self.system.pack(params)
+        x0 = self.first_state(trainable, packed)
+        return self._integrate(packed, x0, self.record.steps, direct=direct)[1]
+
     def first_state(self, trainable: Trainable, packed: Any) -> Array:
         """The state at the record's start, shape (number of states,)."""
         if self.nodes is not None:
@@ -187,7 +201,9 @@ class Problem(eqx.Module):
         assert self.record.x is not None
         return self.record.x[start]
 
-    def _integrate(self, packed: Any, x0: Array, steps: Any) -> tuple[Array, Array, Array]:
+    def _integrate(
+        self, packed: Any, x0: Array, steps: Any, *, direct: bool = False
+    ) -> tuple[Array, Array, Array]:
         """States and targets at every sample, and the state at the end."""
         x, predicted, end = integrate(
             self.system,
@@ -195,6 +211,7 @@ class Problem(eqx.Module):
             self.solver,
             outputs=self.targets,
             substeps=self.substeps,
+            direct=direct,
         )
         assert predicted is not None
         return cast((x, predicted, end), float)

@@ -1,0 +1,158 @@
+"""The page about a training: what was learned, how sure it is, and what is left over."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from acausal.report import Page
+from acausal.training.confidence import Confidence
+from acausal.training.residuals import Residuals
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from acausal.training.fit import Fit
+
+MEASURED, AFTER, BEFORE, GUIDE = "#22303c", "#1f77b4", "#d1603d", "#8795a1"
+STRETCH = 2000
+"""Samples of the record that are shown closely."""
+
+
+def write_page(fit: Fit, path: Path, title: str) -> Path:
+    """Write the page about a training; returns its path."""
+    page = Page(title, _summary(fit))
+    page.table(("figure", "before", "after"), [("loss over the record", *_losses(fit))])
+    page.figure(_figure(fit.history.epochs > 0, _draw_losses, fit), "The loss, update by update.")
+    _trajectories(page, fit)
+    sure = fit.confidence()
+    _laws(page, fit, sure)
+    _parameters(page, fit, sure)
+    _leftovers(page, fit.residuals())
+    if fit.history.divergences:
+        page.section("What diverged")
+        page.table(("epoch", "what"), [(d.epoch, str(d)) for d in fit.history.divergences[:50]])
+    return page.write(path)
+
+
+def _summary(fit: Fit) -> str:
+    trained = ", ".join((*fit.seen, *fit.modifiers))
+    end = ", ended by the user" if fit.interrupted else ""
+    return (
+        f"{trained} trained on {len(fit.problem.record)} samples of "
+        f"{', '.join(fit.problem.targets)} in {fit.seconds:.3g} s, {fit.history.epochs} updates{end}."
+    )
+
+
+def _losses(fit: Fit) -> tuple[str, str]:
+    return f"{fit.loss_before:.4g}", f"{fit.loss:.4g}"
+
+
+def _figure(wide: bool, draw: Any, *what: Any, height: float = 3.2) -> Figure:
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9.0 if wide else 6.0, height), layout="constrained")
+    draw(figure.subplots(), *what)
+    return figure
+
+
+def _draw_losses(ax: Axes, fit: Fit) -> None:
+    history = fit.history
+    ax.semilogy(1 + np.arange(history.epochs), history.loss, color=GUIDE, lw=0.8, label="batches")
+    ax.semilogy(*history.full_loss.T, "o-", color=AFTER, ms=3, lw=1.2, label="whole record")
+    ax.set(xlabel="update", ylabel="loss")
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False)
+
+
+def _trajectories(page: Page, fit: Fit) -> None:
+    page.section("Measured and simulated")
+    record = fit.problem.record
+    t, before = np.asarray(record.steps.t), fit.predicted_before
+    middle = len(t) // 2
+    rows = slice(max(0, middle - STRETCH // 2), middle + STRETCH // 2)
+    for i, name in enumerate(fit.problem.targets):
+
+        def draw(ax: Axes, i: int = i, name: str = name) -> None:
+            curves = {
+                "measured": (np.asarray(record.y), MEASURED, 1.6, 0.5),
+                "before training": (before, BEFORE, 0.9, 0.9),
+                "after training": (fit.predicted, AFTER, 1.1, 1.0),
+            }
+            for label, (values, color, width, alpha) in curves.items():
+                ax.plot(t[rows], values[rows, i], color=color, lw=width, alpha=alpha, label=label)
+            ax.set(xlabel="time [s]", ylabel=name)
+            ax.grid(alpha=0.25)
+            ax.legend(frameon=False, ncols=3)
+
+        page.figure(_figure(True, draw), f"A stretch of '{name}'.")
+
+
+def _laws(page: Page, fit: Fit, sure: Confidence) -> None:
+    if not sure.laws:
+        return
+    page.section("Learned laws")
+    page.text(
+        "The band is two standard deviations wide to either side. Dashed and solid lines mark one and two standard "
+        "deviations of what the network has seen; in the shaded part it extrapolates. Ticks are samples."
+    )
+    for name, band in sure.laws.items():
+
+        def draw(ax: Axes, name: str = name, band: Any = band) -> None:
+            ax.fill_between(
+                band.x, band.law - 2 * band.sigma, band.law + 2 * band.sigma,
+                color=AFTER, alpha=0.2, lw=0,
+            )  # fmt: skip
+            ax.plot(band.x, band.law, color=AFTER, lw=1.6)
+            low, high = float(np.min(band.law)), float(np.max(band.law))
+            room = 0.25 * (high - low) + 1e-12
+            ax.set_ylim(low - room, high + room)
+            seen = fit.seen[name]
+            mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
+            for side in (-1, 1):
+                ax.axvline(mean + side * sigma, color=GUIDE, lw=0.9, ls="--")
+                ax.axvline(mean + 2 * side * sigma, color=GUIDE, lw=0.9)
+                edge = band.x[0] if side < 0 else band.x[-1]
+                ax.axvspan(*sorted((mean + 2 * side * sigma, edge)), color=GUIDE, alpha=0.12, lw=0)
+            samples = fit.samples(name)
+            ax.plot(samples, np.full(len(samples), low - room), "|", color=MEASURED, alpha=0.25)
+            ax.set_xlim(band.x[0], band.x[-1])
+            ax.set(xlabel="argument", ylabel=name)
+            ax.grid(alpha=0.25)
+
+        page.figure(_figure(False, draw), f"The law of '{name}' and how sure it is.")
+
+
+def _parameters(page: Page, fit: Fit, sure: Confidence) -> None:
+    if not fit.modifiers:
+        return
+    page.section("Trained parameters")
+    rows = [
+        (n, f"{float(fit.params[n]):.6g}", f"{100 * change:+.2f} %", f"{100 * sure.parameters[n]:.2g} %")
+        for n, change in fit.modifiers.items()
+    ]  # fmt: skip
+    page.table(("parameter", "value", "change", "one sigma"), rows)
+    for sentence in sure.words():
+        page.text(sentence)
+
+
+def _leftovers(page: Page, found: tuple[Residuals, ...]) -> None:
+    page.section("What is left over")
+    for residuals in found:
+        page.text(residuals.words())
+        rows: Mapping[str, np.ndarray] = {"itself": residuals.own, **residuals.inputs}
+
+        def draw(ax: Axes, rows: Mapping[str, np.ndarray] = rows, r: Residuals = residuals) -> None:
+            for label, values in rows.items():
+                first = 1 if label == "itself" else -(len(values) // 2)
+                ax.plot(first + np.arange(len(values)), values, lw=1.1, label=f"with {label}")
+            ax.axhspan(-r.bound, r.bound, color=GUIDE, alpha=0.2, lw=0)
+            ax.set(xlabel="lag [samples]", ylabel="correlation")
+            ax.grid(alpha=0.25)
+            ax.legend(frameon=False)
+
+        page.figure(_figure(True, draw), f"Correlations of the residuals of '{residuals.target}'.")
