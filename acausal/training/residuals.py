@@ -10,7 +10,7 @@ from scipy.signal import correlate
 LAGS = 50
 """Lags at which correlations are looked at."""
 
-SURE = 3.0
+SURE = 4.0
 """Standard deviations of a correlation of white noise beyond which it is none."""
 
 
