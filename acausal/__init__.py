@@ -91,6 +91,7 @@ if TYPE_CHECKING:
     from acausal.system import System, compile
     from acausal.training.fit import Fit, fit
     from acausal.training.lbfgs import lbfgs
+    from acausal.training.logs import CsvLog, TensorBoardLog
     from acausal.training.regularizers import SmallCorrection, ZeroCrossing
 
 __version__ = "0.1.0"
@@ -122,6 +123,7 @@ _HOMES = {
     "system": "System compile",
     "training.fit": "Fit fit",
     "training.lbfgs": "lbfgs",
+    "training.logs": "CsvLog TensorBoardLog",
     "training.regularizers": "SmallCorrection ZeroCrossing",
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
@@ -148,6 +150,7 @@ __all__ = [
     "Component",
     "ConnectionError",
     "Connector",
+    "CsvLog",
     "Data",
     "DataError",
     "DeclarationError",
@@ -176,6 +179,7 @@ __all__ = [
     "Start",
     "StructureError",
     "System",
+    "TensorBoardLog",
     "TrainingError",
     "UnitError",
     "Variable",

@@ -39,7 +39,7 @@ def write(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[str, Any]
 
     stored = {name: np.asarray(a, order="C") for name, a in arrays.items()}
     text = json.dumps(about)
-    _replace(path, save(stored, {"about": text, "sha256": _checksum(stored, text)}))
+    replace(path, save(stored, {"about": text, "sha256": _checksum(stored, text)}))
 
 
 def read(path: Path) -> tuple[Arrays, dict[str, Any]]:
@@ -65,6 +65,27 @@ def read(path: Path) -> tuple[Arrays, dict[str, Any]]:
             f"'{path}' was changed after it was written: its checksum does not fit. Use another copy of it."
         )
     return arrays, json.loads(metadata["about"])
+
+
+def replace(path: Path, content: bytes) -> None:
+    """Put a file in the place of another at once: a reader sees the one or the other.
+
+    Raises:
+        OSError: if it cannot be written; the other one is still there.
+    """
+    part = path.with_name(f".{path.name}.part")
+    try:
+        with part.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        part.replace(path)
+    except BaseException:
+        with suppress(OSError):
+            part.unlink()
+        raise
+    with suppress(OSError):  # some file systems know no way to make a rename durable
+        _sync(path.parent)
 
 
 def named(tree: Any) -> Arrays:
@@ -128,23 +149,6 @@ def _checksum(arrays: Mapping[str, np.ndarray], text: str) -> str:
         total.update(json.dumps([name, str(array.dtype), array.shape]).encode())
         total.update(array.tobytes())
     return total.hexdigest()
-
-
-def _replace(path: Path, content: bytes) -> None:
-    """Put a file in the place of another at once: a reader sees the one or the other."""
-    part = path.with_name(f".{path.name}.part")
-    try:
-        with part.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        part.replace(path)
-    except BaseException:
-        with suppress(OSError):
-            part.unlink()
-        raise
-    with suppress(OSError):  # some file systems know no way to make a rename durable
-        _sync(path.parent)
 
 
 def _sync(folder: Path) -> None:

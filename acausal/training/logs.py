@@ -1,0 +1,134 @@
+"""Logs that other programs read: observers of a training that write what it reports.
+
+A log that goes on after a break replaces what it had of the updates that are made again.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from acausal import tensors
+from acausal.errors import DataError, TrainingError
+from acausal.training.progress import Progress
+
+SCALARS: dict[str, Callable[[Progress], float]] = {
+    "loss": lambda p: p.loss,
+    "best": lambda p: p.best,
+    "seconds": lambda p: p.seconds,
+    "seconds_per_epoch": lambda p: p.seconds_per_epoch,
+    "diverged": lambda p: len(p.divergences),
+}
+"""What is written: the last update's loss, the lowest loss over the whole record, the time since the start and for an
+update, and in how many updates since the last report something diverged."""
+
+
+class CsvLog:
+    """An observer that writes a line of a CSV file at every report: ``epoch`` and `SCALARS`.
+
+    A training that begins replaces the file, one that is resumed goes on in it. A line that cannot be written is
+    warned of once, and stops nothing.
+
+    Arguments:
+        path: the file; folders are made.
+
+    Raises:
+        DataError: if there is a file that is no such log.
+        TrainingError: if the file cannot be written.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        self._begun = self._warned = False
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            before = _lines(self.path)
+            with self.path.open("a"):
+                pass
+        except OSError as error:
+            raise TrainingError(
+                f"Log '{self.path}' cannot be written: {error.strerror or error}."
+            ) from error
+        if before and before[0] != ["epoch", *SCALARS]:
+            raise DataError(f"'{self.path}' is no log of a training: name another file.")
+
+    def __call__(self, progress: Progress) -> None:
+        """Write a line."""
+        values = [repr(float(read(progress))) for read in SCALARS.values()]
+        try:
+            self._begin(progress.epoch)
+            with self.path.open("a", newline="") as file:
+                file.write(_text([[str(progress.epoch), *values]]))
+        except OSError as error:
+            if not self._warned:
+                self._warned = True
+                warnings.warn(
+                    f"Log '{self.path}' cannot be written at epoch {progress.epoch}: "
+                    f"{error.strerror or error}. The training goes on.",
+                    stacklevel=2,
+                )
+
+    def _begin(self, epoch: int) -> None:
+        """Keep the lines of earlier updates alone, before the first line."""
+        if self._begun:
+            return
+        whole = [row for row in _lines(self.path)[1:] if len(row) == 1 + len(SCALARS)]
+        kept = [row for row in whole if int(row[0]) < epoch]
+        tensors.replace(self.path, _text([["epoch", *SCALARS], *kept]).encode())
+        self._begun = True
+
+
+class TensorBoardLog:
+    """An observer that writes `SCALARS` for TensorBoard at every report, over the epoch.
+
+    Arguments:
+        folder: what ``tensorboard --logdir`` gets; it is made.
+
+    Raises:
+        TrainingError: if tensorboardX is not installed (``pip install 'acausal[tensorboard]'``).
+    """
+
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
+        try:
+            from tensorboardX import SummaryWriter
+        except ImportError as error:
+            raise TrainingError(
+                "TensorBoardLog needs tensorboardX: pip install 'acausal[tensorboard]'."
+            ) from error
+        self.folder = Path(folder)
+        self._open: Callable[[int], Any] = lambda epoch: SummaryWriter(
+            str(self.folder), purge_step=epoch
+        )
+        self._writer: Any = None
+
+    def __call__(self, progress: Progress) -> None:
+        """Write the scalars."""
+        if self._writer is None:
+            self._writer = self._open(progress.epoch)
+        for name, read in SCALARS.items():
+            self._writer.add_scalar(name, float(read(progress)), progress.epoch)
+        self._writer.flush()
+
+    def close(self) -> None:
+        """Close the file; otherwise Python does so at its end."""
+        if self._writer is not None:
+            self._writer.close()
+            self._writer = None
+
+
+def _lines(path: Path) -> list[list[str]]:
+    if not path.exists():
+        return []
+    with path.open(newline="", encoding="utf-8", errors="replace") as file:
+        return list(csv.reader(file))
+
+
+def _text(rows: list[list[str]]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
