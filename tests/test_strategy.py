@@ -12,9 +12,11 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.training.history import Log
 from acausal.training.pose import over_whole_record, pose
 from acausal.training.record import Batch
 from acausal.training.smoothing import smoothed
+from acausal.training.trainer import Trainer, advance, begin
 from tests.oscillator import learned, record
 
 QUIET: dict[str, Any] = {"progress": False}
@@ -60,6 +62,68 @@ def test_lbfgs_says_when_it_finds_nothing_better():
     _, state = descend(lambda x: jnp.sum(x**2), jnp.ones(3), 80)
     assert bool(state.converged)
     assert float(state.value) == pytest.approx(0.0, abs=1e-20)
+
+
+class Bowl(eqx.Module):
+    """A parabola with its minimum at 1; beyond ``edge`` there is no loss, or no gradient."""
+
+    edge: float
+    value: bool
+
+    def draw(self, key: Any) -> Batch:
+        return Batch(jnp.zeros(1, int), jnp.ones(1), None)
+
+    def losses(self, x: Any, batch: Batch) -> Any:
+        beyond = x > self.edge
+        if self.value:
+            spoilt = jnp.where(beyond, jnp.inf, 0.0)
+        else:  # zero, with an infinite slope
+            spoilt = jnp.where(beyond, jnp.sqrt(jnp.where(beyond, x - x, 1.0)), 0.0)
+        return ((x - 1) ** 2 + spoilt)[None]
+
+    def penalties(self, x: Any) -> dict[str, Any]:
+        return {}
+
+
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        (True, "epoch 1: the sequence from t = 0 s diverged; update rejected"),
+        (False, "epoch 1: the gradient is not finite; update rejected"),
+    ],
+)
+def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, told: str):
+    """The first step, of length 0.1, leads beyond the edge."""
+    trainer = Trainer(ac.lbfgs(), 1e3, lambda objective, x: {})
+    state = begin(trainer, jnp.asarray(0.95), jax.random.key(0))
+    state, rows = advance(Bowl(1.02, value), trainer, state, jnp.asarray(20))
+    log = Log(np.zeros(1), (), ())
+    assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [told]
+    assert int(state.rejected) == 0
+    assert float(state.optimizer.point[0]) == pytest.approx(1.0, abs=1e-9)
+
+
+class Explosive(eqx.Module):
+    """A cubic spring with so large a unit of its weight that some trial of L-BFGS diverges."""
+
+    weight: Any
+
+    def __call__(self, x: Any) -> Any:
+        return 1e6 * self.weight * x**3
+
+
+def test_a_leg_over_the_whole_record_survives_a_trial_that_diverges():
+    params = learned().parameters() | {"extra.net": Explosive(jnp.asarray(0.0))}
+    with pytest.warns(
+        UserWarning, match=r"Something diverged in \d+ of \d+ epochs and was left out"
+    ):
+        fit = ac.fit(
+            learned(), record(end=5.0), "mass.a", params=params, strategy="whole_record", epochs=40, **QUIET
+        )  # fmt: skip
+    assert {d.time for d in fit.history.divergences} == {0.0}
+    assert all(d.rejected for d in fit.history.divergences)
+    assert float(fit.params["extra.net"].weight) * 1e6 == pytest.approx(80.0, rel=0.02)
+    assert "diverged" in repr(fit)
 
 
 # -- equation error ----------------------------------------------------------------------------------

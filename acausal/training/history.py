@@ -19,7 +19,7 @@ class Divergence:
         epoch: the update.
         time: where the first such sequence starts in the record, in seconds.
         count: how many there were; 0 where the gradient was not finite though no sequence diverged.
-        rejected: whether the whole update was rejected.
+        rejected: whether the whole update was rejected, or a trial of L-BFGS taken back.
     """
 
     epoch: int

@@ -81,7 +81,7 @@ class Entry(eqx.Module):
         penalties: by name.
         trainable: what was logged of the trainable, see `advance`.
         diverged: how many sequences were left out; ``first``: where the first of them starts (a sample's index).
-        rejected: whether the update was rejected.
+        rejected: whether the update was rejected, or was a trial that L-BFGS takes back.
     """
 
     loss: Array
@@ -173,7 +173,7 @@ def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, 
         trainer.log(problem, state.trainable),
         bad.sum(),
         drawn.start[jnp.argmax(bad)],
-        ~accepted,
+        ~(accepted & usable),
     )
     return State(trainable, optimizer, state.epoch + 1, rejected, state.key), entry
 
