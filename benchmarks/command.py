@@ -27,6 +27,7 @@ ROWS = {
     "xla_rhs_seconds": "XLA, right-hand side [s]",
     "xla_gradient_seconds": "XLA, gradient [s]",
     "total_seconds": "total [s]",
+    "processor_seconds": "... of processor time [s]",
     "memory_gb": "peak memory [GB]",
     "hlo_rhs": "HLO instructions, right-hand side",
     "hlo_gradient": "HLO instructions, gradient",
