@@ -33,37 +33,25 @@ class Matching:
     def augment(
         self, equation: int, incidence: Incidence, usable: Callable[[int], bool] | None = None
     ) -> bool:
-        """Assign ``equation``, re-assigning others along one path; False if there is no path."""
+        """Assign ``equation``, re-assigning others along a shortest path; False if there is no path."""
         equation_of = self.equation_of
-        self.colored_equations = [equation]
-        self.colored_variables = []
+        reached, through, before = [equation], [-1], [-1]
         seen: set[int] = set()
-        equations = [equation]
-        through: list[int] = []
-        branches = [iter(incidence[equation])]
-        free = self._free(incidence[equation], usable)
-        while free < 0:
-            for variable in branches[-1]:
-                if variable in seen or (usable is not None and not usable(variable)):
-                    continue
-                seen.add(variable)
-                self.colored_variables.append(variable)
-                owner = equation_of[variable]
-                self.colored_equations.append(owner)
-                equations.append(owner)
-                through.append(variable)
-                branches.append(iter(incidence[owner]))
-                free = self._free(incidence[owner], usable)
-                break
-            else:
-                branches.pop()
-                equations.pop()
-                if not branches:
-                    return False
-                through.pop()
-        for owner, variable in zip(reversed(equations), [free, *reversed(through)], strict=True):
-            equation_of[variable] = owner
-        return True
+        for i, current in enumerate(reached):  # which grows: breadth first
+            variable = self._free(incidence[current], usable)
+            if variable >= 0:
+                while i >= 0:
+                    equation_of[variable] = reached[i]
+                    variable, i = through[i], before[i]
+                return True
+            for variable in incidence[current]:
+                if variable not in seen and (usable is None or usable(variable)):
+                    seen.add(variable)
+                    reached.append(equation_of[variable])
+                    through.append(variable)
+                    before.append(i)
+        self.colored_equations, self.colored_variables = reached, through[1:]
+        return False
 
     def _free(self, variables: Sequence[int], usable: Callable[[int], bool] | None) -> int:
         for variable in variables:

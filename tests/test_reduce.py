@@ -1,6 +1,8 @@
 """Index reduction, choice of states, loops and diagnosis, judged by the flat equations themselves."""
 
+import cProfile
 import itertools
+import pstats
 import re
 
 import equinox as eqx
@@ -10,7 +12,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.reduce import Assignment, Loop
+from acausal.flatten import flatten
+from acausal.reduce import Assignment, Loop, reduce
 from tests.oracle import worst
 from tests.parts import (
     Capacitor,
@@ -33,6 +36,7 @@ from tests.parts import (
     SpringDamper,
     model,
 )
+from tests.test_meshes import Train
 
 Eq, der = ac.Eq, ac.der
 
@@ -628,3 +632,14 @@ def test_small_models(variables, stated, states):
 def test_a_singular_model_is_explained(whole, told):
     with pytest.raises(ac.StructureError, match=".*".join(map(re.escape, told))):
         ac.compile(whole())
+
+
+def test_index_reduction_of_a_rigid_chain_takes_time_in_proportion_to_its_length():
+    def calls(n):
+        profile = cProfile.Profile()
+        profile.runcall(reduce, flatten(Train(n)))
+        return pstats.Stats(profile).total_calls
+
+    calls(120)  # fills caches
+    found = [calls(n) for n in (120, 240, 480)]
+    assert found[2] - found[1] == pytest.approx(2 * (found[1] - found[0]), rel=0.1)
