@@ -55,6 +55,25 @@ class Runs:
 
 
 @dataclass(frozen=True)
+class Interleaved:
+    """Elements of the first column, the second and so on in turn, as states of equal components lie.
+
+    Unlike a `Take`, it is differentiated without a scatter.
+    """
+
+    columns: tuple[Runs, ...]
+
+    def read(self, arrays: Arrays) -> Any:
+        """The argument's value, read from the arrays."""
+        return jnp.stack([column.read(arrays) for column in self.columns], axis=1).ravel()
+
+    @property
+    def sources(self) -> tuple[int, ...]:
+        """The arrays that are read."""
+        return tuple(dict.fromkeys(s for column in self.columns for s in column.sources))
+
+
+@dataclass(frozen=True)
 class Take:
     """Scattered elements: an index into the sources laid one behind the other."""
 
@@ -70,7 +89,7 @@ class Take:
         )
 
 
-Gather = One | Runs | Take
+Gather = One | Runs | Interleaved | Take
 
 
 def _slice(array: Any, start: int, step: int, length: int) -> Any:
@@ -84,14 +103,20 @@ def _slice(array: Any, start: int, step: int, length: int) -> Any:
 def gather(source: Integers, index: Integers, sizes: Sequence[int]) -> Gather:
     """The cheapest way to read elements ``index[i]`` of arrays ``source[i]``.
 
-    One element where all are the same, slices where the indices progress evenly, else a take. ``sizes``
-    are the lengths of the arrays.
+    One element where all are the same, slices where the indices progress evenly, or every second one does, or
+    third, and so on; else a take. ``sizes`` are the lengths of the arrays.
     """
     if len(source) and (source == source[0]).all() and (index == index[0]).all():
         return One(int(source[0]), int(index[0]))
     runs = _runs(source, index)
     if len(runs) <= MAX_RUNS:
         return Runs(runs)
+    for n in range(2, MAX_RUNS + 1):
+        columns = (
+            [_runs(source[i::n], index[i::n]) for i in range(n)] if len(source) % n == 0 else ()
+        )
+        if columns and sum(map(len, columns)) <= MAX_RUNS:
+            return Interleaved(tuple(Runs(column) for column in columns))
     used = list(dict.fromkeys(source.tolist()))
     offset = np.zeros(max(used) + 1, dtype=np.int64)
     offset[used] = np.cumsum([0, *(sizes[s] for s in used[:-1])])

@@ -1,12 +1,13 @@
 """Reading scattered elements in the cheapest way."""
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from acausal.gather import MAX_RUNS, One, Runs, Take, gather
+from acausal.gather import MAX_RUNS, Interleaved, One, Runs, Take, gather
 
 ARRAYS = [jnp.arange(10.0), jnp.arange(100.0, 120.0), jnp.array(7.0), jnp.arange(5.0) * 10]
 SIZES = [10, 20, 1, 5]
@@ -46,6 +47,8 @@ def test_elements_are_read_whatever_their_order(pairs):
         ([(0, i) for i in range(10)], Runs),
         ([(1, i) for i in range(0, 20, 3)], Runs),
         ([(0, 1), (0, 2), (1, 5), (1, 7)], Runs),
+        ([(s, i) for i in range(10) for s in (0, 1)], Interleaved),
+        ([(0, i) if s else (1, 19 - i) for i in range(10) for s in (1, 0)], Take),
         ([(1, (7 * i * i + 3 * i) % 20) for i in range(20)], Take),
     ],
 )
@@ -69,3 +72,10 @@ def test_runs_are_bounded():
     found = read([(0, i) for i in (5, 3, 1, 4, 2, 0, 9, 7, 8, 6, 1, 5, 2, 9)])
     assert isinstance(found, Take)
     assert MAX_RUNS < 14
+
+
+def test_components_in_turn_are_differentiated_without_a_scatter():
+    found = read([(s, i) for i in range(10) for s in (0, 1)])
+    program = jax.make_jaxpr(jax.grad(lambda a: jnp.sum(found.read(a) ** 2)))(ARRAYS[:2])
+    assert "scatter" not in str(program)
+    assert "gather" not in str(program)
