@@ -291,7 +291,10 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
         (np.zeros(3), np.zeros((3, 1))),
         (np.zeros(3), np.zeros(3, np.float32)),
         ({"a": 1}, {"b": 1}),
-        (1, 1.0),
+        (1, 1.5),
+        (2**60, 2**60 + 1),
+        (np.inf, -np.inf),
+        (np.nan, 0.0),
         ((1, (2, 3)), ((1, 2), 3)),
         (ac.MLP(activation="tanh", key=0), ac.MLP(activation="relu", key=0)),
         (jax.numpy.sin, jax.numpy.cos),
@@ -300,6 +303,15 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
 def test_digests_tell_things_apart(one: Any, other: Any):
     assert digest(one) != digest(other)
     assert digest(one) == digest(one)
+
+
+def test_use_does_not_change_a_digest():
+    """optax's schedule makes a float of its integer."""
+    schedule = optax.cosine_decay_schedule(1e-2, 60)
+    before = digest(optax.adam(schedule))
+    schedule(3)
+    assert digest(optax.adam(schedule)) == before
+    assert digest([1, np.float64(2.0)]) == digest([1.0, 2])
 
 
 def test_a_digest_of_something_that_holds_itself_ends():

@@ -95,7 +95,7 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
     if about.get("kind") != KIND:
         raise DataError(f"'{path}' is no {KIND}, but: {about.get('kind', 'it does not say what')}.")
     theirs = about["fingerprint"]
-    names = [*fingerprint, *(theirs.keys() - fingerprint.keys())]
+    names = [*fingerprint, *(n for n in theirs if n not in fingerprint)]
     differ = [n for n in names if fingerprint.get(n) != theirs.get(n)]
     if differ:
         raise DataError(

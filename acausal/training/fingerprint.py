@@ -54,6 +54,9 @@ def digest(thing: Any) -> str:
 
 def _pieces(thing: Any, above: tuple[int, ...]) -> Iterator[bytes]:
     """The pieces of a thing, after its type; ``above`` are the things that hold it, by id."""
+    if isinstance(thing, int | float | np.integer | np.floating):
+        yield _number(thing)
+        return
     yield f"{type(thing).__module__}.{type(thing).__qualname__}".encode()
     if id(thing) in above:  # a function that calls itself holds itself
         return
@@ -71,6 +74,12 @@ def _pieces(thing: Any, above: tuple[int, ...]) -> Iterator[bytes]:
         yield from _pieces(part, (*above, id(thing)))
 
 
+def _number(number: Any) -> bytes:
+    """A number by its value: optax's schedules turn their integers into floats when first called."""
+    whole = isinstance(number, int | np.integer) or float(number).is_integer()
+    return repr(int(number) if whole else float(number)).encode()
+
+
 @functools.singledispatch
 def _parts(thing: Any) -> Sequence[Any] | str:
     """What a thing is made of: other things, or a text."""
@@ -84,7 +93,7 @@ def _parts(thing: Any) -> Sequence[Any] | str:
     return str(getattr(thing, "__name__", ""))
 
 
-@_parts.register(bool | int | float | complex | str | np.generic | np.dtype | types.NoneType)
+@_parts.register(complex | str | np.generic | np.dtype | types.NoneType)
 def _(thing: Any) -> str:
     return repr(thing)
 
