@@ -125,6 +125,10 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
         "electrical",
         _words("Diode Diode2 ZDiode NMOS PMOS NPN PNP Thyristor SimpleTriac"),
     ),
+    f"{_ANALOG}.Examples.Utilities": (
+        "electrical",
+        _words("Nand NonlinearResistor Transistor"),
+    ),
     f"{_ANALOG}.Sensors": (
         "electrical",
         _words("PotentialSensor VoltageSensor CurrentSensor PowerSensor MultiSensor"),

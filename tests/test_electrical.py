@@ -327,6 +327,29 @@ def test_a_source_passes_its_options_on():
     assert table.signalSource.table == [[0, 1], [1, 2]]
 
 
+class Cut(ac.Component):
+    """A capacitor discharged by a resistor, with signals in between."""
+
+    def __init__(self):
+        super().__init__()
+        self.c = el.Capacitor(C=2.0, v=ac.Start(1.0, fixed=True))
+        self.r, self.ground, self.other = el.Resistor(R=4.0), el.Ground(), el.Ground()
+        self.to_v = el.GeneralCurrentToVoltageAdaptor(use_pder=False, use_fder=False)
+        self.to_i = el.GeneralVoltageToCurrentAdaptor(use_pder=False, use_fder=False)
+        self.connect(self.c.p, self.to_v.pin_p)
+        self.connect(self.c.n, self.to_v.pin_n, self.ground.p)
+        self.connect(self.to_v.p, self.to_i.p)
+        self.connect(self.to_i.f, self.to_v.f)
+        self.connect(self.to_i.pin_p, self.r.p)
+        self.connect(self.to_i.pin_n, self.r.n, self.other.p)
+
+
+def test_a_circuit_cut_by_signals_behaves_as_the_whole():
+    system = ac.compile(Cut())
+    slope = system.vector_field(0.0, [3.0], [], system.parameters())
+    assert float(slope[0]) == pytest.approx(-3.0 / (4.0 * 2.0))
+
+
 # -- characteristics ---------------------------------------------------------------------------------
 
 

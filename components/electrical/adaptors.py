@@ -44,9 +44,9 @@ class GeneralCurrentToVoltageAdaptor(_Adaptor):
 
 
 class GeneralVoltageToCurrentAdaptor(_Adaptor):
-    """Voltage in, current out: ``v = p``, ``f = i``.
+    """Voltage in, current out: ``v = p``, ``f = -i``, the current that drives what is connected.
 
-    With ``use_fder`` the output ``fder = der(i)``. With ``use_pder`` the input ``pder`` is taken for the
+    With ``use_fder`` the output ``fder = der(f)``. With ``use_pder`` the input ``pder`` is taken for the
     derivative of ``p`` where the model needs it; without, ``p`` is differentiated. It holds no ground.
     """
 
@@ -57,7 +57,7 @@ class GeneralVoltageToCurrentAdaptor(_Adaptor):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        yield ac.Eq(self.f, self.i)
+        yield ac.Eq(self.f, -self.i)
         yield ac.Eq(self.v, ac.prescribed(self.p, *([self.pder] if self.use_pder else [])))
         if self.use_fder:
             yield ac.Eq(self.fder, ac.der(self.f))

@@ -27,19 +27,19 @@ class GeneralHeatFlowToTemperatureAdaptor(ac.Component):
 
 
 class GeneralTemperatureToHeatFlowAdaptor(ac.Component):
-    """A heat port as signals, temperature in, heat flow out: ``heatPort.T = p``, ``f = heatPort.Q_flow``.
+    """A heat port as signals, temperature in, heat flow out: ``heatPort.T = p``, ``f = -heatPort.Q_flow``.
 
-    With ``use_pder`` the input ``pder`` is taken for the rate of ``p`` wherever the model needs it;
-    without, ``p`` is differentiated.
+    ``f`` [W] heats what is connected to the port. With ``use_pder`` the input ``pder`` is taken for the rate of ``p``
+    wherever the model needs it; without, ``p`` is differentiated.
     """
 
     use_pder = ac.Option(True, doc="whether the rate of the temperature is an input")
     heatPort = HeatPort()
     p = ac.Input(unit="K", doc="temperature")
     pder = ac.Input(unit="K/s", when="use_pder", doc="rate of the temperature, consistent with p")
-    f = ac.Output(unit="W", doc="heat flow rate into the port")
+    f = ac.Output(unit="W", doc="heat flow rate to what is connected, = -heatPort.Q_flow")
 
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.f, self.heatPort.Q_flow)
+        yield ac.Eq(self.f, -self.heatPort.Q_flow)
         rates = [self.pder] if self.use_pder else []
         yield ac.Eq(self.heatPort.T, ac.prescribed(self.p, *rates))
