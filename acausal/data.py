@@ -7,13 +7,13 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from acausal.errors import DataError, listing, nearest
-from acausal.signals import check_samples, check_time_base, is_uniform
+from acausal.signals import Interpolation, Signal, check_samples, check_time_base, is_uniform
 from acausal.units import convert
 
 if TYPE_CHECKING:
@@ -32,21 +32,25 @@ class Data:
             otherwise.
         signals: samples by name, each of shape (n,).
         units: unit of every signal by name; without it the model's units are taken for granted.
+        interpolation: what an input does between samples, one choice for all or by name, as of an
+            `acausal.Signal`: ``"linear"`` (the default), ``"previous"``, ``"cubic"`` or ``"band-limited"``.
 
     Raises:
         DataError: for a time base that does not increase, samples that are missing or not finite,
-            a signal without a unit where others have one.
+            a signal without a unit where others have one, an unknown interpolation.
     """
 
     time: np.ndarray
     signals: Mapping[str, np.ndarray]
     units: Mapping[str, str] | None = None
+    interpolation: Interpolation | Mapping[str, Interpolation] = "linear"
 
     def __init__(
         self,
         time: ArrayLike,
         signals: Mapping[str, ArrayLike],
         units: Mapping[str, str] | None = None,
+        interpolation: Interpolation | Mapping[str, Interpolation] = "linear",
     ) -> None:
         unit_of_time = (units or {}).get("time", "s")
         ts = np.asarray(time)
@@ -57,8 +61,14 @@ class Data:
         if units is not None:
             _check_units(units, signals)
             units = {n: u for n, u in units.items() if n != "time"}
+        _check_interpolation(interpolation, signals)
         columns = {n: np.asarray(v, float) for n, v in signals.items()}
-        for field, value in (("time", ts), ("signals", columns), ("units", units)):
+        for field, value in (
+            ("time", ts),
+            ("signals", columns),
+            ("units", units),
+            ("interpolation", interpolation),
+        ):
             object.__setattr__(self, field, value)
 
     @classmethod
@@ -116,6 +126,7 @@ class Data:
         return Data(
             self.time,
             {n: convert(v, given[n], system.unit(n), f"'{n}'") for n, v in self.signals.items()},
+            interpolation=self.interpolation,
         )
 
     def columns(self, names: Iterable[str], purpose: str) -> np.ndarray:
@@ -132,6 +143,12 @@ class Data:
             return np.zeros((len(self), 0))
         return np.stack([self.signals[n] for n in names], axis=1)
 
+    def signal(self, name: str) -> Signal:
+        """A signal as a function of time."""
+        chosen = self.interpolation
+        kind = chosen if isinstance(chosen, str) else chosen.get(name, "linear")
+        return Signal(self.time, self[name], kind, name=name)
+
     def between(self, start: float, end: float) -> Data:
         """The samples with ``start <= time <= end``."""
         inside = (self.time >= start) & (self.time <= end)
@@ -147,7 +164,10 @@ class Data:
 
     def _with(self, time: np.ndarray, signals: Mapping[str, np.ndarray]) -> Data:
         units = None if self.units is None else {n: self.units[n] for n in signals}
-        return Data(time, signals, units)
+        chosen = self.interpolation
+        if not isinstance(chosen, str):
+            chosen = {n: kind for n, kind in chosen.items() if n in signals}
+        return Data(time, signals, units, chosen)
 
     @property
     def uniform(self) -> bool:
@@ -186,6 +206,19 @@ def _check_units(units: Mapping[str, str], signals: Mapping[str, Any]) -> None:
         raise DataError(
             f"There are units for {listing(extra)} but no such signal: {nearest(extra[0], signals)}"
         )
+
+
+def _check_interpolation(given: str | Mapping[str, str], signals: Mapping[str, Any]) -> None:
+    by_name = {"The record": given} if isinstance(given, str) else given
+    for name, kind in by_name.items():
+        if kind not in get_args(Interpolation):
+            raise DataError(
+                f"{name} has interpolation={kind!r}; choose one of {', '.join(get_args(Interpolation))}."
+            )
+        if not isinstance(given, str) and name not in signals:
+            raise DataError(
+                f"There is an interpolation for '{name}' but no such signal: {nearest(name, signals)}"
+            )
 
 
 def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:

@@ -15,10 +15,11 @@ from jax import Array
 from jax.typing import ArrayLike as Scalar
 from numpy.typing import ArrayLike
 
+from acausal.bands import FRACTIONS, bends, between, bow
 from acausal.errors import DataError
 from acausal.tracing import traced
 
-Interpolation = Literal["linear", "previous", "cubic"]
+Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
 
 UNIFORM = 1e-6
@@ -33,7 +34,8 @@ class Signal(eqx.Module):
         values: samples, shape (n,).
         interpolation: ``"linear"``; ``"previous"`` holds each sample until the next; ``"cubic"`` is
             a Hermite spline whose slope at a sample is that of the parabola through it and its neighbours
-            (continuous derivative, exact for parabolas).
+            (continuous derivative, exact for parabolas); ``"band-limited"`` has no frequency above half the
+            sampling rate (`acausal.bands`), as what a good recorder saw. It needs a uniform time base.
         extrapolation: outside of the samples, ``"hold"`` the end values, go on by the ``"linear"``
             secant of the last two, or repeat them as a ``"periodic"`` signal.
         name: how error messages call the signal.
@@ -42,11 +44,12 @@ class Signal(eqx.Module):
 
     Raises:
         DataError: for a time base that is not strictly increasing and finite, samples that are not
-            finite, lengths that differ, or an unknown choice.
+            finite, lengths that differ, an unknown choice, or a band-limited signal on an uneven time base.
     """
 
     ts: Array
     values: Array
+    bends: Array | None
     interpolation: Interpolation = eqx.field(static=True)
     extrapolation: Extrapolation = eqx.field(static=True)
     uniform: bool = eqx.field(static=True)
@@ -70,6 +73,7 @@ class Signal(eqx.Module):
         self.interpolation = interpolation
         self.extrapolation = extrapolation
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
+        self.bends = self._between(name) if interpolation == "band-limited" else None
 
     def __call__(self, t: Scalar) -> Array:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
@@ -93,6 +97,22 @@ class Signal(eqx.Module):
                 return self.values[i] + self._secant(i) * (t - self.ts[i])
             case "cubic":
                 return self._hermite(i, t)
+
+            case "band-limited":
+                assert self.bends is not None
+                fraction = (t - self.ts[i]) / (self.ts[i + 1] - self.ts[i])
+                on_line = self.values[i] + self._secant(i) * (t - self.ts[i])
+                return on_line + bow(self.bends[:, i], fraction)
+
+    def _between(self, name: str) -> Array:
+        """Coefficients of the polynomials between the samples, shape (`acausal.bands.DEGREE` - 1, n - 1)."""
+        if not self.uniform:
+            raise DataError(
+                f"'{name}' is band-limited, which needs equally spaced times; resample it, "
+                "or choose another interpolation."
+            )
+        inner = between(self.values, FRACTIONS)
+        return bends(self.values[:-1], self.values[1:], inner)
 
     def _index(self, t: Array) -> Array:
         """The interval that holds ``t``: ``ts[i] <= t <= ts[i + 1]``."""

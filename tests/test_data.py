@@ -145,3 +145,25 @@ def test_bad_files_are_refused_with_the_line(tmp_path, text, sentence):
 
 def test_a_missing_file(tmp_path):
     assert "cannot be read" in refused(lambda: ac.Data.from_csv(tmp_path / "none.csv"))
+
+
+def test_interpolation_goes_along_with_the_record():
+    t = np.linspace(0, 1, 11)
+    record = ac.Data(t, {"u": t, "w": t**2, "y": t}, interpolation={"u": "previous", "w": "cubic"})
+    part = record.between(0, 0.5).select(["u", "y"])
+    assert part.signal("u").interpolation == "previous"
+    assert part.signal("y").interpolation == "linear"
+    assert ac.Data(t, {"u": t}, interpolation="band-limited").signal("u").bends is not None
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ("spline", "The record has interpolation='spline'; choose one of linear, previous, cubic, band-limited."),
+        ({"v": "cubic"}, "There is an interpolation for 'v' but no such signal: did you mean 'u'?"),
+    ],
+)  # fmt: skip
+def test_interpolations_are_checked(given, sentence):
+    with pytest.raises(ac.DataError) as error:
+        ac.Data([0.0, 1.0], {"u": [0.0, 1.0]}, interpolation=given)
+    assert str(error.value) == sentence

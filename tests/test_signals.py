@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.simulation.inputs import over_steps
+from acausal.simulation.integrate import Step
 
 UNIFORM = np.linspace(0.0, 2.0, 21)
 UNEVEN = np.sort(np.r_[0.0, 2.0, np.random.default_rng(0).uniform(0, 2, 19)])
@@ -112,3 +114,52 @@ def test_bad_samples_are_refused(ts, values, message):
 def test_unknown_interpolation_is_refused():
     with pytest.raises(ac.DataError, match="interpolation='spline'; choose one of linear"):
         ac.Signal([0.0, 1.0], [0.0, 1.0], "spline")  # pyright: ignore[reportArgumentType]
+
+
+# -- band-limited ------------------------------------------------------------------------------------
+
+
+def tones(t):
+    """Frequencies up to 0.45 of the sampling rate of 10 Hz, and a drift."""
+    phases = zip((0.3, 1.1, 2.9, 4.5), (0.1, 0.7, 2.0, 4.0), strict=True)
+    return 0.2 * t + sum(np.sin(2 * np.pi * f * t + p) for f, p in phases)
+
+
+def test_band_limited_finds_what_lies_between_samples():
+    ts = 0.1 * np.arange(401)
+    t = np.linspace(10, 30, 1777)
+    error = {
+        kind: np.abs(at(ac.Signal(ts, tones(ts), kind), t) - tones(t)).max()
+        for kind in ("linear", "cubic", "band-limited")
+    }
+    assert error["band-limited"] < 0.01 < 0.3 * error["cubic"] < error["linear"]
+
+
+def test_band_limited_is_exact_at_its_samples_and_for_lines():
+    signal = ac.Signal(UNIFORM, tones(UNIFORM), "band-limited")
+    np.testing.assert_allclose(at(signal, UNIFORM), tones(UNIFORM), atol=1e-12)
+    line = ac.Signal(UNIFORM, 2 - 3 * UNIFORM, "band-limited")
+    t = np.linspace(-1, 3, 99)
+    np.testing.assert_allclose(at(line, t), 2 - 3 * np.clip(t, 0, 2), atol=1e-12)
+
+
+def test_band_limited_needs_equal_spaces():
+    with pytest.raises(ac.DataError, match="'u' is band-limited, which needs equally spaced times"):
+        ac.Signal(UNEVEN, UNEVEN, "band-limited", name="u")
+
+
+@pytest.mark.parametrize("interpolation", ["linear", "previous", "cubic", "band-limited"])
+@pytest.mark.parametrize("parts", [1, 3])
+def test_sampled_inputs_are_their_signals_within_steps(interpolation, parts):
+    ts = 0.1 * np.arange(21)
+    signals = (ac.Signal(ts, tones(ts), interpolation), ac.Signal(ts, ts))
+    grid = np.linspace(0, 2, 20 * parts + 1)
+    samples = over_steps(signals, grid)
+    assert samples.functions == (None, None)
+    for fraction in (0.0, 0.3, 0.8):
+        bends = samples.bends
+        for i in (0, 7, 20 * parts - 1):
+            step = Step(grid[i], grid[1], samples.start[i], samples.end[i], None if bends is None else bends[i])
+            t = grid[i] + fraction * (grid[i + 1] - grid[i])
+            expected = [signal(t) for signal in signals]
+            np.testing.assert_allclose(step.inputs(fraction, (None, None)), expected, atol=1e-9)

@@ -12,6 +12,7 @@ import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
+from acausal.bands import FRACTIONS, bends
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest
 from acausal.signals import Signal
@@ -55,13 +56,16 @@ class Samples(eqx.Module):
 
     Attributes:
         start: values at the steps' starts, shape (n, number of inputs).
-        end: values at their ends; between, an input is linear.
+        end: values at their ends.
         functions: per input, what is evaluated at stage times instead of the samples, or ``None``.
+        bends: how inputs deviate from the line between, the coefficients of `acausal.bands.bow`, shape
+            (n, coefficients, number of inputs); ``None`` where all are linear.
     """
 
     start: Array
     end: Array
     functions: tuple[Drive | None, ...] = ()
+    bends: Array | None = None
 
 
 def read(
@@ -79,7 +83,7 @@ def read(
         DataError: for an input that is missing, unknown or malformed.
     """
     if isinstance(given, Data):
-        given = {n: (given.time, given[n]) for n in names if n in given.signals}
+        given = {n: given.signal(n) for n in names if n in given.signals}
     given = given or {}
     unknown = [n for n in given if n not in names]
     if unknown:
@@ -130,39 +134,65 @@ def evaluate_all(drives: tuple[Drive, ...], t: Array) -> Array:
 def over_steps(drives: tuple[Drive, ...], grid: np.ndarray) -> Samples:
     """The inputs over fixed steps.
 
-    An input that is linear or constant within every step becomes samples, which a scan reads at no cost;
+    An input that is a polynomial within every step becomes samples, which a scan reads at no cost;
     any other stays a function and is evaluated at the stages of every step.
     """
     columns = [_on_grid(d, grid) for d in drives]
     nothing = jnp.zeros(len(grid) - 1)
-    pairs = [(nothing, nothing) if c is None else c for c in columns]
+    pairs = [(nothing, nothing, None) if c is None else c for c in columns]
     functions = tuple(d if c is None else None for d, c in zip(drives, columns, strict=True))
     if not pairs:
         empty = jnp.zeros((len(grid) - 1, 0))
         return Samples(empty, empty)
-    start, end = (jnp.stack(side, axis=1) for side in zip(*pairs, strict=True))
-    return Samples(start, end, functions)
+    starts, ends, bent = zip(*pairs, strict=True)
+    return Samples(jnp.stack(starts, axis=1), jnp.stack(ends, axis=1), functions, _bends(bent))
 
 
-def _on_grid(drive: Drive, grid: np.ndarray) -> tuple[ArrayLike, ArrayLike] | None:
+def _bends(columns: tuple[Array | None, ...]) -> Array | None:
+    """The coefficients side by side, shape (n, coefficients, number of inputs)."""
+    some = [c for c in columns if c is not None]
+    if not some:
+        return None
+    straight = jnp.zeros_like(some[0])
+    return jnp.stack([straight if c is None else c for c in columns], axis=-1).swapaxes(0, 1)
+
+
+def _on_grid(drive: Drive, grid: np.ndarray) -> tuple[ArrayLike, ArrayLike, Array | None] | None:
+    """An input at both ends of every step, and how it bends in between; ``None`` if it is no polynomial there."""
     if isinstance(drive, Constant):
         value = jnp.broadcast_to(drive.value, (len(grid) - 1,))
-        return value, value
+        return value, value, None
     if not isinstance(drive, Signal) or traced(drive.ts):
         return None
     ts, values = np.asarray(drive.ts), drive.values
     if not traced(values):
         values = np.asarray(values)  # spares the compilation of every operation below
-    if drive.interpolation == "cubic" or drive.extrapolation != "hold" or not _knots_on(grid, ts):
+    if drive.extrapolation != "hold" or not _knots_on(grid, ts):
         return None
+    if drive.interpolation in ("cubic", "band-limited"):
+        return _curved(drive, grid)
     if drive.interpolation == "previous":
         value = values[np.maximum(np.searchsorted(ts, (grid[1:] + grid[:-1]) / 2) - 1, 0)]
-        return value, value
+        return value, value, None
     i = np.clip(np.searchsorted(ts, grid, side="right") - 1, 0, len(ts) - 2)
     w = np.clip((grid - ts[i]) / (ts[i + 1] - ts[i]), 0.0, 1.0)
     w = np.where(np.abs(w - np.round(w)) < ON_GRID, np.round(w), w)
     value = values[i] + w * (values[i + 1] - values[i])
-    return value[:-1], value[1:]
+    return value[:-1], value[1:], None
+
+
+def _curved(signal: Signal, grid: np.ndarray) -> tuple[Array, Array, Array]:
+    """Of a polynomial between knots a part between them is one of the same degree, fixed by as many points."""
+    steps = grid[:-1, None] + np.diff(grid)[:, None] * FRACTIONS
+    at_ends, inner = _at(signal, grid), _at(signal, steps.ravel())
+    start, end = at_ends[:-1], at_ends[1:]
+    return start, end, bends(start, end, inner.reshape(steps.shape))
+
+
+@eqx.filter_jit
+def _at(signal: Signal, t: ArrayLike) -> Array:
+    """A signal at many times."""
+    return jax.vmap(signal)(jnp.asarray(t))
 
 
 def _knots_on(grid: np.ndarray, ts: np.ndarray) -> bool:

@@ -16,6 +16,7 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
+from acausal.bands import bow
 from acausal.simulation.inputs import Drive, Samples
 from acausal.simulation.march import march
 from acausal.simulation.solvers import Solver
@@ -48,12 +49,13 @@ class Steps(eqx.Module):
 
 
 class Step(eqx.Module):
-    """One of `Steps`: its start and length, and the inputs at both ends."""
+    """One of `Steps`: its start and length, the inputs at both ends, and how they bend in between."""
 
     t: Array
     h: Array
     start: Array
     end: Array
+    bends: Array | None
 
     def time(self, fraction: ArrayLike) -> Array:
         """The time at a fraction of the step."""
@@ -61,11 +63,17 @@ class Step(eqx.Module):
 
     def inputs(self, fraction: ArrayLike, functions: tuple[Drive | None, ...]) -> Array:
         """The inputs at a fraction of the step, shape (number of inputs,)."""
-        u = self.start if _is_zero(fraction) else self.start + fraction * (self.end - self.start)
+        u = self._sampled(fraction)
         if all(f is None for f in functions):
             return u
         t = self.time(fraction)
         return jnp.stack([v if f is None else f(t) for v, f in zip(u, functions, strict=True)])
+
+    def _sampled(self, fraction: ArrayLike) -> Array:
+        if _is_zero(fraction):
+            return self.start
+        on_line = self.start + fraction * (self.end - self.start)
+        return on_line if self.bends is None else on_line + bow(self.bends, fraction)
 
 
 def _is_zero(fraction: ArrayLike) -> bool:
@@ -134,15 +142,15 @@ def integrate(
             return system.vector_field_and_observe(outputs, *point)
         return None, system.observe(outputs, *point)
 
-    def step(constants: Any, x: Array, row: tuple[Array, ...]) -> tuple[Array, Array | None]:
+    def step(constants: Any, x: Array, row: Any) -> tuple[Array, Array | None]:
         packed, functions, equal = eqx.combine(constants, fixed)
-        t, start, end, *own = row
-        args = packed, functions, Step(t, own[0] if own else equal, start, end)
+        t, own, start, end, bends = row
+        args = packed, functions, Step(t, equal if own is None else own, start, end, bends)
         slope, y = observe(x, args)
         return whole(x, args, slope), y
 
-    own = () if equal is not None else (steps.h,)
-    rows = (steps.t, steps.inputs.start, steps.inputs.end, *own)
+    own, samples = None if equal is not None else steps.h, steps.inputs
+    rows = (steps.t, own, samples.start, samples.end, samples.bends)
     xs, end, ys = march(step, constants, x0, rows, direct=direct)
     return xs, ys, end
 

@@ -10,7 +10,7 @@ from jax import Array, lax
 
 from acausal.data import Data
 from acausal.errors import DataError
-from acausal.simulation.inputs import Samples
+from acausal.simulation.inputs import Samples, over_steps
 from acausal.simulation.integrate import Steps
 
 
@@ -18,7 +18,7 @@ class Record(eqx.Module):
     """N samples of a model's inputs, targets and states. A step begins at every sample; the last one leads nowhere.
 
     Attributes:
-        steps: N steps with the inputs, linear between samples.
+        steps: N steps with the inputs.
         y: targets, shape (N, number of targets).
         sigma: their standard deviations, shape (number of targets,).
         x: states, shape (N, number of states), or ``None`` where they are not all measured.
@@ -49,7 +49,7 @@ def lay_out(
     Raises:
         DataError: for a signal that is missing, or a target that is constant.
     """
-    u = data.columns(inputs, "an input of the model")
+    data.columns(inputs, "an input of the model")
     y = data.columns(targets, "a target of the training")
     sigma = y.std(axis=0)
     for name, deviation in zip(targets, sigma, strict=True):
@@ -60,9 +60,20 @@ def lay_out(
     x = None if states is None else jnp.asarray(data.columns(states, "a state of the model"))
     h = np.diff(data.time)
     lengths = jnp.asarray(data.sample_time) if data.uniform else jnp.asarray(np.append(h, h[-1]))
-    samples = Samples(jnp.asarray(u), jnp.asarray(np.concatenate([u[1:], u[-1:]])))
-    steps = Steps(jnp.asarray(data.time), lengths, samples)
+    steps = Steps(jnp.asarray(data.time), lengths, _samples(data, inputs))
     return Record(steps, jnp.asarray(y), jnp.asarray(sigma), x)
+
+
+def _samples(data: Data, inputs: tuple[str, ...]) -> Samples:
+    """The inputs over the steps from every sample; over the last one they stay as they are."""
+    signals = tuple(data.signal(name) for name in inputs)
+    inner = over_steps(signals, data.time)
+    last = jnp.asarray([data[name][-1] for name in inputs])[None]
+    bends = inner.bends
+    if bends is not None:
+        bends = jnp.concatenate([bends, jnp.zeros_like(bends[:1])])
+    start, end = (jnp.concatenate([side, last]) for side in (inner.start, inner.end))
+    return Samples(start, end, (), bends)
 
 
 class Batch(eqx.Module):

@@ -158,7 +158,8 @@ class SampledSignal(SO):
 
     Arguments:
         values: the samples. ts: their times [s], or ``dt``: the sample time [s], from ``startTime`` on.
-        interpolation: ``"linear"``, ``"previous"`` (each sample holds until the next) or ``"cubic"``.
+        interpolation: ``"linear"``, ``"previous"`` (each sample holds until the next), ``"cubic"`` or
+            ``"band-limited"``.
         extrapolation: ``"hold"``, ``"linear"`` or ``"periodic"``.
 
     The samples are a module, ``signal``, among the model's parameters.
@@ -168,7 +169,7 @@ class SampledSignal(SO):
     ts = ac.Option(None, doc="times of the samples")
     dt = ac.Option(None, doc="sample time, instead of ts")
     startTime = ac.Option(0.0, doc="time of the first sample, with dt")
-    interpolation = ac.Option("linear", choices=("linear", "previous", "cubic"))
+    interpolation = ac.Option("linear", choices=("linear", "previous", "cubic", "band-limited"))
     extrapolation = ac.Option("hold", choices=("hold", "linear", "periodic"))
     signal = ac.Module("_signal")
 
