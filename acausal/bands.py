@@ -64,7 +64,7 @@ def bends(start: Array, end: Array, inner: Array) -> Array:
 
 def bow(bends: Array, fraction: ArrayLike) -> Array:
     """How far the polynomial is from the line between its ends: ``p (1 - p) (b0 + b1 p + ...)``."""
-    value = bends[-1]
+    p, value = jnp.asarray(fraction), bends[-1]
     for b in bends[-2::-1]:
-        value = b + fraction * value
-    return fraction * (1 - fraction) * value
+        value = b + p * value
+    return p * (1 - p) * value

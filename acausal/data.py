@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -43,14 +43,14 @@ class Data:
     time: np.ndarray
     signals: Mapping[str, np.ndarray]
     units: Mapping[str, str] | None = None
-    interpolation: Interpolation | Mapping[str, Interpolation] = "linear"
+    interpolation: str | Mapping[str, str] = "linear"
 
     def __init__(
         self,
         time: ArrayLike,
         signals: Mapping[str, ArrayLike],
         units: Mapping[str, str] | None = None,
-        interpolation: Interpolation | Mapping[str, Interpolation] = "linear",
+        interpolation: str | Mapping[str, str] = "linear",
     ) -> None:
         unit_of_time = (units or {}).get("time", "s")
         ts = np.asarray(time)
@@ -147,7 +147,7 @@ class Data:
         """A signal as a function of time."""
         chosen = self.interpolation
         kind = chosen if isinstance(chosen, str) else chosen.get(name, "linear")
-        return Signal(self.time, self[name], kind, name=name)
+        return Signal(self.time, self[name], cast(Interpolation, kind), name=name)
 
     def between(self, start: float, end: float) -> Data:
         """The samples with ``start <= time <= end``."""

@@ -159,7 +159,13 @@ def test_sampled_inputs_are_their_signals_within_steps(interpolation, parts):
     for fraction in (0.0, 0.3, 0.8):
         bends = samples.bends
         for i in (0, 7, 20 * parts - 1):
-            step = Step(grid[i], grid[1], samples.start[i], samples.end[i], None if bends is None else bends[i])
+            step = Step(
+                grid[i],
+                grid[1],
+                samples.start[i],
+                samples.end[i],
+                None if bends is None else bends[i],
+            )
             t = grid[i] + fraction * (grid[i + 1] - grid[i])
             expected = [signal(t) for signal in signals]
             np.testing.assert_allclose(step.inputs(fraction, (None, None)), expected, atol=1e-9)

@@ -64,7 +64,7 @@ def pose(
     """
     chosen = _networks(train, params)
     changed = parameter_modifiers.modifiers(modifiers, gamma, params)
-    if not chosen and not changed.names and x0 != "fit":
+    if not chosen and not changed.names:
         raise TrainingError(
             "There is nothing to train: the model has no network. Give modifiers=[...] to train parameters."
         )

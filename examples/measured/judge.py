@@ -1,0 +1,52 @@
+"""How models are judged: free simulation from a state that a few samples tell, and the error of the others."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+import acausal as ac
+
+
+def simulate(
+    system: ac.System,
+    params: Mapping[str, Any] | None,
+    record: ac.Data,
+    target: str,
+    *,
+    known: int,
+    solver: str,
+) -> ac.Solution:
+    """A simulation of a whole record that sees no more of its output than the first ``known`` samples.
+
+    From these comes the state at the start, by least squares.
+    """
+    h = record.sample_time
+    begin = record.between(record.time[0], record.time[0] + (known - 0.5) * h)
+
+    def run(part: ac.Data, x0: np.ndarray) -> ac.Solution:
+        inputs = {name: part.signal(name) for name in system.inputs}
+        span = (part.time[0], part.time[-1])
+        return ac.simulate(system, span, dt=h, inputs=inputs, params=params, x0=x0, solver=solver)
+
+    def errors(x0: np.ndarray) -> np.ndarray:
+        return np.asarray(run(begin, x0)[target]) - begin[target]
+
+    guess = [record[n][0] if n in record.signals else 0.0 for n in system.states]
+    return run(record, least_squares(errors, guess, x_scale="jac").x)
+
+
+def rms(solution: ac.Solution, record: ac.Data, target: str, *, known: int) -> float:
+    """Root mean square of the errors after the first ``known`` samples, in the record's unit."""
+    error = np.asarray(solution[target]) - record[target]
+    return float(np.sqrt(np.mean(error[known:] ** 2)))
+
+
+def spread(rows: Sequence[Mapping[str, float]]) -> tuple[dict[str, float], dict[str, float]]:
+    """Means and standard deviations over seeds, by name."""
+    values = {name: [row[name] for row in rows] for name in rows[0]}
+    deviation = {n: float(np.std(v, ddof=1)) if len(v) > 1 else 0.0 for n, v in values.items()}
+    return {n: float(np.mean(v)) for n, v in values.items()}, deviation
