@@ -89,10 +89,11 @@ if TYPE_CHECKING:
         time,
     )
     from acausal.system import System, compile
-    from acausal.training.fit import Fit, fit
+    from acausal.training.fit import fit
     from acausal.training.lbfgs import lbfgs
     from acausal.training.logs import CsvLog, TensorBoardLog
     from acausal.training.regularizers import SmallCorrection, ZeroCrossing
+    from acausal.training.result import Fit
 
 __version__ = "0.1.0"
 
@@ -121,10 +122,11 @@ _HOMES = {
     "simulation.solution": "Solution",
     "symbols": "Eq Flow InitialParameter Input Module Option Output Parameter Potential Start Variable der time",
     "system": "System compile",
-    "training.fit": "Fit fit",
+    "training.fit": "fit",
     "training.lbfgs": "lbfgs",
     "training.logs": "CsvLog TensorBoardLog",
     "training.regularizers": "SmallCorrection ZeroCrossing",
+    "training.result": "Fit",
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 

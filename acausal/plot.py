@@ -12,8 +12,8 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from acausal.training.fit import Fit, Seen
     from acausal.training.history import History
+    from acausal.training.result import Fit, Seen
 
 TRUTH = "#22303c"
 LEARNED = ("#1f77b4", "#d1603d", "#3d8c5a", "#8a5a9e", "#b8860b", "#417f8a")

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import equinox as eqx
 import jax
 import numpy as np
 import optax
@@ -17,24 +14,18 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.distilled import Distilled, distill
-from acausal.errors import TrainingError, nearest
-from acausal.neural import remove_offset
+from acausal.errors import TrainingError
 from acausal.simulation.solvers import Solver
 from acausal.training import checkpoint as checkpoints
-from acausal.training.confidence import Confidence, confidence
 from acausal.training.fingerprint import fingerprint
-from acausal.training.history import History
 from acausal.training.loop import Trained
 from acausal.training.loop import train as run
 from acausal.training.losses import Loss
-from acausal.training.page import write_page
 from acausal.training.pose import Start, pose
-from acausal.training.problem import Problem, Trainable, modified
 from acausal.training.progress import Observer, display
 from acausal.training.regularizers import Regularizer
-from acausal.training.residuals import Residuals, residuals
-from acausal.training.spread import Device, local
+from acausal.training.result import Fit, result
+from acausal.training.spread import Device
 from acausal.training.strategy import legs
 
 if TYPE_CHECKING:
@@ -161,131 +152,7 @@ def fit(
     ):
         trained = run(problem, plan, jax.random.key(seed), (show, *observers), keep, stored)
     _warn(trained)
-    return _result(problem, trained)
-
-
-@dataclass(frozen=True, eq=False)
-class Seen:
-    """What a network was called with over the record, in one simulation with the trained parameters.
-
-    Attributes:
-        mean: of every argument, shape (number of arguments,).
-        sigma: standard deviation, likewise.
-    """
-
-    mean: np.ndarray
-    sigma: np.ndarray
-
-    def interval(self, sigmas: float = 2.0) -> tuple[np.ndarray, np.ndarray]:
-        """Bounds ``mean ± sigmas · σ`` of every argument; outside of 2σ a network extrapolates."""
-        return self.mean - sigmas * self.sigma, self.mean + sigmas * self.sigma
-
-
-@dataclass(frozen=True, eq=False)
-class Fit:
-    """The result of `fit`.
-
-    Attributes:
-        system: the model.
-        params: its trained parameters: a flat dict with networks and physical values.
-        loss: over one simulation of the whole record, every point of it; infinite if the model diverges there.
-        loss_before: the same before training.
-        best_epoch: updates after which ``params`` were reached.
-        x0: the state at the record's start, by name.
-        modifiers: relative change p̃/p − 1 of every parameter that was trained.
-        seen: by network, the statistics of what it was called with.
-        history: the training, update by update.
-        seconds: what all of it took, of which ``compile_seconds`` in XLA's compiler.
-        seconds_per_epoch: what an update took on average.
-        interrupted: whether the user ended it early.
-        problem, trained: what was posed and what came of it, for further questions.
-    """
-
-    system: System
-    params: dict[str, Any]
-    loss: float
-    loss_before: float
-    best_epoch: int
-    x0: dict[str, float]
-    modifiers: dict[str, float]
-    seen: dict[str, Seen]
-    history: History
-    seconds: float
-    compile_seconds: float
-    seconds_per_epoch: float
-    interrupted: bool
-    problem: Problem
-    trained: Trainable
-
-    def confidence(self) -> Confidence:
-        """How well the record determines the learned laws and the trained parameters."""
-        return confidence(self.problem, self.trained, self._arguments)
-
-    def residuals(self) -> tuple[Residuals, ...]:
-        """What the trained model leaves over of every target."""
-        record, inputs = self.problem.record, self.system.inputs
-        left = np.asarray(record.y - self.predicted)
-        u = np.asarray(record.steps.inputs.start)
-        drivers = {n: u[:, i] for i, n in enumerate(inputs)}
-        return tuple(residuals(n, left[:, i], drivers) for i, n in enumerate(self.problem.targets))
-
-    @cached_property
-    def predicted(self) -> np.ndarray:
-        """The targets in one simulation of the record, shape (N, number of targets)."""
-        return np.asarray(_predict(self.problem, self.trained))
-
-    @cached_property
-    def predicted_before(self) -> np.ndarray:
-        """The same before training."""
-        return np.asarray(_predict(self.problem, self.problem.start()))
-
-    def samples(self, network: str, most: int = 400) -> np.ndarray:
-        """Some of the values that a network's first argument had over the record, at most so many."""
-        values = np.asarray(self._arguments[network])[:, 0]
-        return values[:: max(1, len(values) // most)]
-
-    @cached_property
-    def _arguments(self) -> dict[str, Any]:
-        _, x = self.problem.simulate(self.trained)
-        return self.problem.seen(self.trained, x)
-
-    def distill(self, network: str, sigmas: float = 2.0, **wishes: Any) -> Distilled:
-        """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of what it has seen.
-
-        Arguments:
-            network: its name, such as ``"damper.net"``.
-            sigmas: how far the formula reaches.
-            wishes: further arguments of `acausal.distill`.
-        """
-        if network not in self.seen:
-            raise TrainingError(
-                f"There is no trained network '{network}': {nearest(network, self.seen)}"
-            )
-        low, high = self.seen[network].interval(sigmas)
-        return distill(self.params[network], float(low[0]), float(high[0]), **wishes)
-
-    def report(self, folder: str | Path, title: str = "Training") -> Path:
-        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""
-        return write_page(self, Path(folder) / "index.html", title)
-
-    def remove_offset(self) -> dict[str, Any]:
-        """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
-        return remove_offset(self.params, tuple(self.seen))
-
-    def __repr__(self) -> str:
-        changes = ", ".join(f"{n} {value:+.3f}" for n, value in self.modifiers.items())
-        end = " (interrupted)" if self.interrupted else ""
-        lines = [
-            f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",
-            f"  loss      {self.loss_before:.4g} before, {self.loss:.4g} after epoch {self.best_epoch}",
-            f"  time      {self.seconds:.3g} s, {self.seconds_per_epoch * 1e3:.3g} ms an epoch",
-        ]
-        lines += [f"  modifiers {changes}"] if changes else []
-        diverged = self.history.divergences
-        lines += (
-            [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
-        )
-        return "\n".join(lines)
+    return result(problem, trained)
 
 
 def _checkpoint(
@@ -305,37 +172,6 @@ def _checkpoint(
             "to begin anew, remove it or name another file."
         )
     return file, checkpoints.read(file, identity)
-
-
-def _result(problem: Problem, trained: Trained) -> Fit:
-    best, history = local(trained.best, problem.mesh), trained.history
-    problem = replace(problem, mesh=None)
-    seen = problem.seen(best.trainable, best.x)
-    statistics = {
-        n: Seen(np.mean(seen[n], axis=0), np.std(seen[n], axis=0)) for n in problem.networks
-    }
-    return Fit(
-        system=problem.system,
-        params=problem.assemble(best.trainable),
-        loss=best.loss,
-        loss_before=float(history.full_loss[0, 1]),
-        best_epoch=best.epoch,
-        x0=dict(zip(problem.system.states, best.x[0].tolist(), strict=True)),
-        modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},
-        seen=statistics,
-        history=history,
-        seconds=trained.seconds,
-        compile_seconds=trained.compiling,
-        seconds_per_epoch=trained.updating / max(history.epochs, 1),
-        interrupted=trained.interrupted,
-        problem=problem,
-        trained=best.trainable,
-    )
-
-
-@eqx.filter_jit
-def _predict(problem: Problem, trainable: Trainable) -> Any:
-    return problem.predict(trainable, problem.assemble(trainable))
 
 
 def _warn(trained: Trained) -> None:

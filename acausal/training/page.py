@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from acausal.training.fit import Fit
+    from acausal.training.result import Fit
 
 MEASURED, AFTER, BEFORE, GUIDE = "#22303c", "#1f77b4", "#d1603d", "#8795a1"
 STRETCH = 2000
