@@ -121,6 +121,7 @@ def test_a_sweep_finds_what_single_simulations_find():
     assert len(np.unique(together)) == 11
 
 
+@pytest.mark.slow
 def test_peers_agree_on_the_chain():
     ours, byhand = (peers.PEERS[name](3) for name in ("acausal", "diffrax"))
     assert ours.simulate() == pytest.approx(byhand.simulate(), abs=1e-9)
