@@ -61,7 +61,8 @@ class Snapshot:
     def of(system: ac.System, t: float, x: Any, u: Any) -> Snapshot:
         packed = system.pack()
         differentiated = tuple(filter(partial(is_differentiated, system), system.variables))
-        highest = max([1, *(n for g in system.flat.groups for n in g.template.orders)])
+        stated = [n for g in system.flat.groups for n in g.template.orders]
+        highest = max([1, *stated, *(order for _, order in system.reduced.input_orders)])
 
         def everything(t: Any, x: Any, u: Any) -> tuple[Any, Any, Any]:
             values = trajectory(system, packed, t, x, u, highest)
