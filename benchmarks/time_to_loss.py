@@ -90,7 +90,7 @@ def _apart(way: str, seed: int, path: Path, cache: Path) -> dict[str, float]:
 
 
 def _paper(seed: int, path: str) -> dict[str, float]:
-    return _train(seed, path, strategy="equation_error", epochs=100, evaluate_every=50)
+    return _train(seed, path, strategy="equation_error", epochs=200, evaluate_every=100)
 
 
 def _exact(seed: int, path: str) -> dict[str, float]:
