@@ -141,20 +141,7 @@ def _values(network: Any, x: np.ndarray) -> np.ndarray:
 def _columns(x: np.ndarray, chosen: Sequence[tuple[str, float]]) -> np.ndarray:
     """Values of terms at all points, one column each."""
     with np.errstate(over="ignore"):
-        return np.stack([_NUMPY[name](x / scale) for name, scale in chosen], axis=1)
-
-
-_NUMPY: dict[str, Callable[[Any], Any]] = {
-    "constant": np.ones_like,
-    "linear": lambda x: x,
-    "square": np.square,
-    "cube": lambda x: x**3,
-    "signed square": lambda x: x * np.abs(x),
-    "signed root": lambda x: np.sign(x) * np.sqrt(np.abs(x)),
-    "tanh": np.tanh,
-    "bump": lambda x: x * np.exp(-(x**2)),
-    "exponential": np.expm1,
-}
+        return np.stack([TERMS[name].value(np, x / scale) for name, scale in chosen], axis=1)
 
 
 @dataclass(frozen=True, eq=False)

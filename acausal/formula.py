@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -19,29 +20,29 @@ class Term(NamedTuple):
     """A term of a formula, without its coefficient.
 
     Attributes:
-        value: of ``x / s`` as JAX computes it. symbol: the same in sympy.
-        scaled: whether ``s`` matters; of a power it is part of the coefficient.
+        value: of ``x / s``, given the array library to compute it with (`jax.numpy` or `numpy`) and ``x / s``.
+        symbol: the same in sympy. scaled: whether ``s`` matters; of a power it is part of the coefficient.
     """
 
-    value: Callable[[Any], Any]
+    value: Callable[[ModuleType, Any], Any]
     symbol: Callable[[Any], sp.Expr]
     scaled: bool
 
 
-def _root(x: Any) -> Any:
-    return jnp.sign(x) * jnp.sqrt(jnp.maximum(jnp.abs(x), NEAREST))
+def _root(xp: ModuleType, x: Any) -> Any:
+    return xp.sign(x) * xp.sqrt(xp.maximum(xp.abs(x), NEAREST))
 
 
 TERMS: dict[str, Term] = {
-    "constant": Term(jnp.ones_like, lambda x: sp.Integer(1), False),
-    "linear": Term(lambda x: x, lambda x: x, False),
-    "square": Term(lambda x: x**2, lambda x: x**2, False),
-    "cube": Term(lambda x: x**3, lambda x: x**3, False),
-    "signed square": Term(lambda x: x * jnp.abs(x), lambda x: x * sp.Abs(x), False),
+    "constant": Term(lambda xp, x: xp.ones_like(x), lambda x: sp.Integer(1), False),
+    "linear": Term(lambda xp, x: x, lambda x: x, False),
+    "square": Term(lambda xp, x: x**2, lambda x: x**2, False),
+    "cube": Term(lambda xp, x: x**3, lambda x: x**3, False),
+    "signed square": Term(lambda xp, x: x * xp.abs(x), lambda x: x * sp.Abs(x), False),
     "signed root": Term(_root, lambda x: sp.sign(x) * sp.sqrt(sp.Abs(x)), False),
-    "tanh": Term(jnp.tanh, sp.tanh, True),
-    "bump": Term(lambda x: x * jnp.exp(-(x**2)), lambda x: x * sp.exp(-(x**2)), True),
-    "exponential": Term(jnp.expm1, lambda x: sp.exp(x) - 1, True),
+    "tanh": Term(lambda xp, x: xp.tanh(x), sp.tanh, True),
+    "bump": Term(lambda xp, x: x * xp.exp(-(x**2)), lambda x: x * sp.exp(-(x**2)), True),
+    "exponential": Term(lambda xp, x: xp.expm1(x), lambda x: sp.exp(x) - 1, True),
 }
 """What a formula can be made of: powers, saturation, the Stribeck bump of friction, a diode's exponential."""
 
@@ -63,7 +64,8 @@ class Formula(eqx.Module):
     def __call__(self, x: ArrayLike) -> Array:
         """The value for a scalar."""
         point = jnp.asarray(x, float)
-        values = [TERMS[n].value(point / s) for n, s in zip(self.terms, self.scales, strict=True)]
+        parts = zip(self.terms, self.scales, strict=True)
+        values = [TERMS[name].value(jnp, point / scale) for name, scale in parts]
         return jnp.sum(self.coefficients * jnp.stack(values))
 
     def expression(self, x: sp.Expr | None = None) -> sp.Expr:

@@ -28,7 +28,7 @@ def race(one: Callable[[], Any], other: Callable[[], Any]) -> Result:
     times: list[tuple[float, ...]] = []
     end = time.perf_counter() + PATIENCE
     while not times or (time.perf_counter() < end and len(times) < MOST):
-        times.append((*_seconds(one), *_seconds(other)))
+        times.append((*seconds(one), *seconds(other)))
     return Result(
         statistics.median(wall for wall, *_ in times),
         statistics.median(a / b for a, _, b, _ in times),
@@ -37,8 +37,8 @@ def race(one: Callable[[], Any], other: Callable[[], Any]) -> Result:
     )
 
 
-def _seconds(function: Callable[[], Any]) -> tuple[float, float]:
-    """Of wall and of processor."""
+def seconds(function: Callable[[], Any]) -> tuple[float, float]:
+    """That a call takes, of wall and of processor."""
     wall, cpu = time.perf_counter(), time.process_time()
     function()
     return time.perf_counter() - wall, time.process_time() - cpu

@@ -6,7 +6,6 @@ import argparse
 import json
 import math
 import os
-import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -18,6 +17,7 @@ from rich.console import Console
 from rich.table import Table
 
 import acausal as ac
+from benchmarks.race import seconds
 from examples.qvm.model import UNCERTAIN, with_networks
 from examples.qvm.record import INPUT, SAMPLE_TIME, rough_road
 
@@ -125,11 +125,7 @@ def _over(devices: list[Any], function: Callable[[Variants], Any]) -> Callable[[
 def _timed(function: Callable[[Variants], Any], given: Variants) -> tuple[float, float]:
     """Medians of seconds, of wall and of processor."""
     jax.block_until_ready(function(given))
-    times: list[tuple[float, float]] = []
-    for _ in range(ROUNDS):
-        wall, cpu = time.perf_counter(), time.process_time()
-        jax.block_until_ready(function(given))
-        times.append((time.perf_counter() - wall, time.process_time() - cpu))
+    times = [seconds(lambda: jax.block_until_ready(function(given))) for _ in range(ROUNDS)]
     wall, cpu = np.median(times, axis=0)
     return float(wall), float(cpu)
 

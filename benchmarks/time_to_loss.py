@@ -22,6 +22,8 @@ from typing import Any
 
 import numpy as np
 
+NOISE = 0.02
+"""Of the measured signals, relative."""
 PAPER, CLEAN = 0.035, 0.005
 """The paper's loss; the error without noise to reach."""
 
@@ -30,11 +32,11 @@ def main() -> None:
     """Measure, print a table and one JSON line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2, 3, 4])
-    parser.add_argument("--one", nargs=3, metavar=("WAY", "SEED", "RIDE"), help=argparse.SUPPRESS)
+    parser.add_argument("--one", nargs=3, metavar=("WAY", "SEED", "RIDES"), help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.one:
-        way, seed, path = arguments.one
-        print(json.dumps(WAYS[way](int(seed), path)))
+        way, seed, rides = arguments.one
+        print(json.dumps(WAYS[way](int(seed), Path(rides))))
         return
     with tempfile.TemporaryDirectory() as folder:
         print(json.dumps(_measure(arguments.seeds, Path(folder))))
@@ -43,16 +45,15 @@ def main() -> None:
 def _measure(seeds: list[int], folder: Path) -> dict[str, Any]:
     from examples.qvm.record import ride
 
-    data = ride(0.02)
-    path = folder / "ride.npz"
-    np.savez(path, time=data.measured.time, **data.measured.signals)
-    np.savez(folder / "clean.npz", **data.clean.signals)
+    driven = ride(NOISE)
+    for name, record in (("measured", driven.measured), ("clean", driven.clean)):
+        np.savez(folder / name, time=record.time, **record.signals)
     found: dict[str, list[dict[str, float]]] = {"cold": [], "warm": [], "exact": []}
     for seed in seeds:
         cache = folder / f"cache{seed}"
         for kind, way in (("cold", "paper"), ("warm", "paper"), ("exact", "exact")):
             place = folder / f"exact{seed}" if kind == "exact" else cache
-            row = _apart(way, seed, path, place)
+            row = _apart(way, seed, folder, place)
             found[kind].append(row)
             print(
                 f"seed {seed}  {kind:<5}  {row['seconds']:6.1f} s  loss {row['loss']:.4f}  "
@@ -74,7 +75,7 @@ def _measure(seeds: list[int], folder: Path) -> dict[str, Any]:
     }
 
 
-def _apart(way: str, seed: int, path: Path, cache: Path) -> dict[str, float]:
+def _apart(way: str, seed: int, rides: Path, cache: Path) -> dict[str, float]:
     """A training in a process of its own; ``seconds`` are from before its start until it knows its result."""
     environment = {
         **os.environ,
@@ -82,21 +83,21 @@ def _apart(way: str, seed: int, path: Path, cache: Path) -> dict[str, float]:
         "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
         "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",
     }
-    command = [sys.executable, "-m", "benchmarks.time_to_loss", "--one", way, str(seed), str(path)]
+    command = [sys.executable, "-m", "benchmarks.time_to_loss", "--one", way, str(seed), str(rides)]
     began = time.time()
     told = subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE, text=True)
     row = json.loads(told.stdout.splitlines()[-1])
     return {**row, "seconds": row["ended"] - began}
 
 
-def _paper(seed: int, path: str) -> dict[str, float]:
-    return _train(seed, path, strategy="equation_error", epochs=200, evaluate_every=100)
+def _paper(seed: int, rides: Path) -> dict[str, float]:
+    return _train(seed, rides, strategy="equation_error", epochs=200, evaluate_every=100)
 
 
-def _exact(seed: int, path: str) -> dict[str, float]:
+def _exact(seed: int, rides: Path) -> dict[str, float]:
     return _train(
         seed,
-        path,
+        rides,
         strategy=("equation_error", "whole_record"),
         epochs=(500, 100),
         evaluate_every=100,
@@ -107,18 +108,16 @@ def _exact(seed: int, path: str) -> dict[str, float]:
 WAYS = {"paper": _paper, "exact": _exact}
 
 
-def _train(seed: int, path: str, **settings: Any) -> dict[str, float]:
+def _train(seed: int, rides: Path, **settings: Any) -> dict[str, float]:
     import acausal as ac
     from examples.qvm.model import with_networks
-    from examples.qvm.record import INPUT, OUTPUTS, STATES
+    from examples.qvm.record import OUTPUTS, STATES
 
-    with np.load(path) as file:
-        signals = {name: file[name] for name in file.files}
-    data = ac.Data(signals.pop("time"), signals)
+    measured = _read(rides / "measured.npz")
     at_rest = dict.fromkeys(STATES, 0.0)
     fit = ac.fit(
         ac.compile(with_networks()),
-        data,
+        measured,
         OUTPUTS,
         x0=at_rest,
         seed=seed,
@@ -126,17 +125,22 @@ def _train(seed: int, path: str, **settings: Any) -> dict[str, float]:
         **settings,
     )
     ended = time.time()
-    solution = ac.simulate(
-        fit.system,
-        (data.time[0], data.time[-1]),
-        dt=data.sample_time,
-        inputs={INPUT: data[INPUT]},
-        params=fit.params,
-        solver=settings.get("solver", "heun"),
-    )
-    with np.load(Path(path).with_name("clean.npz")) as clean:
-        squares = [((np.asarray(solution[n]) - clean[n]) / data[n].std()) ** 2 for n in OUTPUTS]
-    return {"ended": ended, "loss": fit.loss, "clean": float(np.sqrt(np.mean(sum(squares))))}
+    from examples.qvm.judge import loss
+    from examples.qvm.record import Ride
+
+    driven = Ride(_read(rides / "clean.npz"), measured, NOISE)
+    solver = settings.get("solver", "heun")
+    clean = loss(fit.system, fit.params, driven.clean, driven, solver=solver)
+    return {"ended": ended, "loss": fit.loss, "clean": clean}
+
+
+def _read(path: Path) -> Any:
+    """A record, as `acausal.Data`."""
+    import acausal as ac
+
+    with np.load(path) as file:
+        signals = {name: file[name] for name in file.files}
+    return ac.Data(signals.pop("time"), signals)
 
 
 if __name__ == "__main__":

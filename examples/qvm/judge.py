@@ -84,7 +84,9 @@ def judge(fit: ac.Fit, ride: Ride) -> Verdict:
     )
 
 
-def loss(system: ac.System, params: dict[str, Any], record: ac.Data, ride: Ride) -> float:
+def loss(
+    system: ac.System, params: dict[str, Any], record: ac.Data, ride: Ride, *, solver: str = "heun"
+) -> float:
     """The paper's loss (21) of a simulation of the whole ride against the outputs of a record."""
     solution = ac.simulate(
         system,
@@ -92,7 +94,7 @@ def loss(system: ac.System, params: dict[str, Any], record: ac.Data, ride: Ride)
         dt=record.sample_time,
         inputs={INPUT: record[INPUT]},
         params=params,
-        solver="heun",
+        solver=solver,
     )
     squares = [
         ((np.asarray(solution[n]) - record[n]) / ride.measured[n].std()) ** 2 for n in OUTPUTS
