@@ -171,7 +171,7 @@ def _sensitivity(
     @eqx.filter_jit
     def run(problem: Problem, trainable: Trainable) -> tuple[Array, Array]:
         def predicted(z: Array) -> Array:
-            return problem.predict(trainable, params(z), direct=True)
+            return problem.predict(trainable, params(z))
 
         at, push = jax.linearize(predicted, jnp.zeros(count))
         return problem.record.y - at, jax.vmap(push, out_axes=-1)(jnp.eye(count))

@@ -17,7 +17,7 @@ from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Snapshot, Stored
 from acausal.training.history import History, Log
 from acausal.training.lbfgs import Search
-from acausal.training.problem import Problem, Trainable
+from acausal.training.problem import Problem, Simulated, Trainable
 from acausal.training.progress import Observer, Progress
 from acausal.training.spread import agreed, local, shared
 from acausal.training.strategy import Leg
@@ -37,13 +37,13 @@ class Best(NamedTuple):
         loss: over the whole record; infinite if the model diverges there.
         epoch: updates done.
         trainable: what was trained.
-        x: the states at every sample of the record, in one simulation of it.
+        simulated: one simulation of the whole record.
     """
 
     loss: float
     epoch: int
     trainable: Trainable
-    x: Array
+    simulated: Simulated
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,8 +143,8 @@ class _Run:
         like = Snapshot(stored.leg, 0, state, 0.0, 0, start, 0, 0.0, 0.0, 0.0)
         snapshot = shared(stored.snapshot(like), self.mesh)
         self.log.go_on(stored.columns)
-        _, x = self.problem.simulate(snapshot.best)
-        self.best = Best(snapshot.best_loss, snapshot.best_epoch, snapshot.best, x)
+        simulated = self.problem.simulate(snapshot.best)
+        self.best = Best(snapshot.best_loss, snapshot.best_epoch, snapshot.best, simulated)
         self.last = snapshot.state.trainable
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         self.began -= snapshot.seconds
@@ -213,12 +213,12 @@ class _Run:
         if self.evaluated == self.log.epochs:
             return
         self.evaluated = self.log.epochs
-        value, x = self.problem.simulate(trainable)
-        loss = float(value) if math.isfinite(float(value)) else math.inf
+        simulated = self.problem.simulate(trainable)
+        loss = float(simulated.loss) if math.isfinite(float(simulated.loss)) else math.inf
         self.log.evaluated(loss)
         first = self.log.epochs == 0
         if first or loss < self.best.loss or math.isinf(self.best.loss):
-            self.best = Best(loss, self.log.epochs, trainable, x)
+            self.best = Best(loss, self.log.epochs, trainable, simulated)
         self.last = trainable
 
 

@@ -201,7 +201,7 @@ def _trajectory(problem: Problem) -> Array:
     """
     if problem.record.x is not None:
         return problem.record.x
-    _, x = problem.simulate(problem.start())
+    x = problem.simulate(problem.start()).x
     if not bool(jnp.isfinite(x).all()):
         raise TrainingError(
             "The model diverges over the record before training; start from better parameters."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -39,6 +39,20 @@ class Trainable(eqx.Module):
     networks: dict[str, Any]
     modifiers: dict[str, Array]
     states: Array | None = None
+
+
+class Simulated(NamedTuple):
+    """One simulation of the whole record.
+
+    Attributes:
+        loss: over every point of it.
+        x: the states at every sample, shape (N, number of states).
+        y: the targets at every sample, shape (N, number of targets).
+    """
+
+    loss: Array
+    x: Array
+    y: Array
 
 
 class Problem(eqx.Module):
@@ -131,16 +145,13 @@ class Problem(eqx.Module):
         return {name: jnp.asarray(r(params, self.context)) for name, r in self.regularizers.items()}
 
     @eqx.filter_jit
-    def simulate(self, trainable: Trainable) -> tuple[Array, Array]:
-        """One simulation of the whole record: its loss over every point, and the states at every sample.
-
-        The states have shape (N, number of states).
-        """
+    def simulate(self, trainable: Trainable) -> Simulated:
+        """One simulation of the whole record."""
         packed = self.system.pack(self.assemble(trainable))
         x, predicted, _ = self._integrate(
             packed, self.first_state(trainable, packed), self.record.steps
         )
-        return self.loss(predicted, self.record.y, self.record.sigma), x
+        return Simulated(self.loss(predicted, self.record.y, self.record.sigma), x, predicted)
 
     @eqx.filter_jit
     def seen(self, trainable: Trainable, x: Array, rows: Array | None = None) -> dict[str, Array]:
@@ -168,19 +179,18 @@ class Problem(eqx.Module):
 
         return {name: at(name) for name in self.networks}
 
-    def predict(
-        self, trainable: Trainable, params: dict[str, Any], *, direct: bool = False
-    ) -> Array:
+    def predict(self, trainable: Trainable, params: dict[str, Any]) -> Array:
         """The targets at every sample of one simulation with other parameters, shape (N, number of targets).
+
+        It can be differentiated in forward mode.
 
         Arguments:
             trainable: gives the state at the start, where that is trained.
             params: physical values and networks.
-            direct: whether derivatives in forward mode must work.
         """
         packed = self.system.pack(params)
         x0 = self.first_state(trainable, packed)
-        return self._integrate(packed, x0, self.record.steps, direct=direct)[1]
+        return self._integrate(packed, x0, self.record.steps, direct=True)[1]
 
     def first_state(self, trainable: Trainable, packed: Any) -> Array:
         """The state at the record's start, shape (number of states,)."""

@@ -7,7 +7,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import equinox as eqx
 import numpy as np
 
 from acausal.distilled import Distilled, distill
@@ -54,7 +53,9 @@ class Fit:
         best_epoch: updates after which ``params`` were reached.
         x0: the state at the record's start, by name.
         modifiers: relative change p̃/p − 1 of every parameter that was trained.
-        seen: by network, the statistics of what it was called with.
+        predicted: the targets in one simulation of the record, shape (N, number of targets).
+        arguments: by network, what it was called with in that simulation, shape (N, number of arguments).
+        seen: by network, the statistics of that.
         history: the training, update by update.
         seconds: what all of it took, of which ``compile_seconds`` in XLA's compiler.
         seconds_per_epoch: what an update took on average.
@@ -69,6 +70,8 @@ class Fit:
     best_epoch: int
     x0: dict[str, float]
     modifiers: dict[str, float]
+    predicted: np.ndarray
+    arguments: dict[str, np.ndarray]
     seen: dict[str, Seen]
     history: History
     seconds: float
@@ -80,7 +83,7 @@ class Fit:
 
     def confidence(self) -> Confidence:
         """How well the record determines the learned laws and the trained parameters."""
-        return confidence(self.problem, self.trained, self._arguments)
+        return confidence(self.problem, self.trained, self.arguments)
 
     def residuals(self) -> tuple[Residuals, ...]:
         """What the trained model leaves over of every target."""
@@ -91,24 +94,14 @@ class Fit:
         return tuple(residuals(n, left[:, i], drivers) for i, n in enumerate(self.problem.targets))
 
     @cached_property
-    def predicted(self) -> np.ndarray:
-        """The targets in one simulation of the record, shape (N, number of targets)."""
-        return np.asarray(_predict(self.problem, self.trained))
-
-    @cached_property
     def predicted_before(self) -> np.ndarray:
-        """The same before training."""
-        return np.asarray(_predict(self.problem, self.problem.start()))
+        """What was `predicted` before training."""
+        return np.asarray(self.problem.simulate(self.problem.start()).y)
 
     def samples(self, network: str, most: int = 400) -> np.ndarray:
         """Some of the values that a network's first argument had over the record, at most so many."""
-        values = np.asarray(self._arguments[network])[:, 0]
+        values = self.arguments[network][:, 0]
         return values[:: max(1, len(values) // most)]
-
-    @cached_property
-    def _arguments(self) -> dict[str, Any]:
-        _, x = self.problem.simulate(self.trained)
-        return self.problem.seen(self.trained, x)
 
     def distill(self, network: str, sigmas: float = 2.0, **wishes: Any) -> Distilled:
         """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of what it has seen.
@@ -153,19 +146,19 @@ def result(problem: Problem, trained: Trained) -> Fit:
     """What came of a training."""
     best, history = local(trained.best, problem.mesh), trained.history
     problem = replace(problem, mesh=None)
-    seen = problem.seen(best.trainable, best.x)
-    statistics = {
-        n: Seen(np.mean(seen[n], axis=0), np.std(seen[n], axis=0)) for n in problem.networks
-    }
+    seen = problem.seen(best.trainable, best.simulated.x)
+    arguments = {n: np.asarray(seen[n]) for n in problem.networks}
     return Fit(
         system=problem.system,
         params=problem.assemble(best.trainable),
         loss=best.loss,
         loss_before=float(history.full_loss[0, 1]),
         best_epoch=best.epoch,
-        x0=dict(zip(problem.system.states, best.x[0].tolist(), strict=True)),
+        x0=dict(zip(problem.system.states, best.simulated.x[0].tolist(), strict=True)),
         modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},
-        seen=statistics,
+        predicted=np.asarray(best.simulated.y),
+        arguments=arguments,
+        seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},
         history=history,
         seconds=trained.seconds,
         compile_seconds=trained.compiling,
@@ -174,8 +167,3 @@ def result(problem: Problem, trained: Trained) -> Fit:
         problem=problem,
         trained=best.trainable,
     )
-
-
-@eqx.filter_jit
-def _predict(problem: Problem, trainable: Trainable) -> Any:
-    return problem.predict(trainable, problem.assemble(trainable))
