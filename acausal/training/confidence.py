@@ -28,6 +28,9 @@ BUMPS, REACH = 12, 3.0
 POINTS = 201
 """Points of a band."""
 
+BELIEVED = 1.0
+"""The relative change up to which a parameter is believed before there are data."""
+
 ALIKE = 0.98
 """Correlation from which on the data can't tell two parameters apart."""
 
@@ -42,12 +45,17 @@ class Bumped(eqx.Module):
 
     def __call__(self, *inputs: Any) -> Array:
         """The law, or the energy whose slope it is."""
-        z = (inputs[0] - self.centres) / self.width
-        if isinstance(self.net, Potential):
-            shapes = self.width * jnp.sqrt(jnp.pi / 2) * erf(z / jnp.sqrt(2.0))
-        else:
-            shapes = jnp.exp(-0.5 * z**2)
-        return self.net(*inputs) + jnp.sum(self.heights * shapes)
+        shapes = self.areas if isinstance(self.net, Potential) else self.bumps
+        return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
+
+    def bumps(self, x: Array) -> Array:
+        """The bumps at x, shape (number of bumps,)."""
+        return jnp.exp(-0.5 * ((x - self.centres) / self.width) ** 2)
+
+    def areas(self, x: Array) -> Array:
+        """The energies whose slopes they are, likewise."""
+        z = (x - self.centres) / self.width
+        return self.width * jnp.sqrt(jnp.pi / 2) * erf(z / jnp.sqrt(2.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,16 +108,13 @@ class Confidence:
         )
 
 
-def confidence(
-    problem: Problem, trainable: Trainable, seen: dict[str, Array], gamma: float = 1.0
-) -> Confidence:
+def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarray]) -> Confidence:
     """How well a record determines what was trained on it.
 
     Arguments:
         problem: what was trained, over the whole record.
         trainable: its result.
         seen: by network, what it was called with over the record, shape (N, number of arguments).
-        gamma: the relative change up to which a parameter is believed before there are data.
 
     Raises:
         TrainingError: if the model diverges over the record.
@@ -118,7 +123,7 @@ def confidence(
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: _bumped(params[n], seen[n]) for n in laws}
     believed = np.concatenate(
-        [np.full(BUMPS, output_scale(params[n])) for n in laws] + [np.full(len(names), gamma)]
+        [np.full(BUMPS, output_scale(params[n])) for n in laws] + [np.full(len(names), BELIEVED)]
     )
 
     def changed(z: Array) -> dict[str, Any]:
@@ -155,8 +160,8 @@ def confidence(
     )
 
 
-def _bumped(network: Any, seen: Array) -> Bumped:
-    first = np.asarray(seen)[:, 0]
+def _bumped(network: Any, seen: np.ndarray) -> Bumped:
+    first = seen[:, 0]
     spread = float(first.std()) or 1.0
     centres = first.mean() + spread * np.linspace(-REACH, REACH, BUMPS)
     width = jnp.asarray(centres[1] - centres[0])
@@ -180,13 +185,11 @@ def _sensitivity(
     return np.asarray(left), np.asarray(slopes)
 
 
-def _band(network: Any, bumped: Bumped, covariance: np.ndarray, seen: Array) -> Band:
-    arguments = np.asarray(seen)
+def _band(network: Any, bumped: Bumped, covariance: np.ndarray, seen: np.ndarray) -> Band:
     x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), POINTS)
-    rest = arguments[:, 1:].mean(axis=0)
+    rest = seen[:, 1:].mean(axis=0)
     law = jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x))
-    z = (x[:, None] - np.asarray(bumped.centres)) / float(bumped.width)
-    shapes = np.exp(-0.5 * z**2)
+    shapes = np.asarray(jax.vmap(bumped.bumps)(jnp.asarray(x)))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
     law = np.asarray(law)
     return Band(x, law if law.ndim == 1 else law[:, 0], np.sqrt(np.maximum(variance, 0.0)))
