@@ -11,6 +11,7 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError, listing
+from acausal.training.modifiers import Modifiers
 from acausal.training.problem import Problem, Trainable
 from acausal.training.record import Batch
 from acausal.training.smoothing import smoothed
@@ -35,6 +36,11 @@ class EquationError(eqx.Module):
     problem: Problem
     rows: Array
     x: Array
+
+    @property
+    def modifiers(self) -> Modifiers:
+        """The parameters that are trained."""
+        return self.problem.modifiers
 
     def start(self) -> Trainable:
         """What is trained, where training starts."""

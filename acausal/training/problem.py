@@ -229,5 +229,4 @@ class Problem(eqx.Module):
 
 def modified(objective: Any, trainable: Trainable) -> Mapping[str, Array]:
     """The relative changes ``p̃/p − 1`` of the parameters that are trained."""
-    problem = objective if isinstance(objective, Problem) else objective.problem
-    return problem.modifiers.relative(trainable.modifiers)
+    return objective.modifiers.relative(trainable.modifiers)
