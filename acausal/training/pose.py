@@ -111,7 +111,7 @@ def pose(
 def over_whole_record(problem: Problem) -> Problem:
     """The same problem with the whole record as one sequence, every point of it."""
     count, nodes = len(problem.record), problem.nodes
-    whole = Sequences(count, count, 1, None, side_by_side=problem.sequences.side_by_side)
+    whole = Sequences(count, count, 1, None)
     if nodes is not None:
         nodes = Nodes(nodes.start[:1], nodes.scale, nodes.continuity, count)
     return replace(problem, sequences=whole, nodes=nodes, mesh=None)
