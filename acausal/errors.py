@@ -51,6 +51,11 @@ class TrainingError(AcausalError):
     """A training could not start or could not go on."""
 
 
+def reason(error: OSError) -> str:
+    """What the operating system says, for a message."""
+    return error.strerror or str(error)
+
+
 def shortened(text: str, limit: int = 80) -> str:
     """A text of at most `limit` characters for a message."""
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 
 from acausal import tensors
-from acausal.errors import DataError
+from acausal.errors import DataError, reason
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -35,7 +35,7 @@ def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None
     try:
         tensors.write(Path(path), tensors.named(dict(params)), about)
     except OSError as error:
-        raise DataError(f"'{path}' cannot be written: {error.strerror or error}.") from error
+        raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
 
 
 def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any]) -> dict[str, Any]:

@@ -19,7 +19,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from acausal.errors import DataError, listing
+from acausal.errors import DataError, listing, reason
 
 Arrays = dict[str, np.ndarray]
 
@@ -55,7 +55,7 @@ def read(path: Path) -> tuple[Arrays, dict[str, Any]]:
             metadata = file.metadata() or {}
             arrays: Arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
     except OSError as error:
-        raise DataError(f"'{path}' cannot be read: {error.strerror or error}.") from error
+        raise DataError(f"'{path}' cannot be read: {reason(error)}.") from error
     except SafetensorError as error:
         raise DataError(f"'{path}' is damaged or no safetensors file: {error}.") from error
     if "about" not in metadata or "sha256" not in metadata:

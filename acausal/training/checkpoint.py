@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from acausal import tensors
-from acausal.errors import DataError, TrainingError, listing
+from acausal.errors import DataError, TrainingError, listing, reason
 from acausal.training.history import Rows
 
 KIND = "checkpoint of a training, version 1"
@@ -80,7 +80,7 @@ def place(path: str | Path) -> Path:
         file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise TrainingError(
-            f"The folder of checkpoint '{file}' cannot be made: {_reason(error)}."
+            f"The folder of checkpoint '{file}' cannot be made: {reason(error)}."
         ) from error
     return file
 
@@ -162,7 +162,7 @@ class _Keeper:
         if error:
             self.latest = None
             raise TrainingError(
-                f"Checkpoint '{self.path}' cannot be written: {_reason(error)}. Nothing was trained."
+                f"Checkpoint '{self.path}' cannot be written: {reason(error)}. Nothing was trained."
             ) from error
 
     def _try(self) -> OSError | None:
@@ -184,14 +184,10 @@ class _Keeper:
         assert self.written is not None
         now, before = (_epochs(rows) for _, rows in (self.latest, self.written))
         return (
-            f"Checkpoint '{self.path}' cannot be written at epoch {now}: {_reason(error)}; "
+            f"Checkpoint '{self.path}' cannot be written at epoch {now}: {reason(error)}; "
             f"that of epoch {before} is still there."
         )
 
 
 def _epochs(rows: Rows) -> int:
     return sum(len(chunk["loss"]) for chunk in rows.chunks)
-
-
-def _reason(error: OSError) -> str:
-    return error.strerror or str(error)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acausal import tensors
-from acausal.errors import DataError, TrainingError
+from acausal.errors import DataError, TrainingError, reason
 from acausal.training.progress import Progress
 
 SCALARS: dict[str, Callable[[Progress], float]] = {
@@ -51,9 +51,7 @@ class CsvLog:
             with self.path.open("a"):
                 pass
         except OSError as error:
-            raise TrainingError(
-                f"Log '{self.path}' cannot be written: {error.strerror or error}."
-            ) from error
+            raise TrainingError(f"Log '{self.path}' cannot be written: {reason(error)}.") from error
         if before and before[0] != ["epoch", *SCALARS]:
             raise DataError(f"'{self.path}' is no log of a training: name another file.")
 
@@ -69,7 +67,7 @@ class CsvLog:
                 self._warned = True
                 warnings.warn(
                     f"Log '{self.path}' cannot be written at epoch {progress.epoch}: "
-                    f"{error.strerror or error}. The training goes on.",
+                    f"{reason(error)}. The training goes on.",
                     stacklevel=2,
                 )
 

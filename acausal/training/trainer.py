@@ -79,7 +79,7 @@ class Entry(eqx.Module):
     Attributes:
         loss: mean loss of the batch's sequences that count, without penalties.
         penalties: by name.
-        trainable: what was logged of the trainable, see `advance`.
+        logged: what was logged of the trainable, see `Trainer`.
         diverged: how many sequences were left out; ``first``: where the first of them starts (a sample's index).
         rejected: whether the update was rejected, or was a trial that L-BFGS takes back.
     """
