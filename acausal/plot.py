@@ -12,6 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from acausal.training.confidence import Band
     from acausal.training.history import History
     from acausal.training.result import Fit, Seen
 
@@ -48,16 +49,27 @@ def learned(
         ax.plot(x, np.asarray(truth(x)), color=TRUTH, lw=2.4, alpha=0.55, label="truth")
     for (label, function), color in zip(functions.items(), LEARNED, strict=False):
         ax.plot(x, np.asarray(jax.vmap(function)(jnp.asarray(x))), color=color, lw=1.5, label=label)
-    for times, style in ((1.0, "--"), (2.0, "-")):
-        for side in (-1, 1):
-            ax.axvline(mean + side * times * sigma, color=GUIDE, lw=0.9, ls=style)
-    for side in (-1, 1):
-        edge, end = mean + 2 * side * sigma, mean + SPAN * side * sigma
-        ax.axvspan(min(edge, end), max(edge, end), color=GUIDE, alpha=0.12, lw=0)
-    ax.set_xlim(x[0], x[-1])
+    guides(ax, seen, x[0], x[-1])
     ax.set(xlabel=xlabel, ylabel=ylabel)
-    ax.grid(alpha=0.25)
     ax.legend(frameon=False)
+
+
+def guides(ax: Axes, seen: Seen, start: float, end: float) -> None:
+    """Mark over an axis from ``start`` to ``end`` what a network has seen of its first argument, as in `learned`."""
+    mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
+    for side, edge in ((-1, start), (1, end)):
+        ax.axvline(mean + side * sigma, color=GUIDE, lw=0.9, ls="--")
+        ax.axvline(mean + 2 * side * sigma, color=GUIDE, lw=0.9)
+        ax.axvspan(*sorted((mean + 2 * side * sigma, edge)), color=GUIDE, alpha=0.12, lw=0)
+    ax.set_xlim(start, end)
+    ax.grid(alpha=0.25)
+
+
+def band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") -> None:
+    """Draw a law with a band of two standard deviations to either side."""
+    low, high = law.law - 2 * law.sigma, law.law + 2 * law.sigma
+    ax.fill_between(law.x, low, high, color=color, alpha=0.2, lw=0)
+    ax.plot(law.x, law.law, color=color, lw=1.6, label=label)
 
 
 def losses(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from acausal import plot
 from acausal.report import Page
 from acausal.training.confidence import Confidence
 from acausal.training.residuals import Residuals
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
     from acausal.training.result import Fit
 
+WIDE, NARROW = (9.0, 3.2), (6.0, 3.2)
+"""Sizes of figures, in inches."""
+
 MEASURED, AFTER, BEFORE, GUIDE = "#22303c", "#1f77b4", "#d1603d", "#8795a1"
 STRETCH = 2000
 """Samples of the record that are shown closely."""
@@ -26,8 +30,12 @@ STRETCH = 2000
 def write_page(fit: Fit, path: Path, title: str) -> Path:
     """Write the page about a training; returns its path."""
     page = Page(title, _summary(fit))
-    page.table(("figure", "before", "after"), [("loss over the record", *_losses(fit))])
-    page.figure(_figure(fit.history.epochs > 0, _draw_losses, fit), "The loss, update by update.")
+    losses = ("loss over the record", f"{fit.loss_before:.4g}", f"{fit.loss:.4g}")
+    page.table(("figure", "before", "after"), [losses])
+    page.figure(
+        _figure(WIDE, plot.losses, {"whole record": fit.history}),
+        "The loss, update by update: of the batches (thin) and over the whole record.",
+    )
     _trajectories(page, fit)
     sure = fit.confidence()
     _laws(page, fit, sure)
@@ -48,25 +56,12 @@ def _summary(fit: Fit) -> str:
     )
 
 
-def _losses(fit: Fit) -> tuple[str, str]:
-    return f"{fit.loss_before:.4g}", f"{fit.loss:.4g}"
-
-
-def _figure(wide: bool, draw: Any, *what: Any, height: float = 3.2) -> Figure:
+def _figure(size: tuple[float, float], draw: Any, *what: Any) -> Figure:
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(9.0 if wide else 6.0, height), layout="constrained")
+    figure = Figure(figsize=size, layout="constrained")
     draw(figure.subplots(), *what)
     return figure
-
-
-def _draw_losses(ax: Axes, fit: Fit) -> None:
-    history = fit.history
-    ax.semilogy(1 + np.arange(history.epochs), history.loss, color=GUIDE, lw=0.8, label="batches")
-    ax.semilogy(*history.full_loss.T, "o-", color=AFTER, ms=3, lw=1.2, label="whole record")
-    ax.set(xlabel="update", ylabel="loss")
-    ax.grid(alpha=0.25)
-    ax.legend(frameon=False)
 
 
 def _trajectories(page: Page, fit: Fit) -> None:
@@ -89,7 +84,7 @@ def _trajectories(page: Page, fit: Fit) -> None:
             ax.grid(alpha=0.25)
             ax.legend(frameon=False, ncols=3)
 
-        page.figure(_figure(True, draw), f"A stretch of '{name}'.")
+        page.figure(_figure(WIDE, draw), f"A stretch of '{name}'.")
 
 
 def _laws(page: Page, fit: Fit, sure: Confidence) -> None:
@@ -103,28 +98,16 @@ def _laws(page: Page, fit: Fit, sure: Confidence) -> None:
     for name, band in sure.laws.items():
 
         def draw(ax: Axes, name: str = name, band: Any = band) -> None:
-            ax.fill_between(
-                band.x, band.law - 2 * band.sigma, band.law + 2 * band.sigma,
-                color=AFTER, alpha=0.2, lw=0,
-            )  # fmt: skip
-            ax.plot(band.x, band.law, color=AFTER, lw=1.6)
+            plot.band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
             room = 0.25 * (high - low) + 1e-12
             ax.set_ylim(low - room, high + room)
-            seen = fit.seen[name]
-            mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
-            for side in (-1, 1):
-                ax.axvline(mean + side * sigma, color=GUIDE, lw=0.9, ls="--")
-                ax.axvline(mean + 2 * side * sigma, color=GUIDE, lw=0.9)
-                edge = band.x[0] if side < 0 else band.x[-1]
-                ax.axvspan(*sorted((mean + 2 * side * sigma, edge)), color=GUIDE, alpha=0.12, lw=0)
+            plot.guides(ax, fit.seen[name], band.x[0], band.x[-1])
             samples = fit.samples(name)
             ax.plot(samples, np.full(len(samples), low - room), "|", color=MEASURED, alpha=0.25)
-            ax.set_xlim(band.x[0], band.x[-1])
             ax.set(xlabel="argument", ylabel=name)
-            ax.grid(alpha=0.25)
 
-        page.figure(_figure(False, draw), f"The law of '{name}' and how sure it is.")
+        page.figure(_figure(NARROW, draw), f"The law of '{name}' and how sure it is.")
 
 
 def _parameters(page: Page, fit: Fit, sure: Confidence) -> None:
@@ -155,4 +138,4 @@ def _leftovers(page: Page, found: tuple[Residuals, ...]) -> None:
             ax.grid(alpha=0.25)
             ax.legend(frameon=False)
 
-        page.figure(_figure(True, draw), f"Correlations of the residuals of '{residuals.target}'.")
+        page.figure(_figure(WIDE, draw), f"Correlations of the residuals of '{residuals.target}'.")
