@@ -75,7 +75,7 @@ def band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") -> No
 def losses(
     ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None
 ) -> None:
-    """Draw losses over epochs: of the batches (thin) and over the whole record (dots).
+    """Draw losses over epochs: of the batches (thin), over the whole record (dots) and over what is held out (squares).
 
     Arguments:
         levels: horizontal lines by label, such as a published loss.
@@ -83,6 +83,9 @@ def losses(
     for (label, history), color in zip(histories.items(), LEARNED, strict=False):
         ax.semilogy(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
         ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
+        if len(history.validation_loss):
+            kept = f"{label}, held out"
+            ax.semilogy(*history.validation_loss.T, "s--", color=color, lw=1.2, ms=3, label=kept)
     for label, level in (levels or {}).items():
         ax.axhline(level, color=GUIDE, lw=1, ls=":")
         place = (1.0, level)

@@ -15,7 +15,7 @@ from acausal import tensors
 from acausal.errors import DataError, TrainingError, listing, reason
 from acausal.training.history import Rows
 
-KIND = "checkpoint of a training, version 1"
+KIND = "checkpoint of a training, version 2"
 
 LOG = "log: "
 """What columns of the log are called in a file, before their names."""
@@ -28,6 +28,7 @@ class Snapshot(NamedTuple):
         leg: of the strategy, by number; ``before``: updates done in the legs before it.
         state: of the leg's trainer.
         best_loss, best_epoch, best: the best trainable up to now, its loss over the whole record, when it was found.
+        best_validation: its loss over what is held out, if anything is.
         evaluated: updates that were done at the last evaluation.
         seconds, compiling, updating: what the training took up to now.
     """
@@ -38,6 +39,7 @@ class Snapshot(NamedTuple):
     best_loss: float
     best_epoch: int
     best: Any
+    best_validation: float | None
     evaluated: int
     seconds: float
     compiling: float

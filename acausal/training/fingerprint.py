@@ -15,6 +15,7 @@ import sympy as sp
 
 from acausal.system import System
 from acausal.tensors import named
+from acausal.training.held_out import HeldOut
 from acausal.training.problem import Problem
 from acausal.training.strategy import Leg
 
@@ -28,7 +29,9 @@ ARGUMENTS = {
 """What parts of a problem are called by those who pose it, where they have another name."""
 
 
-def fingerprint(problem: Problem, legs: Sequence[Leg], seed: int) -> dict[str, str]:
+def fingerprint(
+    problem: Problem, legs: Sequence[Leg], seed: int, held: HeldOut | None
+) -> dict[str, str]:
     """A digest of everything that decides how a training goes, by argument of `acausal.fit`."""
     parts = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     posed = {ARGUMENTS.get(n, n): part for n, part in parts.items() if n not in ASIDE}
@@ -37,6 +40,8 @@ def fingerprint(problem: Problem, legs: Sequence[Leg], seed: int) -> dict[str, s
         "strategy": [leg.name for leg in legs],
         "epochs": [leg.epochs for leg in legs],
         "evaluate_every": [leg.evaluate_every for leg in legs],
+        "patience": [leg.patience for leg in legs],
+        "validation": held and (held.problem.record, held.problem.x0, held.first),
         "optimizer": [leg.trainer for leg in legs],
         "seed": seed,
     }

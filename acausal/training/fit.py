@@ -18,6 +18,7 @@ from acausal.errors import TrainingError
 from acausal.simulation.solvers import Solver
 from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import fingerprint
+from acausal.training.held_out import Validation, hold_out, split
 from acausal.training.loop import Trained
 from acausal.training.loop import train as run
 from acausal.training.losses import Loss
@@ -58,7 +59,9 @@ def fit(
     dtype: DTypeLike = np.float64,
     devices: Sequence[Device] | None = None,
     seed: int = 0,
+    validation: Validation = None,
     evaluate_every: int | None = None,
+    patience: int | None = None,
     progress: bool = True,
     observers: Sequence[Observer] = (),
     checkpoint: str | Path | None = None,
@@ -105,8 +108,12 @@ def fit(
         devices: that the sequences of every batch are spread over, such as ``jax.devices()``; ``batch_size`` is a
             multiple of their number. By default JAX's default device alone.
         seed: of the networks, the sequences and the points. The same seed gives the same result.
-        evaluate_every: updates between two evaluations over the whole record, among which the best is
-            returned; by default a tenth of the epochs.
+        validation: what to hold out, by which the best is chosen: the last part of the record, such as 0.2 (predicted
+            in one simulation from the record's start), or another record (which starts as ``x0`` says; with ``"fit"``
+            from its own measured states).
+        evaluate_every: updates between two evaluations over the whole record and what is held out, among which the
+            best is returned; by default a tenth of the epochs.
+        patience: evaluations without a better one after which a part of the strategy ends.
         progress: whether to show progress, if there is a terminal or a notebook.
         observers: called with a `Progress` about twice a second.
         checkpoint: a file ``….safetensors``, or a folder for it, that holds all of the training: written before the
@@ -122,9 +129,10 @@ def fit(
         DataError: if the data do not fit the model, or the checkpoint is damaged or of another training.
         TrainingError: if there is nothing to train, the training cannot go on, or no checkpoint can be written.
     """
+    training, kept = split(Data.of(data).for_system(system), validation)
     problem = pose(
         system,
-        Data.of(data).for_system(system),
+        training,
         (targets,) if isinstance(targets, str) else tuple(targets),
         dict(system.parameters(seed) if params is None else params),
         train=train,
@@ -142,15 +150,16 @@ def fit(
         devices=devices,
     )
     limit = DIVERGED if loss == "nrmse" else np.inf
-    plan = legs(problem, strategy, epochs, evaluate_every, optimizer, limit)
+    held = hold_out(problem, kept, x0)
+    plan = legs(problem, strategy, epochs, evaluate_every, patience, optimizer, limit)
     first = jax.process_index() == 0
-    identity = fingerprint(problem, plan, seed)
+    identity = fingerprint(problem, plan, seed, held)
     path, stored = _checkpoint(checkpoint, resume, identity)
     with (
         display(progress and first, sum(leg.epochs for leg in plan)) as show,
         checkpoints.keeping(path if first else None, checkpoint_every, identity) as keep,
     ):
-        trained = run(problem, plan, jax.random.key(seed), (show, *observers), keep, stored)
+        trained = run(problem, plan, jax.random.key(seed), (show, *observers), keep, stored, held)
     _warn(trained)
     return result(problem, trained)
 

@@ -45,6 +45,7 @@ class History:
         modifiers: by parameter, its relative change p̃/p − 1 before the update, shape (epochs,).
         seconds: time since the start of the training at the end of each update, shape (epochs,).
         full_loss: loss over the whole record, (epochs done, loss) in rows, shape (k, 2).
+        validation_loss: loss over what is held out, likewise, shape (k, 2); (0, 2) where nothing is.
         divergences: what diverged and was left out.
     """
 
@@ -53,6 +54,7 @@ class History:
     modifiers: dict[str, np.ndarray]
     seconds: np.ndarray
     full_loss: np.ndarray
+    validation_loss: np.ndarray
     divergences: tuple[Divergence, ...]
 
     @property
@@ -61,21 +63,35 @@ class History:
         return len(self.loss)
 
 
+class Evaluation(NamedTuple):
+    """What was found between two updates.
+
+    Attributes:
+        epoch: updates done.
+        loss: over the whole record.
+        validation: loss over what is held out; NaN where nothing is.
+    """
+
+    epoch: int
+    loss: float
+    validation: float
+
+
 class Rows(NamedTuple):
     """What a `Log` holds at some moment.
 
     Attributes:
         chunks: columns of some updates each, by name.
-        evaluations: (epochs done, loss over the whole record).
+        evaluations: at some moments.
     """
 
     chunks: tuple[dict[str, np.ndarray], ...]
-    evaluations: tuple[tuple[int, float], ...]
+    evaluations: tuple[Evaluation, ...]
 
     def columns(self) -> dict[str, np.ndarray]:
         """All of it as arrays: a column each, of all updates, and the evaluations."""
         joined = {n: np.concatenate([c[n] for c in self.chunks]) for n in self.chunks[0]}
-        return {**joined, EVALUATIONS: np.asarray(self.evaluations, float).reshape(-1, 2)}
+        return {**joined, EVALUATIONS: np.asarray(self.evaluations, float).reshape(-1, 3)}
 
 
 EVALUATIONS = "evaluations"
@@ -97,7 +113,7 @@ class Log:
         names = ("loss", "seconds", *map(_penalty, penalties), *map(_modifier, modifiers))
         numbers = {n: np.zeros(0) for n in names}
         self._chunks = [{**numbers, **whole, "rejected": np.zeros(0, bool)}]
-        self._evaluations: list[tuple[int, float]] = []
+        self.evaluations: list[Evaluation] = []
         self.divergences: list[Divergence] = []
         self.epochs = 0
 
@@ -131,9 +147,9 @@ class Log:
         self.epochs += len(rejected)
         return new
 
-    def evaluated(self, loss: float) -> None:
-        """Add a loss over the whole record."""
-        self._evaluations.append((self.epochs, loss))
+    def evaluated(self, loss: float, validation: float) -> None:
+        """Add a loss over the whole record, and over what is held out."""
+        self.evaluations.append(Evaluation(self.epochs, loss, validation))
 
     @property
     def loss(self) -> float:
@@ -143,7 +159,7 @@ class Log:
 
     def rows(self) -> Rows:
         """What was collected up to now."""
-        return Rows(tuple(self._chunks), tuple(self._evaluations))
+        return Rows(tuple(self._chunks), tuple(self.evaluations))
 
     def go_on(self, columns: Mapping[str, np.ndarray]) -> None:
         """Take what another log had collected (its ``rows().columns()``) for the beginning of this empty one.
@@ -155,17 +171,20 @@ class Log:
         if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)
-        self._evaluations += [(int(epoch), float(loss)) for epoch, loss in columns[EVALUATIONS]]
+        rows = columns[EVALUATIONS].tolist()
+        self.evaluations += [Evaluation(int(epoch), *found) for epoch, *found in rows]
 
     def history(self) -> History:
         """What was collected."""
         columns = self.rows().columns()
+        evaluations = columns[EVALUATIONS]
         return History(
             columns["loss"],
             {n: columns[_penalty(n)] for n in self._penalties},
             {n: columns[_modifier(n)] for n in self._modifiers},
             columns["seconds"],
-            columns[EVALUATIONS],
+            evaluations[:, :2],
+            evaluations[~np.isnan(evaluations[:, 2])][:, ::2],
             tuple(self.divergences),
         )
 

@@ -15,6 +15,7 @@ from jax import Array
 
 from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Snapshot, Stored
+from acausal.training.held_out import HeldOut
 from acausal.training.history import History, Log
 from acausal.training.lbfgs import Search
 from acausal.training.problem import Problem, Simulated, Trainable
@@ -35,15 +36,22 @@ class Best(NamedTuple):
 
     Attributes:
         loss: over the whole record; infinite if the model diverges there.
+        validation: loss over what is held out, likewise; ``None`` where nothing is.
         epoch: updates done.
         trainable: what was trained.
         simulated: one simulation of the whole record.
     """
 
     loss: float
+    validation: float | None
     epoch: int
     trainable: Trainable
     simulated: Simulated
+
+    @property
+    def score(self) -> float:
+        """The loss that decides which is best."""
+        return self.loss if self.validation is None else self.validation
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,22 +80,25 @@ def train(
     observers: Sequence[Observer],
     keep: Keep = lambda snapshot, rows: None,
     stored: Stored | None = None,
+    held: HeldOut | None = None,
 ) -> Trained:
     """Train leg by leg, each from where the one before was best, or until the user interrupts.
 
     Arguments:
-        problem: what every leg serves: evaluations over the whole record, among which the best is chosen.
+        problem: what every leg serves: evaluations over the whole record, among which the best is chosen where
+            nothing is held out.
         legs: what to minimise and how.
         key: source of all batches.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
         keep: called with all that is needed to go on from there, before the first update and after every few.
         stored: where to go on from; by default from the start.
+        held: what is held out; the best is the one with the lowest loss over it.
 
     Raises:
         TrainingError: if `PATIENCE` updates in a row had to be rejected.
         DataError: if what was stored is of another training.
     """
-    run = _Run(problem, legs, key, observers, keep)
+    run = _Run(problem, legs, key, observers, keep, held)
     interrupted = False
     if stored is None:
         run.evaluate(shared(problem.start(), problem.mesh))
@@ -124,9 +135,11 @@ class _Run:
         key: Array,
         observers: Sequence[Observer],
         keep: Keep,
+        held: HeldOut | None,
     ) -> None:
         self.began = time.perf_counter()
         self.mesh, self.problem = problem.mesh, shared(problem, problem.mesh)
+        self.held = shared(held, problem.mesh)
         self.legs, self.observers, self.keep = legs, observers, keep
         self.keys = [jax.random.fold_in(key, i) if i else key for i in range(len(legs))]
         times = np.asarray(problem.record.steps.t)
@@ -140,11 +153,14 @@ class _Run:
         """Be where a training was when it was stored; returns its leg and the trainer's state."""
         start, leg = self.problem.start(), self.legs[stored.leg]
         state = begin(leg.trainer, local(_entry(leg, start), self.mesh), self.keys[stored.leg])
-        like = Snapshot(stored.leg, 0, state, 0.0, 0, start, 0, 0.0, 0.0, 0.0)
+        validation = None if self.held is None else 0.0
+        like = Snapshot(stored.leg, 0, state, 0.0, 0, start, validation, 0, 0.0, 0.0, 0.0)
         snapshot = shared(stored.snapshot(like), self.mesh)
         self.log.go_on(stored.columns)
         simulated = self.problem.simulate(snapshot.best)
-        self.best = Best(snapshot.best_loss, snapshot.best_epoch, snapshot.best, simulated)
+        self.best = Best(
+            snapshot.best_loss, snapshot.best_validation, snapshot.best_epoch, snapshot.best, simulated
+        )  # fmt: skip
         self.last = snapshot.state.trainable
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         self.began -= snapshot.seconds
@@ -169,7 +185,7 @@ class _Run:
             )  # compiles, and does nothing
             self.compiling += time.perf_counter() - clock
         size = 1
-        while (done := log.epochs - self.before) < leg.epochs and not _is_converged(state):
+        while (done := log.epochs - self.before) < leg.epochs and not self._is_over(leg, state):
             due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
             count = min(size, due - done, CHUNK)
             clock = time.perf_counter()
@@ -189,7 +205,7 @@ class _Run:
                 log.epochs,
                 self.epochs,
                 log.loss,
-                self.best.loss,
+                self.best.score,
                 ended - self.began,
                 per_epoch,
                 tuple(new),
@@ -203,23 +219,29 @@ class _Run:
         """Hand out all that is needed to go on from here."""
         best, seconds = self.best, time.perf_counter() - self.began
         snapshot = Snapshot(
-            leg, self.before, state, best.loss, best.epoch, best.trainable, self.evaluated,
-            seconds, self.compiling, self.updating,
+            leg, self.before, state, best.loss, best.epoch, best.trainable, best.validation,
+            self.evaluated, seconds, self.compiling, self.updating,
         )  # fmt: skip
         self.keep(snapshot, self.log.rows())
 
     def evaluate(self, trainable: Trainable) -> None:
-        """Simulate the whole record, and keep the better of the trainable and the best so far."""
+        """Simulate what decides, and keep the better of the trainable and the best so far."""
         if self.evaluated == self.log.epochs:
             return
         self.evaluated = self.log.epochs
         simulated = self.problem.simulate(trainable)
-        loss = float(simulated.loss) if math.isfinite(float(simulated.loss)) else math.inf
-        self.log.evaluated(loss)
-        first = self.log.epochs == 0
-        if first or loss < self.best.loss or math.isinf(self.best.loss):
-            self.best = Best(loss, self.log.epochs, trainable, simulated)
+        validation = None if self.held is None else _told(self.held.loss(trainable))
+        new = Best(_told(simulated.loss), validation, self.log.epochs, trainable, simulated)
+        self.log.evaluated(new.loss, math.nan if validation is None else validation)
+        if self.log.epochs == 0 or new.score < self.best.score or math.isinf(self.best.score):
+            self.best = new
         self.last = trainable
+
+    def _is_over(self, leg: Leg, state: State) -> bool:
+        """Whether a leg has nothing more to find, or found nothing better for too long."""
+        since = max(self.before, self.best.epoch)
+        vain = sum(evaluation.epoch > since for evaluation in self.log.evaluations)
+        return _is_converged(state) or (leg.patience is not None and vain >= leg.patience)
 
 
 def _entry(leg: Leg, best: Trainable) -> Trainable:
@@ -228,6 +250,10 @@ def _entry(leg: Leg, best: Trainable) -> Trainable:
     if needed is None or best.states is None:
         return best
     return replace(best, states=best.states[: len(needed)])
+
+
+def _told(loss: Array) -> float:
+    return float(loss) if math.isfinite(float(loss)) else math.inf
 
 
 def _is_converged(state: State) -> bool:

@@ -31,7 +31,9 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
     """Write the page about a training; returns its path."""
     page = Page(title, _summary(fit))
     losses = ("loss over the record", f"{fit.loss_before:.4g}", f"{fit.loss:.4g}")
-    page.table(("figure", "before", "after"), [losses])
+    kept = fit.history.validation_loss[:1, 1]
+    held = [("loss over what is held out", f"{b:.4g}", f"{fit.validation_loss:.4g}") for b in kept]
+    page.table(("figure", "before", "after"), [losses, *held])
     page.figure(
         _figure(WIDE, plot.losses, {"whole record": fit.history}),
         "The loss, update by update: of the batches (thin) and over the whole record.",

@@ -20,7 +20,7 @@ from acausal.training import losses
 from acausal.training import modifiers as parameter_modifiers
 from acausal.training.nodes import Nodes
 from acausal.training.problem import Problem
-from acausal.training.record import Sequences, lay_out, sequences
+from acausal.training.record import Record, Sequences, lay_out, sequences
 from acausal.training.regularizers import Context, Regularizer, label
 from acausal.training.spread import Device, mesh
 
@@ -83,6 +83,7 @@ def pose(
             "(sequence_length=None) with x0='model' or x0={...}."
         )
     record = lay_out(data, system.inputs, targets, None if missing else system.states)
+    _refuse_constant(record, targets)
     problem = Problem(
         system=system,
         params={
@@ -93,7 +94,7 @@ def pose(
         targets=targets,
         record=record,
         sequences=cut,
-        x0=None if x0 == "fit" else _first_state(system, data, x0, missing),
+        x0=None if x0 == "fit" else first_state(system, data, x0),
         nodes=None,
         loss=losses.named(loss),
         regularizers=_labelled(regularizers),
@@ -117,6 +118,15 @@ def over_whole_record(problem: Problem) -> Problem:
     return replace(problem, sequences=whole, nodes=nodes, mesh=None)
 
 
+def _refuse_constant(record: Record, targets: tuple[str, ...]) -> None:
+    largest = jnp.abs(record.y).max(axis=0)
+    for name, varies in zip(targets, record.sigma > 1e-12 * largest, strict=True):
+        if not varies:
+            raise DataError(
+                f"Target '{name}' is constant in the data; it gives nothing to learn from."
+            )
+
+
 def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:
     found = networks(params)
     if train is None:
@@ -128,9 +138,12 @@ def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[s
     return chosen
 
 
-def _first_state(
-    system: System, data: Data, x0: Start | Mapping[str, float], missing: list[str]
-) -> Array | None:
+def first_state(system: System, data: Data, x0: Start | Mapping[str, float]) -> Array | None:
+    """The state at a record's start as ``x0`` says, shape (number of states,); ``None`` as the model starts.
+
+    Raises:
+        DataError: for a name that is no state, or a state that neither the data nor ``x0`` have.
+    """
     if x0 == "model":
         return None
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
@@ -139,7 +152,7 @@ def _first_state(
             raise DataError(
                 f"x0: '{name}' is no state of the model: {nearest(name, system.states)}"
             )
-    unknown = [n for n in missing if n not in given]
+    unknown = [n for n in system.states if n not in data.signals and n not in given]
     if unknown:
         raise DataError(
             f"The data lack {listing(unknown)}, with which the record starts: "

@@ -19,7 +19,7 @@ class Progress:
     Attributes:
         epoch, epochs: updates done, and wanted.
         loss: of the last update's batch.
-        best: the lowest loss over the whole record so far.
+        best: the lowest loss over the whole record so far, or over what is held out.
         seconds: time since the start.
         seconds_per_epoch: of the latest updates.
         divergences: sequences that diverged since the last report.
@@ -52,9 +52,7 @@ def display(wanted: bool, epochs: int) -> Generator[Observer]:
     columns = (
         TextColumn("epoch {task.completed:>5.0f}/{task.total:.0f}"),
         BarColumn(),
-        TextColumn(
-            "loss {task.fields[loss]}  whole record {task.fields[best]}  {task.fields[rate]}"
-        ),
+        TextColumn("loss {task.fields[loss]}  best {task.fields[best]}  {task.fields[rate]}"),
         TimeElapsedColumn(),
         TextColumn("left"),
         TimeRemainingColumn(),

@@ -47,21 +47,15 @@ def lay_out(
     """A `Record` of some signals of the data, in the model's units.
 
     Raises:
-        DataError: for a signal that is missing, or a target that is constant.
+        DataError: for a signal that is missing.
     """
     data.columns(inputs, "an input of the model")
     y = data.columns(targets, "a target of the training")
-    sigma = y.std(axis=0)
-    for name, deviation in zip(targets, sigma, strict=True):
-        if not deviation > 1e-12 * np.max(np.abs(data[name])):
-            raise DataError(
-                f"Target '{name}' is constant in the data; it gives nothing to learn from."
-            )
     x = None if states is None else jnp.asarray(data.columns(states, "a state of the model"))
     h = np.diff(data.time)
     lengths = jnp.asarray(data.sample_time) if data.uniform else jnp.asarray(np.append(h, h[-1]))
     steps = Steps(jnp.asarray(data.time), lengths, _samples(data, inputs))
-    return Record(steps, jnp.asarray(y), jnp.asarray(sigma), x)
+    return Record(steps, jnp.asarray(y), jnp.asarray(y.std(axis=0)), x)
 
 
 def _samples(data: Data, inputs: tuple[str, ...]) -> Samples:

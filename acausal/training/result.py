@@ -50,7 +50,9 @@ class Fit:
         params: its trained parameters: a flat dict with networks and physical values.
         loss: over one simulation of the whole record, every point of it; infinite if the model diverges there.
         loss_before: the same before training.
-        best_epoch: updates after which ``params`` were reached.
+        validation_loss: of ``params``, over what was held out; ``None`` where nothing was.
+        best_epoch: updates after which ``params`` were reached: those of the lowest loss over what was held out,
+            else over the whole record, among all evaluations.
         x0: the state at the record's start, by name.
         modifiers: relative change p̃/p − 1 of every parameter that was trained.
         predicted: the targets in one simulation of the record, shape (N, number of targets).
@@ -67,6 +69,7 @@ class Fit:
     params: dict[str, Any]
     loss: float
     loss_before: float
+    validation_loss: float | None
     best_epoch: int
     x0: dict[str, float]
     modifiers: dict[str, float]
@@ -134,6 +137,8 @@ class Fit:
             f"  loss      {self.loss_before:.4g} before, {self.loss:.4g} after epoch {self.best_epoch}",
             f"  time      {self.seconds:.3g} s, {self.seconds_per_epoch * 1e3:.3g} ms an epoch",
         ]
+        if self.validation_loss is not None:
+            lines.insert(2, f"  held out  {self.validation_loss:.4g}")
         lines += [f"  modifiers {changes}"] if changes else []
         diverged = self.history.divergences
         lines += (
@@ -153,6 +158,7 @@ def result(problem: Problem, trained: Trained) -> Fit:
         params=problem.assemble(best.trainable),
         loss=best.loss,
         loss_before=float(history.full_loss[0, 1]),
+        validation_loss=best.validation,
         best_epoch=best.epoch,
         x0=dict(zip(problem.system.states, best.simulated.x[0].tolist(), strict=True)),
         modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},

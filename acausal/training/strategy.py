@@ -28,6 +28,7 @@ class Leg(NamedTuple):
         trainer: how.
         epochs: updates at most; fewer where the optimizer finds nothing better.
         evaluate_every: updates between two evaluations over the whole record.
+        patience: evaluations without a better one after which it ends; ``None`` for never.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Leg(NamedTuple):
     trainer: Trainer
     epochs: int
     evaluate_every: int
+    patience: int | None
 
 
 class _Kind(NamedTuple):
@@ -64,6 +66,7 @@ def legs(
     strategy: str | Sequence[str],
     epochs: int | Sequence[int] | None,
     evaluate_every: int | None,
+    patience: int | None,
     optimizer: optax.GradientTransformation | None,
     limit: float,
 ) -> tuple[Leg, ...]:
@@ -76,8 +79,10 @@ def legs(
     for name in names:
         if name not in KINDS:
             raise TrainingError(f"No strategy '{name}': {nearest(name, KINDS)}")
+    if patience is not None and patience < 1:
+        raise TrainingError(f"patience={patience}; at least one evaluation is needed.")
     return tuple(
-        _leg(problem, name, count, evaluate_every, optimizer, limit)
+        _leg(problem, name, count, evaluate_every, patience, optimizer, limit)
         for name, count in zip(names, _epochs(names, epochs), strict=True)
     )
 
@@ -102,6 +107,7 @@ def _leg(
     name: str,
     epochs: int,
     evaluate_every: int | None,
+    patience: int | None,
     optimizer: optax.GradientTransformation | None,
     limit: float,
 ) -> Leg:
@@ -117,7 +123,7 @@ def _leg(
             )
     trainer = Trainer(optax.with_extra_args_support(chosen), limit, modified)
     every = max(1, epochs // EVALUATIONS) if evaluate_every is None else evaluate_every
-    return Leg(name, kind.objective(problem), trainer, epochs, every)
+    return Leg(name, kind.objective(problem), trainer, epochs, every, patience)
 
 
 @cache
