@@ -126,8 +126,11 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
         _words("Diode Diode2 ZDiode NMOS PMOS NPN PNP Thyristor SimpleTriac"),
     ),
     f"{_ANALOG}.Examples.Utilities": (
-        "electrical",
-        _words("Nand NonlinearResistor Transistor"),
+        "electrical.utilities",
+        _words(
+            "Nand NonlinearResistor Transistor DirectCapacitor InverseCapacitor Resistor "
+            "DirectInductor InverseInductor Conductor"
+        ),
     ),
     f"{_ANALOG}.Sensors": (
         "electrical",
@@ -180,6 +183,10 @@ CATALOG: dict[str, tuple[str, tuple[str, ...]]] = {
     f"{_HEAT}.Celsius": ("thermal.celsius", _SCALE),
     f"{_HEAT}.Fahrenheit": ("thermal.fahrenheit", _SCALE),
     f"{_HEAT}.Rankine": ("thermal.rankine", _SCALE),
+    f"{_HEAT}.Examples.Utilities": (
+        "thermal",
+        _words("DirectCapacity InverseCapacity Conduction"),
+    ),
     f"{_HEAT}.Interfaces": (
         "thermal",
         _words(

@@ -31,6 +31,9 @@ DEFAULTS = {
     "PrescribedTemperature": {},
     "FixedHeatFlow": {"Q_flow": ..., "T_ref": 293.15, "alpha": 0},
     "PrescribedHeatFlow": {"T_ref": 293.15, "alpha": 0},
+    "DirectCapacity": {"C": 1},
+    "InverseCapacity": {"C": 1},
+    "Conduction": {"G": 1},
 }  # fmt: skip
 BASES = ("Element1D",)
 

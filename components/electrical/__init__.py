@@ -6,10 +6,10 @@ from acausal.components import electrical as el
 resistor = el.Resistor(R=100.0)
 ```
 
-The circuits of `op_amp_circuits` keep their module, since blocks have the same names.
+The circuits of `op_amp_circuits` and `utilities` keep their modules, since blocks and elements have the same names.
 """
 
-from . import op_amp_circuits
+from . import op_amp_circuits, utilities
 from .basic import (
     CCC,
     CCV,
@@ -249,4 +249,5 @@ __all__ = [
     "VoltageSource",
     "ZDiode",
     "op_amp_circuits",
+    "utilities",
 ]

@@ -45,12 +45,15 @@ from .sources import (
     PrescribedHeatFlow,
     PrescribedTemperature,
 )
+from .utilities import Conduction, DirectCapacity, InverseCapacity
 
 __all__ = [
     "BodyRadiation",
     "ConditionalFixedHeatFlowSensor",
+    "Conduction",
     "Convection",
     "ConvectiveResistor",
+    "DirectCapacity",
     "Element1D",
     "FixedHeatFlow",
     "FixedTemperature",
@@ -61,6 +64,7 @@ __all__ = [
     "HeatPort",
     "HeatPort_a",
     "HeatPort_b",
+    "InverseCapacity",
     "PartialConditionalHeatPort",
     "PartialElementaryConditionalHeatPort",
     "PartialElementaryConditionalHeatPortWithoutT",
