@@ -9,6 +9,7 @@
 | `magnetic` | `Modelica.Magnetic.FluxTubes` |
 | `thermal` | `Modelica.Thermal.HeatTransfer` |
 | `fluid` | `Modelica.Thermal.FluidHeatFlow` |
+| `hydraulic` | after `Modelica.Fluid`, without heat |
 | `neural` | none: two-ports of any domain whose law is a network |
 
 The library is written as a user writes one: it knows the rest of the package only as
@@ -27,6 +28,7 @@ PACKAGES = (
     "blocks",
     "electrical",
     "fluid",
+    "hydraulic",
     "magnetic",
     "neural",
     "rotational",

@@ -18,8 +18,8 @@ import acausal.components
 
 HERE = Path(__file__).resolve().parent
 PAGE, REFERENCE = HERE / "components.md", HERE / "reference"
-MECHANICS, FIELDS = ("translational", "rotational"), ("electrical", "magnetic", "thermal", "fluid")
-FIRST = (*MECHANICS, *FIELDS, "blocks", "neural")
+MECHANICS, FLUIDS = ("translational", "rotational"), ("thermal", "fluid", "hydraulic")
+FIRST = (*MECHANICS, "electrical", "magnetic", *FLUIDS, "blocks", "neural")
 """Order of the packages on the page; any other follows."""
 LEADING, TRAILING = ("components", "basic"), ("sources", "sensors", "adaptors", "utilities")
 """Modules of a package that are listed first and last."""

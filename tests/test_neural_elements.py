@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import electrical, fluid, magnetic, neural, rotational, thermal
+from acausal.components import electrical, fluid, hydraulic, magnetic, neural, rotational, thermal
 from acausal.components import translational as tl
 from acausal.flatten import flatten
 from acausal.networks import Energy, Law, law_of
@@ -23,6 +23,7 @@ DOMAINS = {
     "electrical": electrical.Pin,
     "thermal": thermal.HeatPort,
     "fluid": fluid.FlowPort,
+    "hydraulic": hydraulic.FluidPort,
     "magnetic": magnetic.MagneticPort,
 }
 DT = 5e-4

@@ -120,18 +120,10 @@ class PartialNetwork(ac.Component):
         }
 
 
-class PartialNeural(PartialTwoPort, PartialNetwork):
-    """Base of neural two-ports: two connectors, the variables between them, and a network ``net``.
+class PartialLaw(PartialNetwork):
+    """Base of elements whose network is a law of one input, and of secondary inputs.
 
-    Arguments:
-        connector: connector class of the domain, which names everything (`PartialTwoPort`).
-        secondary: names of further signal inputs of the network, such as ``("T",)``; or how many,
-            named ``u1``, ``u2`` and so on.
-        net: another network: a module called with scalars, or a function ``key -> module``.
-        modifiers: options, and start values of variables.
-
-    Raises:
-        DeclarationError: in one sentence, for options that do not go together.
+    A subclass names ``secondary`` and declares them before it is made.
     """
 
     odd = ac.Option(False, doc="the law is odd: the same from both sides")
@@ -145,19 +137,9 @@ class PartialNeural(PartialTwoPort, PartialNetwork):
     )
     promises = ("odd", "extrapolation", "limits")
 
-    def __init__(
-        self,
-        connector: type[ac.Connector] = Flange,
-        *,
-        secondary: int | Sequence[str] = (),
-        **modifiers: Any,
-    ) -> None:
-        names = [f"u{i + 1}" for i in range(secondary)] if isinstance(secondary, int) else secondary
-        self.secondary = tuple(names)
-        super().__init__(connector, **modifiers)
+    secondary: tuple[str, ...]
 
-    def _declare(self) -> None:
-        super()._declare()
+    def _declare_secondary(self) -> None:
         for name in self.secondary:
             setattr(self, name, ac.Input(doc="secondary input of the network"))
 
@@ -175,6 +157,41 @@ class PartialNeural(PartialTwoPort, PartialNetwork):
             "extrapolation": self.extrapolation,
             "limits": tuple(limits) if isinstance(limits, list | tuple) else limits,
         }
+
+
+class PartialNeural(PartialTwoPort, PartialLaw):
+    """Base of neural two-ports: two connectors, the variables between them, and a network ``net``.
+
+    Arguments:
+        connector: connector class of the domain, which names everything (`PartialTwoPort`).
+        secondary: names of further signal inputs of the network, such as ``("T",)``; or how many,
+            named ``u1``, ``u2`` and so on.
+        net: another network: a module called with scalars, or a function ``key -> module``.
+        modifiers: options, and start values of variables.
+
+    Raises:
+        DeclarationError: in one sentence, for options that do not go together.
+    """
+
+    def __init__(
+        self,
+        connector: type[ac.Connector] = Flange,
+        *,
+        secondary: int | Sequence[str] = (),
+        **modifiers: Any,
+    ) -> None:
+        self.secondary = named(secondary)
+        super().__init__(connector, **modifiers)
+
+    def _declare(self) -> None:
+        super()._declare()
+        self._declare_secondary()
+
+
+def named(secondary: int | Sequence[str]) -> tuple[str, ...]:
+    """Names of secondary inputs; of a number of them ``u1``, ``u2`` and so on."""
+    names = [f"u{i + 1}" for i in range(secondary)] if isinstance(secondary, int) else secondary
+    return tuple(names)
 
 
 def across_unit(connector: type[ac.Connector]) -> str:
