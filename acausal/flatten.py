@@ -20,7 +20,7 @@ class FlatModel:
     """A model without hierarchy: numbered variables, and equations as instances of templates.
 
     Attributes:
-        name: class name of the model.
+        name: of the model: its class, or what its file says.
         layout: names of everything.
         groups: all equations, those of connections among them; ``initial``: equations at the initial time.
         inputs: indices of the variables that are the model's inputs.
@@ -29,7 +29,7 @@ class FlatModel:
         start_given: (n_variables,) whether somebody gave the start as a modifier.
         starts: start values that are expressions of parameters.
         value: (n_parameters,) values (nan where bound); ``bindings``: the bound ones.
-        folded: (n_parameters,) parameters left at a default of zero.
+        folded: (n_parameters,) parameters left at a default of zero, or bound to nothing but such.
         module_values: value or factory of every module; an int refers to another module.
     """
 
@@ -73,7 +73,7 @@ def flatten(model: Component) -> FlatModel:
     start, fixed, nominal, state, given, starts = variable_attributes(layout)
     value, bindings, folded = parameter_values(layout)
     return FlatModel(
-        name=type(model).__name__,
+        name=model._label(),
         layout=layout,
         groups=(*equations, *connection_groups(layout, sets)),
         initial=initial,

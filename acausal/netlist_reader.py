@@ -139,8 +139,9 @@ def _parameter(scope: Scope, name: str, raw: Any, where: str) -> None:
         if value is not None:
             within(where, lambda: model.modify(**{name: Start(value)}))
     elif number or value is None:
-        _assign(model, name, Parameter(**declared), where)
-        if number:
+        default = 0.0 if number and value == 0 else None  # a zero that nobody changes is folded
+        _assign(model, name, Parameter(default, **declared), where)
+        if number and default is None:
             within(where, lambda: model.modify(**{name: value}))
     else:
         _assign(model, name, value, where)

@@ -236,6 +236,27 @@ def test_a_zero_default_is_folded_and_a_given_zero_is_not():
     assert system.parameters()["b.L"] == 0.0
 
 
+class Bar(ac.Component):
+    """Two masses whose lengths are given by its own."""
+
+    L = ac.Parameter(0.0)
+
+    def __init__(self, **modifiers):
+        super().__init__(**modifiers)
+        self.a, self.b = Mass(m=1.0, L=self.L), Mass(m=1.0, L=2 * self.L)
+        self.c = Mass(m=1.0, L=self.L + 1)
+        self.connect(self.a.flange_b, self.b.flange_a)
+        self.connect(self.b.flange_b, self.c.flange_a)
+
+
+def test_what_folded_parameters_make_zero_is_folded():
+    names = {"L", "a.L", "b.L", "c.L"}
+    kept = set(ac.compile(Bar()).parameters())
+    assert names & kept == set()
+    assert ac.compile(Bar()).pack().values.tolist().count(1.0) == 4  # three masses, and c.L
+    assert names & set(ac.compile(Bar(L=0.0)).parameters()) == {"L"}
+
+
 @pytest.mark.parametrize(
     ("make", "told"),
     [

@@ -303,6 +303,35 @@ def test_expressions_reach_parameters_of_the_model_and_of_parts(file: Path) -> N
     assert model.filter.n == 3
 
 
+def test_a_zero_of_the_model_is_folded_until_somebody_changes_it(file: Path) -> None:
+    element = "Modelica.Electrical.Analog"
+    document = {
+        "model": "Charge",
+        "parameters": {"C": 0.0},
+        "components": {
+            "capacitor": {
+                "class": f"{element}.Basic.Capacitor",
+                "with": {"C": "C", "v": {"start": 1.0}},
+            },
+            "resistor": {"class": f"{element}.Basic.Resistor", "with": {"R": 2.0}},
+            "ground": {"class": f"{element}.Basic.Ground"},
+        },
+        "connections": [
+            ["resistor.p", "capacitor.p"],
+            ["resistor.n", "capacitor.n"],
+            ["ground.p", "capacitor.n"],
+        ],
+    }
+    model = read(file, document)
+    system = ac.compile(model)
+    assert system.states == ()
+    assert repr(system).startswith("System of Charge (")
+    ac.save(model, file)
+    assert json.loads(file.read_text())["parameters"] == {"C": 0.0}
+    model.modify(C=0.5)
+    assert ac.compile(model).states == ("capacitor.v",)
+
+
 def test_nested_modifiers(file: Path) -> None:
     model = read(
         file,
