@@ -10,6 +10,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from acausal.errors import need_compiled
+
 if TYPE_CHECKING:
     from acausal.system import System
 
@@ -81,8 +83,9 @@ def linearize(
 
     Raises:
         DataError: if ``x`` or ``u`` do not fit the model.
-        ModelError: for an output that the model does not have.
+        ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
+    need_compiled(system, "linearize")
     packed = system.pack(params)
     point = system.input_values(u)
     state = system.initial_state(packed, x, point, t)

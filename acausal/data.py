@@ -76,6 +76,8 @@ class Data:
         """A record as it is, or made from a plain mapping ``{"time": ..., name: ...}``."""
         if isinstance(record, Data):
             return record
+        if not isinstance(record, Mapping):
+            raise DataError(f"A record is acausal.Data or a mapping, not {record!r:.80}")
         if "time" not in record:
             raise DataError(f"The record has no 'time': {nearest('time', record)}")
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})

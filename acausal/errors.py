@@ -77,3 +77,17 @@ def nearest(name: str, known: Iterable[str]) -> str:
     if not candidates:
         return "there is none to choose from."
     return f"known are {listing(candidates)}."
+
+
+def need_compiled(system: object, function: str) -> None:
+    """Refuse a model, or its class, where its compiled system is needed.
+
+    Raises:
+        ModelError: for anything that has no vector field.
+    """
+    if isinstance(system, type) or not hasattr(system, "vector_field"):
+        kind = system.__name__ if isinstance(system, type) else type(system).__name__
+        raise ModelError(
+            f"{function} needs a compiled model, got {kind}: system = ac.compile(model), then "
+            f"ac.{function}(system, ...)"
+        )

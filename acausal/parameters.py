@@ -112,6 +112,8 @@ class ParameterLayout:
         """
         if isinstance(params, Packed):
             return params
+        if not isinstance(params, Mapping):
+            raise DataError(f"params are numbers and networks by name, not {params!r:.80}")
         self._check_names(params)
         own = self.model.value[self.free]
         given = [params.get(name, value) for name, value in zip(self.names, own, strict=True)]

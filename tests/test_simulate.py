@@ -320,9 +320,39 @@ def test_mistakes_get_one_sentence(arguments, kind, sentence):
     assert str(found.value) == sentence
 
 
-def test_an_empty_span():
-    with pytest.raises(ac.DataError, match=r"t=\(1, 1\) is no span of time"):
-        ac.simulate(plain(), (1, 1), inputs=NO_FORCE)
+@pytest.mark.parametrize("t", [(1, 1), (0, np.nan), 3, (0,), None, ("a", "b")])
+def test_what_is_no_span(t):
+    with pytest.raises(ac.DataError, match=r"^t=.* is no span of time"):
+        ac.simulate(plain(), t, inputs=NO_FORCE)
+
+
+@pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast"])
+def test_what_is_no_step(dt):
+    with pytest.raises(ac.DataError, match=r"^dt=.* is no step"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=dt)
+
+
+@pytest.mark.parametrize(
+    ("call", "function"),
+    [
+        (lambda m: ac.simulate(m, (0, 1)), "simulate"),
+        (lambda m: ac.fit(m, {"time": [0, 1]}, ["x"]), "fit"),
+        (ac.linearize, "linearize"),
+    ],
+)
+def test_a_model_that_is_not_compiled(call, function):
+    for what in (ac.Component(), ac.Component):
+        with pytest.raises(
+            ac.ModelError, match=f"^{function} needs a compiled model, got Component"
+        ):
+            call(what)
+
+
+def test_what_is_no_mapping():
+    with pytest.raises(ac.DataError, match=r"^params are numbers and networks by name"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, params=[1.0])
+    with pytest.raises(ac.DataError, match=r"^A record is "):
+        ac.fit(plain(), None, ["mass.s"])
 
 
 def test_steps_too_long_are_named_as_the_cause():

@@ -33,8 +33,8 @@ def grid(start: float, end: float, dt: float) -> np.ndarray:
     Raises:
         DataError: if they do not divide the span.
     """
-    if not (np.isfinite(dt) and dt > 0):
-        raise DataError(f"dt={dt} is no step; give a positive time in seconds.")
+    if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
+        raise DataError(f"dt={dt!r} is no step; give a positive time in seconds.")
     span = end - start
     n = max(round(span / dt), 1)
     if abs(span / dt - n) > ON_GRID * n:

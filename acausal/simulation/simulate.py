@@ -12,7 +12,7 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import DataError, StepLimitError
+from acausal.errors import DataError, StepLimitError, need_compiled
 from acausal.precision import precision
 from acausal.simulation import inputs as drives
 from acausal.simulation import solvers
@@ -75,9 +75,11 @@ def simulate(
         The trajectory, any variable of it by name.
 
     Raises:
+        ModelError: for a model that is not compiled.
         DataError: for missing, unknown or malformed inputs and times.
         SimulationError: if the solution stops short of the end, with the time reached.
     """
+    need_compiled(system, "simulate")
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
@@ -118,7 +120,10 @@ def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
 
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:
-    start, end = (float(v) for v in t)
+    try:
+        start, end = (float(v) for v in t)
+    except (TypeError, ValueError):
+        raise DataError(f"t={t!r} is no span of time; give (start, end) in seconds.") from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
         raise DataError(
             f"t=({start:g}, {end:g}) is no span of time; give (start, end), start < end."

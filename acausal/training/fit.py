@@ -14,7 +14,7 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError
+from acausal.errors import TrainingError, need_compiled
 from acausal.simulation.solvers import Solver
 from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import fingerprint
@@ -129,6 +129,7 @@ def fit(
         DataError: if the data do not fit the model, or the checkpoint is damaged or of another training.
         TrainingError: if there is nothing to train, the training cannot go on, or no checkpoint can be written.
     """
+    need_compiled(system, "fit")
     training, kept = split(Data.of(data).for_system(system), validation)
     problem = pose(
         system,
