@@ -89,6 +89,7 @@ if TYPE_CHECKING:
         time,
     )
     from acausal.system import System, compile
+    from acausal.training.ensemble import Ensemble, ensemble
     from acausal.training.fit import fit
     from acausal.training.lbfgs import lbfgs
     from acausal.training.logs import CsvLog, TensorBoardLog
@@ -122,6 +123,7 @@ _HOMES = {
     "simulation.solution": "Solution",
     "symbols": "Eq Flow InitialParameter Input Module Option Output Parameter Potential Start Variable der time",
     "system": "System compile",
+    "training.ensemble": "Ensemble ensemble",
     "training.fit": "fit",
     "training.lbfgs": "lbfgs",
     "training.logs": "CsvLog TensorBoardLog",
@@ -157,6 +159,7 @@ __all__ = [
     "DataError",
     "DeclarationError",
     "Distilled",
+    "Ensemble",
     "Eq",
     "Fit",
     "Flow",
@@ -196,6 +199,7 @@ __all__ = [
     "der",
     "diagram",
     "distill",
+    "ensemble",
     "exp",
     "fit",
     "floor",

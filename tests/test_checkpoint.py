@@ -276,10 +276,10 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr(checkpoints.time, "monotonic", lambda: now[0])
     monkeypatch.setattr(tensors, "write", lambda *arguments: written.append(now[0]))
     log = loop.Log(np.zeros(1), (), ())
-    snapshot = checkpoints.Snapshot(0, 0, None, 0.0, 0, None, None, 0, 0.0, 0.0, 0.0)
+    snapshot = checkpoints.Snapshot(0, 0, None, (), 0, 0.0, 0.0, 0.0)
     with checkpoints.keeping(tmp_path / NAME, 60.0, {}) as keep:
         for now[0] in np.arange(0.0, 200.0, 25.0):
-            keep(snapshot, log.rows())
+            keep(snapshot, (log.rows(),))
     assert written == [0.0, 75.0, 150.0, 175.0]
 
 

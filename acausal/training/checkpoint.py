@@ -17,8 +17,17 @@ from acausal.training.history import Rows
 
 KIND = "checkpoint of a training, version 2"
 
-LOG = "log: "
-"""What columns of the log are called in a file, before their names."""
+LOG = "log {}: "
+"""What columns of a training's log are called in a file, before their names."""
+
+
+class Kept(NamedTuple):
+    """The best of a training: see `acausal.training.member.Best`, less what follows from the rest."""
+
+    loss: float
+    validation: float | None
+    epoch: int
+    trainable: Any
 
 
 class Snapshot(NamedTuple):
@@ -27,8 +36,7 @@ class Snapshot(NamedTuple):
     Attributes:
         leg: of the strategy, by number; ``before``: updates done in the legs before it.
         state: of the leg's trainer.
-        best_loss, best_epoch, best: the best trainable up to now, its loss over the whole record, when it was found.
-        best_validation: its loss over what is held out, if anything is.
+        bests: of each training.
         evaluated: updates that were done at the last evaluation.
         seconds, compiling, updating: what the training took up to now.
     """
@@ -36,18 +44,18 @@ class Snapshot(NamedTuple):
     leg: int
     before: int
     state: Any
-    best_loss: float
-    best_epoch: int
-    best: Any
-    best_validation: float | None
+    bests: tuple[Kept, ...]
     evaluated: int
     seconds: float
     compiling: float
     updating: float
 
 
-Keep = Callable[[Snapshot, Rows], None]
-"""Called with a snapshot and the log between updates."""
+Logs = tuple[Rows, ...]
+"""The log of each training."""
+
+Keep = Callable[[Snapshot, Logs], None]
+"""Called with a snapshot and the logs between updates."""
 
 
 class Stored(NamedTuple):
@@ -56,13 +64,13 @@ class Stored(NamedTuple):
     Attributes:
         path: where from.
         leg: in which it was written.
-        columns: of the log.
+        columns: of each training's log.
         arrays: of the snapshot, by name.
     """
 
     path: Path
     leg: int
-    columns: dict[str, np.ndarray]
+    columns: tuple[dict[str, np.ndarray], ...]
     arrays: dict[str, np.ndarray]
 
     def snapshot(self, like: Snapshot) -> Snapshot:
@@ -104,8 +112,12 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
             f"Checkpoint '{path}' is of another training: {listing(differ)} differ. "
             "Resume with the arguments it was begun with, or name another file."
         )
-    columns = {n.removeprefix(LOG): a for n, a in arrays.items() if n.startswith(LOG)}
-    snapshot = {n: a for n, a in arrays.items() if not n.startswith(LOG)}
+    prefixes = [LOG.format(k) for k in range(int(about["members"]))]
+    columns = tuple(
+        {n.removeprefix(prefix): a for n, a in arrays.items() if n.startswith(prefix)}
+        for prefix in prefixes
+    )
+    snapshot = {n: a for n, a in arrays.items() if not n.startswith(tuple(prefixes))}
     return Stored(path, int(about["leg"]), columns, snapshot)
 
 
@@ -117,7 +129,7 @@ def keeping(path: Path | None, every: float, fingerprint: Mapping[str, str]) -> 
         TrainingError: if the first one cannot be written. When a later one can't, this warns and goes on.
     """
     if path is None:
-        yield lambda snapshot, rows: None
+        yield lambda snapshot, logs: None
         return
     keeper = _Keeper(path, every, fingerprint)
     try:
@@ -131,14 +143,14 @@ class _Keeper:
 
     def __init__(self, path: Path, every: float, fingerprint: Mapping[str, str]) -> None:
         self.path, self.every, self.fingerprint = path, every, dict(fingerprint)
-        self.latest: tuple[Snapshot, Rows] | None = None
-        self.written: tuple[Snapshot, Rows] | None = None
+        self.latest: tuple[Snapshot, Logs] | None = None
+        self.written: tuple[Snapshot, Logs] | None = None
         self.tried = -np.inf
         self.warned = False
 
-    def keep(self, snapshot: Snapshot, rows: Rows) -> None:
+    def keep(self, snapshot: Snapshot, logs: Logs) -> None:
         """Take a snapshot, and write it if it is time."""
-        self.latest = (snapshot, rows)
+        self.latest = (snapshot, logs)
         if self.written is None:
             self._write_first()
         elif time.monotonic() - self.tried >= self.every:
@@ -169,9 +181,13 @@ class _Keeper:
 
     def _try(self) -> OSError | None:
         assert self.latest is not None
-        snapshot, rows = self.latest
-        log = {f"{LOG}{n}": a for n, a in rows.columns().items()}
-        about = {"kind": KIND, "leg": snapshot.leg, "fingerprint": self.fingerprint}
+        snapshot, logs = self.latest
+        log = {
+            LOG.format(k) + n: a for k, rows in enumerate(logs) for n, a in rows.columns().items()
+        }
+        about = {
+            "kind": KIND, "leg": snapshot.leg, "members": len(logs), "fingerprint": self.fingerprint
+        }  # fmt: skip
         try:
             tensors.write(self.path, {**tensors.named(snapshot), **log}, about)
         except OSError as error:
@@ -184,7 +200,7 @@ class _Keeper:
     def _told(self, error: OSError) -> str:
         assert self.latest is not None
         assert self.written is not None
-        now, before = (_epochs(rows) for _, rows in (self.latest, self.written))
+        now, before = (_epochs(logs[0]) for _, logs in (self.latest, self.written))
         return (
             f"Checkpoint '{self.path}' cannot be written at epoch {now}: {reason(error)}; "
             f"that of epoch {before} is still there."

@@ -60,10 +60,10 @@ class Bumped(eqx.Module):
 
 @dataclass(frozen=True, eq=False)
 class Band:
-    """A learned law over its first argument, with its standard deviation.
+    """A learned law over its first argument, or a prediction over time, with its standard deviation.
 
     Attributes:
-        x, law, sigma: shape (points,); other arguments are held at their mean.
+        x, law, sigma: shape (points,); other arguments of a law are held at their mean.
     """
 
     x: np.ndarray

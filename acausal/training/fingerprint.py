@@ -16,7 +16,7 @@ import sympy as sp
 from acausal.system import System
 from acausal.tensors import named
 from acausal.training.held_out import HeldOut
-from acausal.training.problem import Problem
+from acausal.training.problem import Problem, Trainable
 from acausal.training.strategy import Leg
 
 ASIDE = ("context", "nodes", "mesh")
@@ -30,9 +30,21 @@ ARGUMENTS = {
 
 
 def fingerprint(
-    problem: Problem, legs: Sequence[Leg], seed: int, held: HeldOut | None
+    problem: Problem,
+    legs: Sequence[Leg],
+    seeds: Sequence[int],
+    others: Sequence[Trainable],
+    held: HeldOut | None,
 ) -> dict[str, str]:
-    """A digest of everything that decides how a training goes, by argument of `acausal.fit`."""
+    """A digest of everything that decides how trainings go, by argument of `acausal.fit`.
+
+    Arguments:
+        problem: with what the first one starts from.
+        legs: how they go.
+        seeds: one for each.
+        others: where all but the first start.
+        held: what is held out, if anything is.
+    """
     parts = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     posed = {ARGUMENTS.get(n, n): part for n, part in parts.items() if n not in ASIDE}
     planned = {
@@ -43,7 +55,8 @@ def fingerprint(
         "patience": [leg.patience for leg in legs],
         "validation": held and (held.problem.record, held.problem.x0, held.first),
         "optimizer": [leg.trainer for leg in legs],
-        "seed": seed,
+        "seed": seeds,
+        "members": others,
     }
     return {name: digest(part) for name, part in {**posed, **planned}.items()}
 

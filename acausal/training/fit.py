@@ -2,38 +2,29 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import jax
 import numpy as np
 import optax
 from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError, need_compiled
+from acausal.errors import need_compiled
 from acausal.simulation.solvers import Solver
-from acausal.training import checkpoint as checkpoints
-from acausal.training.fingerprint import fingerprint
-from acausal.training.held_out import Validation, hold_out, split
-from acausal.training.loop import Trained
-from acausal.training.loop import train as run
+from acausal.training.held_out import Validation
 from acausal.training.losses import Loss
-from acausal.training.pose import Start, pose
-from acausal.training.progress import Observer, display
+from acausal.training.pose import Start
+from acausal.training.progress import Observer
 from acausal.training.regularizers import Regularizer
-from acausal.training.result import Fit, result
+from acausal.training.result import Fit
 from acausal.training.spread import Device
-from acausal.training.strategy import legs
+from acausal.training.together import together
 
 if TYPE_CHECKING:
     from acausal.system import System
-
-DIVERGED = 1e3
-"""A sequence whose normalised error is larger has diverged."""
 
 
 def fit(
@@ -130,69 +121,35 @@ def fit(
         TrainingError: if there is nothing to train, the training cannot go on, or no checkpoint can be written.
     """
     need_compiled(system, "fit")
-    training, kept = split(Data.of(data).for_system(system), validation)
-    problem = pose(
+    (trained,) = together(
         system,
-        training,
-        (targets,) if isinstance(targets, str) else tuple(targets),
-        dict(system.parameters(seed) if params is None else params),
+        data,
+        targets,
+        seeds=(seed,),
+        params=(system.parameters(seed) if params is None else params,),
         train=train,
         modifiers=modifiers,
         gamma=gamma,
         loss=loss,
-        regularizers=tuple(regularizers),
+        regularizers=regularizers,
         sequence_length=sequence_length,
         batch_size=batch_size,
         subsample=subsample,
+        strategy=strategy,
+        epochs=epochs,
+        optimizer=optimizer,
         dt=dt,
         solver=solver,
         x0=x0,
         dtype=dtype,
         devices=devices,
+        validation=validation,
+        evaluate_every=evaluate_every,
+        patience=patience,
+        progress=progress,
+        observers=observers,
+        checkpoint=checkpoint,
+        checkpoint_every=checkpoint_every,
+        resume=resume,
     )
-    limit = DIVERGED if loss == "nrmse" else np.inf
-    held = hold_out(problem, kept, x0)
-    plan = legs(problem, strategy, epochs, evaluate_every, patience, optimizer, limit)
-    first = jax.process_index() == 0
-    identity = fingerprint(problem, plan, seed, held)
-    path, stored = _checkpoint(checkpoint, resume, identity)
-    with (
-        display(progress and first, sum(leg.epochs for leg in plan)) as show,
-        checkpoints.keeping(path if first else None, checkpoint_every, identity) as keep,
-    ):
-        trained = run(problem, plan, jax.random.key(seed), (show, *observers), keep, stored, held)
-    _warn(trained)
-    return result(problem, trained)
-
-
-def _checkpoint(
-    path: str | Path | None, resume: bool, identity: Mapping[str, str]
-) -> tuple[Path | None, checkpoints.Stored | None]:
-    """Where to write checkpoints, and the one to go on from."""
-    if path is None:
-        if resume:
-            raise TrainingError("resume=True needs a checkpoint to go on from: checkpoint='...'.")
-        return None, None
-    file = checkpoints.place(path)
-    if not file.exists():
-        return file, None
-    if not resume:
-        raise TrainingError(
-            f"There is a checkpoint '{file}' already: resume=True goes on from it; "
-            "to begin anew, remove it or name another file."
-        )
-    return file, checkpoints.read(file, identity)
-
-
-def _warn(trained: Trained) -> None:
-    diverged = trained.history.divergences
-    if diverged:
-        warnings.warn(
-            f"Something diverged in {len(diverged)} of {trained.history.epochs} epochs and was left out "
-            f"(fit.history.divergences); first, {diverged[0]}.",
-            stacklevel=3,
-        )
-    if not np.isfinite(trained.best.loss):
-        warnings.warn(
-            "The trained model diverges over the whole record: its loss is infinite.", stacklevel=3
-        )
+    return trained

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from statistics import fmean as mean
 
 import jax
 import jax.numpy as jnp
@@ -14,44 +14,22 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError
-from acausal.training.checkpoint import Keep, Snapshot, Stored
+from acausal.training.checkpoint import Keep, Kept, Snapshot, Stored
 from acausal.training.held_out import HeldOut
-from acausal.training.history import History, Log
+from acausal.training.history import Divergence, History, Log
 from acausal.training.lbfgs import Search
-from acausal.training.problem import Problem, Simulated, Trainable
+from acausal.training.member import Best, Member, joined, parted
+from acausal.training.problem import Problem, Trainable
 from acausal.training.progress import Observer, Progress
 from acausal.training.spread import agreed, local, shared
 from acausal.training.strategy import Leg
-from acausal.training.trainer import CHUNK, State, advance, begin
+from acausal.training.trainer import CHUNK, Entry, State, advance, begin
 
 LOOK = 0.5
 """Seconds between two looks at the training, about."""
 
 PATIENCE = 50
 """So many updates rejected in a row end a training."""
-
-
-class Best(NamedTuple):
-    """The best state of a training.
-
-    Attributes:
-        loss: over the whole record; infinite if the model diverges there.
-        validation: loss over what is held out, likewise; ``None`` where nothing is.
-        epoch: updates done.
-        trainable: what was trained.
-        simulated: one simulation of the whole record.
-    """
-
-    loss: float
-    validation: float | None
-    epoch: int
-    trainable: Trainable
-    simulated: Simulated
-
-    @property
-    def score(self) -> float:
-        """The loss that decides which is best."""
-        return self.loss if self.validation is None else self.validation
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,20 +53,24 @@ class Trained:
 
 def train(
     problem: Problem,
+    starts: Sequence[Trainable],
     legs: Sequence[Leg],
-    key: Array,
+    keys: Sequence[Array],
     observers: Sequence[Observer],
     keep: Keep = lambda snapshot, rows: None,
     stored: Stored | None = None,
     held: HeldOut | None = None,
-) -> Trained:
+) -> tuple[Trained, ...]:
     """Train leg by leg, each from where the one before was best, or until the user interrupts.
+
+    Several trainings of one problem go side by side, in one program. A leg ends when it has ended for all of them.
 
     Arguments:
         problem: what every leg serves: evaluations over the whole record, among which the best is chosen where
             nothing is held out.
+        starts: where each training begins.
         legs: what to minimise and how.
-        key: source of all batches.
+        keys: sources of all batches, one for each training.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
         keep: called with all that is needed to go on from there, before the first update and after every few.
         stored: where to go on from; by default from the start.
@@ -98,13 +80,13 @@ def train(
         TrainingError: if `PATIENCE` updates in a row had to be rejected.
         DataError: if what was stored is of another training.
     """
-    run = _Run(problem, legs, key, observers, keep, held)
+    run = _Run(problem, legs, keys, observers, keep, held)
     interrupted = False
     if stored is None:
-        run.evaluate(shared(problem.start(), problem.mesh))
+        run.evaluate(shared(joined(starts), problem.mesh))
         first, state = 0, None
     else:
-        first, state = run.resume(stored)
+        first, state = run.resume(stored, starts)
     try:
         for i in range(first, len(legs)):
             run.follow(i, run.enter(i) if state is None else state)
@@ -112,55 +94,52 @@ def train(
     except KeyboardInterrupt:
         interrupted = True
         run.evaluate(run.last)
-    return Trained(
-        run.best,
-        run.log.history(),
-        time.perf_counter() - run.began,
-        run.compiling,
-        run.updating,
-        interrupted,
+    seconds = time.perf_counter() - run.began
+    return tuple(
+        Trained(m.best, m.log.history(), seconds, run.compiling, run.updating, interrupted)
+        for m in run.members
     )
 
 
 class _Run:
-    """A training on its way."""
+    """Trainings on their way."""
 
-    best: Best
     last: Trainable
 
     def __init__(
         self,
         problem: Problem,
         legs: Sequence[Leg],
-        key: Array,
+        keys: Sequence[Array],
         observers: Sequence[Observer],
         keep: Keep,
         held: HeldOut | None,
     ) -> None:
         self.began = time.perf_counter()
-        self.mesh, self.problem = problem.mesh, shared(problem, problem.mesh)
-        self.held = shared(held, problem.mesh)
+        self.mesh = problem.mesh
+        on_devices = shared((problem, held), self.mesh)
+        self.members = [Member(*on_devices, key) for key in keys]
         self.legs, self.observers, self.keep = legs, observers, keep
-        self.keys = [jax.random.fold_in(key, i) if i else key for i in range(len(legs))]
-        times = np.asarray(problem.record.steps.t)
-        self.log = Log(times, tuple(problem.regularizers), problem.modifiers.names)
         self.epochs = sum(leg.epochs for leg in legs)
         self.compiling = self.updating = 0.0
         self.evaluated = -1
         self.before = 0
 
-    def resume(self, stored: Stored) -> tuple[int, State]:
+    @property
+    def done(self) -> int:
+        """Updates done in all legs."""
+        return self.members[0].log.epochs
+
+    def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
         """Be where a training was when it was stored; returns its leg and the trainer's state."""
-        start, leg = self.problem.start(), self.legs[stored.leg]
-        state = begin(leg.trainer, local(_entry(leg, start), self.mesh), self.keys[stored.leg])
-        validation = None if self.held is None else 0.0
-        like = Snapshot(stored.leg, 0, state, 0.0, 0, start, validation, 0, 0.0, 0.0, 0.0)
+        validation = None if self.members[0].held is None else 0.0
+        bests = tuple(Kept(0.0, validation, 0, start) for start in starts)
+        state = self._begin(stored.leg, starts)
+        like = Snapshot(stored.leg, 0, state, bests, 0, 0.0, 0.0, 0.0)
         snapshot = shared(stored.snapshot(like), self.mesh)
-        self.log.go_on(stored.columns)
-        simulated = self.problem.simulate(snapshot.best)
-        self.best = Best(
-            snapshot.best_loss, snapshot.best_validation, snapshot.best_epoch, snapshot.best, simulated
-        )  # fmt: skip
+        for member, columns, best in zip(self.members, stored.columns, snapshot.bests, strict=True):
+            member.log.go_on(columns)
+            member.best = Best(*best, member.problem.simulate(best.trainable))
         self.last = snapshot.state.trainable
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         self.began -= snapshot.seconds
@@ -169,43 +148,49 @@ class _Run:
 
     def enter(self, i: int) -> State:
         """The trainer's state at the start of a leg."""
-        leg, self.before = self.legs[i], self.log.epochs
-        entry = local(_entry(leg, self.best.trainable), self.mesh)
-        return shared(begin(leg.trainer, entry, self.keys[i]), self.mesh)
+        self.before = self.done
+        return shared(self._begin(i, [m.best.trainable for m in self.members]), self.mesh)
+
+    def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
+        leg = self.legs[i]
+        keys = [jax.random.fold_in(m.key, i) if i else m.key for m in self.members]
+        begins = [
+            begin(leg.trainer, local(_entry(leg, entry), self.mesh), key)
+            for entry, key in zip(entries, keys, strict=True)
+        ]
+        return joined(begins)
 
     def follow(self, i: int, state: State) -> None:
         """Make all updates of a leg that are not done yet."""
-        leg, log = self.legs[i], self.log
+        leg = self.legs[i]
         objective = shared(leg.objective, self.mesh)
         self._keep(i, state)
-        if log.epochs - self.before < leg.epochs:
+        if self.done - self.before < leg.epochs:
             clock = time.perf_counter()
             jax.block_until_ready(
-                advance(objective, leg.trainer, state, state.epoch)
+                advance(objective, leg.trainer, state, jnp.max(state.epoch))
             )  # compiles, and does nothing
             self.compiling += time.perf_counter() - clock
         size = 1
-        while (done := log.epochs - self.before) < leg.epochs and not self._is_over(leg, state):
+        while (done := self.done - self.before) < leg.epochs and not self._is_over(leg, state):
             due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
             count = min(size, due - done, CHUNK)
             clock = time.perf_counter()
             until = shared(jnp.asarray(done + count, int), self.mesh)
             state, told = jax.block_until_ready(advance(objective, leg.trainer, state, until))
             ended = time.perf_counter()
-            new = log.add(told, count, clock - self.began, ended - self.began)
-            self.last = state.trainable
+            new = self._log(state, told, count, clock - self.began, ended - self.began)
             per_epoch = agreed((ended - clock) / count, self.mesh)
             self.updating += ended - clock
             size = max(1, min(CHUNK, int(LOOK / per_epoch)))
-            _check_rejections(log, int(state.rejected))
             if done + count == due:
                 self.evaluate(state.trainable)
             self._keep(i, state)
             progress = Progress(
-                log.epochs,
+                self.done,
                 self.epochs,
-                log.loss,
-                self.best.score,
+                mean(m.log.loss for m in self.members),
+                mean(m.best.score for m in self.members),
                 ended - self.began,
                 per_epoch,
                 tuple(new),
@@ -215,33 +200,45 @@ class _Run:
         self.evaluate(state.trainable)
         self._keep(i, state)
 
+    def _log(
+        self, state: State, told: Entry, count: int, started: float, ended: float
+    ) -> list[Divergence]:
+        """Write down what some updates told; returns what diverged."""
+        size, new = len(self.members), []
+        rejected = parted(state.rejected, size)
+        for k, entry in enumerate(parted(jax.tree.map(np.asarray, told), size, axis=1)):
+            log = self.members[k].log
+            new += log.add(entry, count, started, ended)
+            _check_rejections(log, int(rejected[k]))
+        self.last = state.trainable
+        return new
+
     def _keep(self, leg: int, state: State) -> None:
         """Hand out all that is needed to go on from here."""
-        best, seconds = self.best, time.perf_counter() - self.began
+        seconds = time.perf_counter() - self.began
+        bests = tuple(Kept(*m.best[:-1]) for m in self.members)
         snapshot = Snapshot(
-            leg, self.before, state, best.loss, best.epoch, best.trainable, best.validation,
-            self.evaluated, seconds, self.compiling, self.updating,
-        )  # fmt: skip
-        self.keep(snapshot, self.log.rows())
+            leg, self.before, state, bests, self.evaluated, seconds, self.compiling, self.updating
+        )
+        self.keep(snapshot, tuple(m.log.rows() for m in self.members))
 
     def evaluate(self, trainable: Trainable) -> None:
-        """Simulate what decides, and keep the better of the trainable and the best so far."""
-        if self.evaluated == self.log.epochs:
+        """Let every member keep the better of its trainable and its best so far."""
+        if self.evaluated == self.done:
             return
-        self.evaluated = self.log.epochs
-        simulated = self.problem.simulate(trainable)
-        validation = None if self.held is None else _told(self.held.loss(trainable))
-        new = Best(_told(simulated.loss), validation, self.log.epochs, trainable, simulated)
-        self.log.evaluated(new.loss, math.nan if validation is None else validation)
-        if self.log.epochs == 0 or new.score < self.best.score or math.isinf(self.best.score):
-            self.best = new
+        self.evaluated = self.done
+        for member, own in zip(self.members, parted(trainable, len(self.members)), strict=True):
+            member.evaluate(own)
         self.last = trainable
 
     def _is_over(self, leg: Leg, state: State) -> bool:
-        """Whether a leg has nothing more to find, or found nothing better for too long."""
-        since = max(self.before, self.best.epoch)
-        vain = sum(evaluation.epoch > since for evaluation in self.log.evaluations)
-        return _is_converged(state) or (leg.patience is not None and vain >= leg.patience)
+        """Whether a leg has nothing more to find, or found nothing better for too long, for any member."""
+        converged = parted(_converged(state), len(self.members))
+        patience = math.inf if leg.patience is None else leg.patience
+        return all(
+            bool(c) or m.vain(self.before) >= patience
+            for c, m in zip(converged, self.members, strict=True)
+        )
 
 
 def _entry(leg: Leg, best: Trainable) -> Trainable:
@@ -252,12 +249,11 @@ def _entry(leg: Leg, best: Trainable) -> Trainable:
     return replace(best, states=best.states[: len(needed)])
 
 
-def _told(loss: Array) -> float:
-    return float(loss) if math.isfinite(float(loss)) else math.inf
-
-
-def _is_converged(state: State) -> bool:
-    return isinstance(state.optimizer, Search) and bool(state.optimizer.converged)
+def _converged(state: State) -> Array:
+    """Whether the optimizer says that it has nothing more to find, for each member."""
+    if isinstance(state.optimizer, Search):
+        return state.optimizer.converged
+    return jnp.zeros_like(state.epoch, bool)
 
 
 def _check_rejections(log: Log, rejected: int) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from acausal import plot
 from acausal.report import Page
-from acausal.training.confidence import Confidence
+from acausal.training.confidence import Band, Confidence
 from acausal.training.residuals import Residuals
 
 if TYPE_CHECKING:
@@ -35,12 +35,12 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
     held = [("loss over what is held out", f"{b:.4g}", f"{fit.validation_loss:.4g}") for b in kept]
     page.table(("figure", "before", "after"), [losses, *held])
     page.figure(
-        _figure(WIDE, plot.losses, {"whole record": fit.history}),
+        figure(WIDE, plot.losses, {"whole record": fit.history}),
         "The loss, update by update: of the batches (thin) and over the whole record.",
     )
     _trajectories(page, fit)
     sure = fit.confidence()
-    _laws(page, fit, sure)
+    laws(page, fit, sure.laws)
     _parameters(page, fit, sure)
     _leftovers(page, fit.residuals())
     if fit.history.divergences:
@@ -58,7 +58,8 @@ def _summary(fit: Fit) -> str:
     )
 
 
-def _figure(size: tuple[float, float], draw: Any, *what: Any) -> Figure:
+def figure(size: tuple[float, float], draw: Any, *what: Any) -> Figure:
+    """A figure with one pair of axes, drawn by ``draw(axes, *what)``."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=size, layout="constrained")
@@ -66,12 +67,17 @@ def _figure(size: tuple[float, float], draw: Any, *what: Any) -> Figure:
     return figure
 
 
+def stretch(samples: int) -> slice:
+    """The rows in the middle of a record that are shown closely."""
+    middle = samples // 2
+    return slice(max(0, middle - STRETCH // 2), middle + STRETCH // 2)
+
+
 def _trajectories(page: Page, fit: Fit) -> None:
     page.section("Measured and simulated")
     record = fit.problem.record
     t, before = np.asarray(record.steps.t), fit.predicted_before
-    middle = len(t) // 2
-    rows = slice(max(0, middle - STRETCH // 2), middle + STRETCH // 2)
+    rows = stretch(len(t))
     for i, name in enumerate(fit.problem.targets):
 
         def draw(ax: Axes, i: int = i, name: str = name) -> None:
@@ -86,20 +92,21 @@ def _trajectories(page: Page, fit: Fit) -> None:
             ax.grid(alpha=0.25)
             ax.legend(frameon=False, ncols=3)
 
-        page.figure(_figure(WIDE, draw), f"A stretch of '{name}'.")
+        page.figure(figure(WIDE, draw), f"A stretch of '{name}'.")
 
 
-def _laws(page: Page, fit: Fit, sure: Confidence) -> None:
-    if not sure.laws:
+def laws(page: Page, fit: Fit, bands: Mapping[str, Band]) -> None:
+    """Show learned laws by network with their bands, over what the networks have seen."""
+    if not bands:
         return
     page.section("Learned laws")
     page.text(
         "The band is two standard deviations wide to either side. Dashed and solid lines mark one and two standard "
         "deviations of what the network has seen; in the shaded part it extrapolates. Ticks are samples."
     )
-    for name, band in sure.laws.items():
+    for name, band in bands.items():
 
-        def draw(ax: Axes, name: str = name, band: Any = band) -> None:
+        def draw(ax: Axes, name: str = name, band: Band = band) -> None:
             plot.band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
             room = 0.25 * (high - low) + 1e-12
@@ -109,7 +116,7 @@ def _laws(page: Page, fit: Fit, sure: Confidence) -> None:
             ax.plot(samples, np.full(len(samples), low - room), "|", color=MEASURED, alpha=0.25)
             ax.set(xlabel="argument", ylabel=name)
 
-        page.figure(_figure(NARROW, draw), f"The law of '{name}' and how sure it is.")
+        page.figure(figure(NARROW, draw), f"The law of '{name}' and how sure it is.")
 
 
 def _parameters(page: Page, fit: Fit, sure: Confidence) -> None:
@@ -140,4 +147,4 @@ def _leftovers(page: Page, found: tuple[Residuals, ...]) -> None:
             ax.grid(alpha=0.25)
             ax.legend(frameon=False)
 
-        page.figure(_figure(WIDE, draw), f"Correlations of the residuals of '{residuals.target}'.")
+        page.figure(figure(WIDE, draw), f"Correlations of the residuals of '{residuals.target}'.")

@@ -84,6 +84,11 @@ class Fit:
     problem: Problem
     trained: Trainable
 
+    @property
+    def score(self) -> float:
+        """The loss by which the best was chosen: over what was held out, else over the whole record."""
+        return self.loss if self.validation_loss is None else self.validation_loss
+
     def confidence(self) -> Confidence:
         """How well the record determines the learned laws and the trained parameters."""
         return confidence(self.problem, self.trained, self.arguments)

@@ -1,4 +1,4 @@
-"""How training moves: updates of an optimizer, many in one compiled program.
+"""How training moves: updates of an optimizer, many in one compiled program, of one training or of several.
 
 The trainer knows nothing of models. It asks a problem for batches, losses and penalties, takes gradients and
 sees to it that a sequence which diverges poisons neither weights nor the optimizer.
@@ -107,7 +107,7 @@ class Trainer(NamedTuple):
 
 
 def begin(trainer: Trainer, trainable: Any, key: Array) -> State:
-    """The state before the first update."""
+    """The state before the first update. Those of several trainings, stacked, can be advanced together."""
     zero = jnp.zeros((), int)
     return State(trainable, trainer.optimizer.init(trainable), zero, zero, key)
 
@@ -116,28 +116,41 @@ def begin(trainer: Trainer, trainable: Any, key: Array) -> State:
 def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple[State, Entry]:
     """Make updates until ``until`` of them are done, at most `CHUNK`.
 
+    Arguments:
+        problem: what to minimise.
+        trainer: how.
+        state: of one training, or of several with a leading axis.
+        until: updates, the same for all of them.
+
     Returns:
-        The new state, and a log with room for `CHUNK` entries of which the first are filled.
+        The new state, and a log with room for `CHUNK` entries of which the first are filled; where there are several
+        trainings, their axis is the second one.
     """
-    first = state.epoch
-    log = _empty_log(problem, trainer, state.trainable)
+
+    def alone(state: State) -> tuple[State, Entry]:
+        return _update(problem, trainer, state)
+
+    def said(trainable: Any) -> Entry:
+        return _empty_entry(problem, trainer, trainable)
+
+    update, empty = (jax.vmap(alone), jax.vmap(said)) if state.epoch.ndim else (alone, said)
+    first = jnp.max(state.epoch)
+    shapes = jax.eval_shape(empty, state.trainable)
+    log = jax.tree.map(lambda s: jnp.zeros((CHUNK, *s.shape), s.dtype), shapes)
 
     def body(carry: tuple[State, Entry]) -> tuple[State, Entry]:
         state, log = carry
-        row = state.epoch - first
-        state, entry = _update(problem, trainer, state)
+        row = jnp.max(state.epoch) - first
+        state, entry = update(state)
         return state, jax.tree.map(lambda rows, new: rows.at[row].set(new), log, entry)
 
-    return jax.lax.while_loop(lambda carry: carry[0].epoch < until, body, (state, log))
+    return jax.lax.while_loop(lambda carry: jnp.max(carry[0].epoch) < until, body, (state, log))
 
 
-def _empty_log(problem: Objective, trainer: Trainer, trainable: Any) -> Entry:
-    number, count = jnp.zeros(CHUNK), jnp.zeros(CHUNK, int)
-    said = jax.eval_shape(
-        lambda tree: (problem.penalties(tree), trainer.log(problem, tree)), trainable
-    )
-    penalties, logged = jax.tree.map(lambda s: jnp.zeros((CHUNK, *s.shape), s.dtype), said)
-    return Entry(number, penalties, logged, count, count, jnp.zeros(CHUNK, bool))
+def _empty_entry(problem: Objective, trainer: Trainer, trainable: Any) -> Entry:
+    number, count = jnp.zeros(()), jnp.zeros((), int)
+    said = problem.penalties(trainable), trainer.log(problem, trainable)
+    return Entry(number, *said, count, count, jnp.zeros((), bool))
 
 
 class _Gradient(eqx.Module):

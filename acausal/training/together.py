@@ -1,0 +1,170 @@
+"""Trainings of one model on one record, from several starts side by side; mostly there is but one."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import equinox as eqx
+import jax
+import numpy as np
+import optax
+from jax.typing import DTypeLike
+from numpy.typing import ArrayLike
+
+from acausal.data import Data
+from acausal.errors import TrainingError
+from acausal.simulation.solvers import Solver
+from acausal.training import checkpoint as checkpoints
+from acausal.training.fingerprint import fingerprint
+from acausal.training.held_out import Validation, hold_out, split
+from acausal.training.loop import Trained
+from acausal.training.loop import train as run
+from acausal.training.losses import Loss
+from acausal.training.pose import Start, pose
+from acausal.training.problem import Problem
+from acausal.training.progress import Observer, display
+from acausal.training.regularizers import Regularizer
+from acausal.training.result import Fit, result
+from acausal.training.spread import Device
+from acausal.training.strategy import legs
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+DIVERGED = 1e3
+"""A sequence whose normalised error is larger has diverged."""
+
+
+def together(
+    system: System,
+    data: Data | Mapping[str, ArrayLike],
+    targets: str | Sequence[str],
+    *,
+    seeds: Sequence[int],
+    params: Sequence[Mapping[str, Any]],
+    train: Iterable[str] | None,
+    modifiers: Mapping[str, float] | Iterable[str] | None,
+    gamma: float,
+    loss: str | Loss,
+    regularizers: Iterable[Regularizer],
+    sequence_length: float | None,
+    batch_size: int,
+    subsample: float | None,
+    strategy: str | Sequence[str],
+    epochs: int | Sequence[int] | None,
+    optimizer: optax.GradientTransformation | None,
+    dt: float | None,
+    solver: str | Solver,
+    x0: Start | Mapping[str, float],
+    dtype: DTypeLike,
+    devices: Sequence[Device] | None,
+    validation: Validation,
+    evaluate_every: int | None,
+    patience: int | None,
+    progress: bool,
+    observers: Sequence[Observer],
+    checkpoint: str | Path | None,
+    checkpoint_every: float,
+    resume: bool,
+) -> tuple[Fit, ...]:
+    """Train from several starts; arguments as those of `acausal.fit`, but a seed and parameters for each.
+
+    What is not trained is as the first parameters have it.
+
+    Raises:
+        DataError, TrainingError: as `acausal.fit` does.
+    """
+    training, kept = split(Data.of(data).for_system(system), validation)
+    problem = pose(
+        system,
+        training,
+        (targets,) if isinstance(targets, str) else tuple(targets),
+        dict(params[0]),
+        train=train,
+        modifiers=modifiers,
+        gamma=gamma,
+        loss=loss,
+        regularizers=tuple(regularizers),
+        sequence_length=sequence_length,
+        batch_size=batch_size,
+        subsample=subsample,
+        dt=dt,
+        solver=solver,
+        x0=x0,
+        dtype=dtype,
+        devices=devices,
+    )
+    limit = DIVERGED if loss == "nrmse" else np.inf
+    held = hold_out(problem, kept, x0)
+    plan = legs(problem, strategy, epochs, evaluate_every, patience, optimizer, limit)
+    problems = [_from(problem, own) for own in params]
+    starts = [p.start() for p in problems]
+    keys = [jax.random.key(seed) for seed in seeds]
+    first = jax.process_index() == 0
+    identity = fingerprint(problem, plan, seeds, starts[1:], held)
+    path, stored = _checkpoint(checkpoint, resume, identity)
+    with (
+        display(progress and first, sum(leg.epochs for leg in plan)) as show,
+        checkpoints.keeping(path if first else None, checkpoint_every, identity) as keep,
+    ):
+        trained = run(problem, starts, plan, keys, (show, *observers), keep, stored, held)
+    for one in trained:
+        _warn(one)
+    return tuple(map(result, problems, trained))
+
+
+def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
+    """The problem whose training starts from the networks of other parameters.
+
+    Raises:
+        TrainingError: if they are of another kind.
+    """
+    for name in problem.networks:
+        if _shape(params[name]) != _shape(problem.params[name]):
+            raise TrainingError(
+                f"The networks '{name}' that are trained together are not alike: give all of them one architecture."
+            )
+    networks = {name: params[name] for name in problem.networks}
+    return replace(problem, params={**problem.params, **networks})
+
+
+def _shape(network: Any) -> Any:
+    arrays, rest = eqx.partition(network, eqx.is_inexact_array)
+    return jax.tree.map(lambda a: (a.shape, a.dtype), arrays), jax.tree.structure(rest)
+
+
+def _checkpoint(
+    path: str | Path | None, resume: bool, identity: Mapping[str, str]
+) -> tuple[Path | None, checkpoints.Stored | None]:
+    """Where to write checkpoints, and the one to go on from."""
+    if path is None:
+        if resume:
+            raise TrainingError("resume=True needs a checkpoint to go on from: checkpoint='...'.")
+        return None, None
+    file = checkpoints.place(path)
+    if not file.exists():
+        return file, None
+    if not resume:
+        raise TrainingError(
+            f"There is a checkpoint '{file}' already: resume=True goes on from it; "
+            "to begin anew, remove it or name another file."
+        )
+    return file, checkpoints.read(file, identity)
+
+
+def _warn(trained: Trained) -> None:
+    diverged = trained.history.divergences
+    if diverged:
+        warnings.warn(
+            f"Something diverged in {len(diverged)} of {trained.history.epochs} epochs and was left out "
+            f"(fit.history.divergences); first, {diverged[0]}.",
+            stacklevel=4,
+        )
+    if not np.isfinite(trained.best.loss):
+        warnings.warn(
+            "The trained model diverges over the whole record: its loss is infinite.", stacklevel=4
+        )
