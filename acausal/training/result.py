@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from acausal.data import Data
 from acausal.distilled import Distilled, distill
 from acausal.errors import TrainingError, nearest
 from acausal.neural import remove_offset
 from acausal.training.confidence import Confidence, confidence
+from acausal.training.conformal import Conformal, conformal
 from acausal.training.history import History
 from acausal.training.loop import Trained
 from acausal.training.page import write_page
+from acausal.training.pose import Start
 from acausal.training.problem import Problem, Trainable, modified
 from acausal.training.residuals import Residuals, residuals
 from acausal.training.spread import local
@@ -92,6 +97,26 @@ class Fit:
     def confidence(self) -> Confidence:
         """How well the record determines the learned laws and the trained parameters."""
         return confidence(self.problem, self.trained, self.arguments)
+
+    def conformal(
+        self,
+        data: Data | Mapping[str, ArrayLike],
+        level: float = 0.9,
+        x0: Start | Mapping[str, float] = "data",
+    ) -> Conformal:
+        """Bands around predictions that hold a share of all measurements, calibrated on a record of its own.
+
+        Arguments:
+            data: a record with inputs and targets, of which the training has seen nothing; that by which it was
+                chosen (``validation``) is none.
+            level: the share, in (0, 1).
+            x0: the state at the record's start: ``"data"`` as measured, ``"model"`` as the model starts, or
+                values by name that replace the measured ones.
+
+        Raises:
+            DataError: if the record is too short for the level, or lacks what is needed.
+        """
+        return conformal(self.problem, self.trained, data, level, x0)
 
     def residuals(self) -> tuple[Residuals, ...]:
         """What the trained model leaves over of every target."""
