@@ -24,9 +24,9 @@ def noisy(seed: int, cubic: float = CUBIC) -> ac.Data:
 
 
 @cache
-def trained() -> ac.Fit:
+def trained(seed: int = 0) -> ac.Fit:
     return ac.fit(
-        learned(), noisy(0), "mass.a", x0="model", strategy="whole_record", epochs=60,
+        learned(), noisy(seed), "mass.a", x0="model", strategy="whole_record", epochs=60,
         modifiers=["mass.m"], solver="rk4", progress=False,
     )  # fmt: skip
 
@@ -41,6 +41,23 @@ def test_the_band_of_a_law_holds_the_truth():
     assert band.sigma[inside].max() < 0.2 * 20.0
     middle, edge = band.sigma[len(band.sigma) // 2], band.sigma[0]
     assert edge > 3 * middle  # nothing was seen there
+
+
+@pytest.mark.slow
+def test_bands_hold_the_truth_as_often_as_they_say():
+    """Over noises: two standard deviations are 95 % of a Gaussian; a band that is too wide would tell nothing."""
+    shares: list[float] = []
+    scores: list[float] = []
+    for seed in range(10):
+        fit = trained(seed)
+        band = fit.confidence().laws["extra.net"]
+        low, high = (float(v[0]) for v in fit.seen["extra.net"].interval(1.5))
+        inside = (band.x > low) & (band.x < high)
+        z = (band.law - CUBIC * band.x**3)[inside] / band.sigma[inside]
+        shares.append(float(np.mean(np.abs(z) < 2)))
+        scores.append(float(np.sqrt(np.mean(z**2))))
+    assert 0.85 < np.mean(shares) < 1
+    assert 0.6 < np.mean(scores) < 1.4
 
 
 def test_standard_deviations_are_those_of_repeated_measurements():
