@@ -93,6 +93,7 @@ if TYPE_CHECKING:
     from acausal.training.fit import fit
     from acausal.training.lbfgs import lbfgs
     from acausal.training.logs import CsvLog, TensorBoardLog
+    from acausal.training.modifiers import Bounded, Shift
     from acausal.training.regularizers import SmallCorrection, ZeroCrossing
     from acausal.training.result import Fit
 
@@ -127,6 +128,7 @@ _HOMES = {
     "training.fit": "fit",
     "training.lbfgs": "lbfgs",
     "training.logs": "CsvLog TensorBoardLog",
+    "training.modifiers": "Bounded Shift",
     "training.regularizers": "SmallCorrection ZeroCrossing",
     "training.result": "Fit",
 }
@@ -151,6 +153,7 @@ __all__ = [
     "MLP",
     "Abs",
     "AcausalError",
+    "Bounded",
     "Component",
     "ConnectionError",
     "Connector",
@@ -177,6 +180,7 @@ __all__ = [
     "Output",
     "Parameter",
     "Potential",
+    "Shift",
     "Signal",
     "SimulationError",
     "SmallCorrection",

@@ -99,11 +99,11 @@ def losses(
 
 
 def modifiers(ax: Axes, fit: Fit, *, targets: Mapping[str, float] | None = None) -> None:
-    """Draw the relative changes of trained parameters over epochs, and their targets where these are known."""
+    """Draw the changes of trained parameters over epochs, and their targets where these are known."""
     for (name, values), color in zip(fit.history.modifiers.items(), LEARNED, strict=False):
         ax.plot(values, color=color, lw=1.4, label=name)
         if targets is not None:
             ax.axhline(targets[name], color=color, lw=0.9, ls="--")
-    ax.set(xlabel="epoch", ylabel="relative change")
+    ax.set(xlabel="epoch", ylabel="change")
     ax.grid(alpha=0.25)
     ax.legend(frameon=False)

@@ -20,6 +20,7 @@ from jax.scipy.special import erf
 from acausal.errors import TrainingError
 from acausal.networks.scaled import Potential, law_of
 from acausal.neural import output_scale
+from acausal.training.modifiers import Modifiers
 from acausal.training.problem import Problem, Trainable
 
 BUMPS, REACH = 12, 3.0
@@ -27,9 +28,6 @@ BUMPS, REACH = 12, 3.0
 
 POINTS = 201
 """Points of a band."""
-
-BELIEVED = 1.0
-"""The relative change up to which a parameter is believed before there are data."""
 
 ALIKE = 0.98
 """Correlation from which on the data can't tell two parameters apart."""
@@ -79,20 +77,26 @@ class Confidence:
 
     Attributes:
         laws: by network.
-        parameters: standard deviations of the trained parameters, relative to their values, by name.
+        parameters: standard deviations of the trained parameters, by name: relative to their values, or absolute
+            where `Fit.modifiers` is.
         correlation: between the parameters, in their order.
         noise: standard deviation of what is left over, by target.
+        modifiers: how the parameters move.
     """
 
     laws: dict[str, Band]
     parameters: dict[str, float]
     correlation: np.ndarray
     noise: dict[str, float]
+    modifiers: Modifiers
 
     def words(self) -> list[str]:
         """What the parameters' uncertainties mean, one sentence each."""
         names = list(self.parameters)
-        told = [f"'{n}' is known to ±{100 * self.parameters[n]:.2g} % (one sigma)." for n in names]
+        told = [
+            f"'{n}' is known to ±{self.modifiers.told(n, sigma, '.2g')} (one sigma)."
+            for n, sigma in self.parameters.items()
+        ]
         told += [
             f"The data can hardly tell '{names[i]}' from '{names[j]}' (correlation {self.correlation[i, j]:+.3f}): "
             "only a combination of the two is known well; fix one, or measure more."
@@ -122,9 +126,9 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: _bumped(params[n], seen[n]) for n in laws}
-    believed = np.concatenate(
-        [np.full(BUMPS, output_scale(params[n])) for n in laws] + [np.full(len(names), BELIEVED)]
-    )
+    kinds = zip(problem.modifiers.kinds, names, strict=True)
+    prior = [kind.believed(float(params[n])) for kind, n in kinds]
+    believed = np.concatenate([np.full(BUMPS, output_scale(params[n])) for n in laws] + [prior])
 
     def changed(z: Array) -> dict[str, Any]:
         heights = jnp.split(z[: BUMPS * len(laws)], len(laws)) if laws else []
@@ -132,9 +136,8 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
             n: eqx.tree_at(lambda b: b.heights, bumped[n], h)
             for n, h in zip(laws, heights, strict=True)
         }
-        rest = z[BUMPS * len(laws) :]
-        numbers = {n: (1 + c) * params[n] for n, c in zip(names, rest, strict=True)}
-        return {**params, **nets, **numbers}
+        changes = dict(zip(names, z[BUMPS * len(laws) :], strict=True))
+        return problem.modifiers.changed({**params, **nets}, changes)
 
     scale = jnp.asarray(believed)
     left, slopes = _sensitivity(problem, trainable, lambda z: changed(scale * z), len(believed))
@@ -157,6 +160,7 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
         dict(zip(names, sigma.tolist(), strict=True)),
         own / np.maximum(np.outer(sigma, sigma), 1e-300),
         dict(zip(problem.targets, noise.tolist(), strict=True)),
+        problem.modifiers,
     )
 
 

@@ -48,6 +48,7 @@ def fingerprint(
     parts = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     posed = {ARGUMENTS.get(n, n): part for n, part in parts.items() if n not in ASIDE}
     planned = {
+        "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.x0, problem.nodes is None),
         "strategy": [leg.name for leg in legs],
         "epochs": [leg.epochs for leg in legs],

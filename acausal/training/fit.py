@@ -16,6 +16,7 @@ from acausal.errors import need_compiled
 from acausal.simulation.solvers import Solver
 from acausal.training.held_out import Validation
 from acausal.training.losses import Loss
+from acausal.training.modifiers import Modifier
 from acausal.training.pose import Start
 from acausal.training.progress import Observer
 from acausal.training.regularizers import Regularizer
@@ -34,7 +35,7 @@ def fit(
     *,
     params: Mapping[str, Any] | None = None,
     train: Iterable[str] | None = None,
-    modifiers: Mapping[str, float] | Iterable[str] | None = None,
+    modifiers: Mapping[str, float | Modifier] | Iterable[str] | None = None,
     gamma: float = 0.2,
     loss: str | Loss = "nrmse",
     regularizers: Iterable[Regularizer] = (),
@@ -72,7 +73,7 @@ def fit(
         params: where to start, as `system.parameters` gives them; by default with networks made from ``seed``.
         train: names of the networks to train; by default all.
         modifiers: parameters to train beside them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
-            a γ by name.
+            by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
         gamma: the γ of modifiers without their own.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
             (M, k), (M, k), (k,); averaged over a batch's sequences.

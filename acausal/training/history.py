@@ -42,7 +42,7 @@ class History:
     Attributes:
         loss: mean loss of each update's batch, before the update, shape (epochs,).
         penalties: by regularizer, shape (epochs,).
-        modifiers: by parameter, its relative change p̃/p − 1 before the update, shape (epochs,).
+        modifiers: by parameter, its change before the update, as of `acausal.Fit.modifiers`, shape (epochs,).
         seconds: time since the start of the training at the end of each update, shape (epochs,).
         full_loss: loss over the whole record, (epochs done, loss) in rows, shape (k, 2).
         validation_loss: loss over what is held out, likewise, shape (k, 2); (0, 2) where nothing is.

@@ -1,53 +1,207 @@
-"""Parameters trained beside networks: ``p̃ = (1 + γ tanh δ) p``, the paper's (7) and (8)."""
+"""Parameters trained beside networks: how each may move, as a function of a free variable δ that is 0 at the start."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError, nearest
 
 
+class Modifier(Protocol):
+    """How a parameter p may move."""
+
+    @property
+    def unit(self) -> str:
+        """What changes are counted in: ``"%"`` of p, or nothing, in the unit of p."""
+        ...
+
+    def change(self, value: Array, delta: Array) -> Array:
+        """The change of a parameter that began at a value, for a free variable."""
+        ...
+
+    def changed(self, value: Any, change: Any) -> Any:
+        """The parameter after a change."""
+        ...
+
+    def believed(self, value: float) -> float:
+        """The change that is believed to be likely before there are data."""
+        ...
+
+    def refusal(self, value: float) -> str | None:
+        """Why a parameter cannot be moved so, if it can't, and the mend."""
+        ...
+
+
+@dataclass(frozen=True)
+class _Relative:
+    unit = "%"
+
+    def changed(self, value: Any, change: Any) -> Any:
+        """``(1 + change) p``."""
+        return (1 + change) * value
+
+
+@dataclass(frozen=True)
+class _Absolute:
+    unit = ""
+
+    def changed(self, value: Any, change: Any) -> Any:
+        """``p + change``."""
+        return value + change
+
+
+@dataclass(frozen=True)
+class Factor(_Relative):
+    """``p̃ = (1 + γ tanh δ) p``, the paper's (7) and (8): the change is relative, and smaller than γ.
+
+    Attributes:
+        gamma: between 0 and 1.
+    """
+
+    gamma: float
+
+    def change(self, value: Array, delta: Array) -> Array:
+        """``γ tanh δ``."""
+        return self.gamma * jnp.tanh(delta)
+
+    def believed(self, value: float) -> float:
+        """The whole parameter, whatever γ."""
+        return 1.0
+
+    def refusal(self, value: float) -> str | None:
+        """For a γ that is too large, and at zero."""
+        if not 0 < self.gamma < 1:
+            return f"The modifier of '{{}}' has gamma={self.gamma}; choose it between 0 and 1."
+        if value == 0.0:
+            return (
+                "Parameter '{0}' is 0, and a modifier multiplies; give it a value to start from, "
+                "or let it move by a sum: modifiers={{'{0}': ac.Shift(...)}}."
+            )
+        return None
+
+
+@dataclass(frozen=True)
+class Shift(_Absolute):
+    """A parameter moves by a sum, ``p̃ = p + scale · δ``, also from zero, and without a bound.
+
+    Attributes:
+        scale: the size of a change that would not surprise, in the parameter's unit.
+    """
+
+    scale: float
+
+    def change(self, value: Array, delta: Array) -> Array:
+        """``scale · δ``."""
+        return self.scale * delta
+
+    def believed(self, value: float) -> float:
+        """The scale."""
+        return self.scale
+
+    def refusal(self, value: float) -> str | None:
+        """For a scale that is none."""
+        if 0 < self.scale < np.inf:
+            return None
+        return f"The shift of '{{}}' has scale={self.scale}; give a positive size in its unit."
+
+
+@dataclass(frozen=True)
+class Bounded(_Absolute):
+    """A parameter stays between bounds whatever the training does; one of them may be infinite.
+
+    Between two bounds it moves along a logistic curve, ``p̃ = low + (high − low) / (1 + e^−(δ₀ + δ))``; beyond one, by a
+    factor of its distance to it, ``p̃ = low + (p − low) e^δ``: so ``Bounded(0, inf)`` is positive.
+
+    Attributes:
+        low, high: the bounds, in the parameter's unit; where it starts lies between them.
+    """
+
+    low: float
+    high: float
+
+    def change(self, value: Array, delta: Array) -> Array:
+        """``p̃ − p``."""
+        below, above = value - self.low, self.high - value
+        if np.isinf(self.high):
+            return below * jnp.expm1(delta)
+        if np.isinf(self.low):
+            return -above * jnp.expm1(-delta)
+        start = jnp.log(below / above)
+        return (self.high - self.low) * (jax.nn.sigmoid(start + delta) - jax.nn.sigmoid(start))
+
+    def changed(self, value: Any, change: Any) -> Any:
+        """``p + change``, and not a rounding error beyond the bounds."""
+        return jnp.clip(value + change, self.low, self.high)
+
+    def believed(self, value: float) -> float:
+        """The way to the nearer bound."""
+        return min(value - self.low, self.high - value)
+
+    def refusal(self, value: float) -> str | None:
+        """Outside of the bounds, and where there are none."""
+        if np.isinf(self.low) and np.isinf(self.high):
+            return "The bounds of '{}' are both infinite; give one of them, or take ac.Shift(...)."
+        if self.low < value < self.high:
+            return None
+        return f"Parameter '{{}}' starts at {value:g}, not between its bounds {self.low:g} and {self.high:g}."
+
+
 class Modifiers(eqx.Module):
-    """Which parameters may move and how far.
+    """Which parameters may move and how.
 
     Attributes:
         names: the parameters.
-        gammas: the largest relative change of each.
+        kinds: how each moves.
+        values: where each begins.
     """
 
     names: tuple[str, ...] = eqx.field(static=True)
-    gammas: tuple[float, ...] = eqx.field(static=True)
+    kinds: tuple[Modifier, ...] = eqx.field(static=True)
+    values: tuple[Array, ...]
 
     def start(self) -> dict[str, Array]:
         """The free variables δ where training starts: zero, which changes nothing."""
         return {name: jnp.zeros(()) for name in self.names}
 
-    def relative(self, deltas: Mapping[str, Array]) -> dict[str, Array]:
-        """The relative changes ``γ tanh δ`` of the parameters."""
-        return {
-            n: gamma * jnp.tanh(deltas[n]) for n, gamma in zip(self.names, self.gammas, strict=True)
-        }
+    def changes(self, deltas: Mapping[str, Array]) -> dict[str, Array]:
+        """The changes of the parameters, each as its modifier counts them."""
+        rows = zip(self.names, self.kinds, self.values, strict=True)
+        return {name: kind.change(value, deltas[name]) for name, kind, value in rows}
 
     def apply(self, params: Mapping[str, Any], deltas: Mapping[str, Array]) -> dict[str, Any]:
         """The parameters with their changes applied."""
-        changed = {n: (1 + change) * params[n] for n, change in self.relative(deltas).items()}
-        return {**params, **changed}
+        return self.changed(params, self.changes(deltas))
+
+    def changed(self, params: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+        """The parameters after changes."""
+        kinds = zip(self.names, self.kinds, strict=True)
+        return {**params, **{n: kind.changed(params[n], changes[n]) for n, kind in kinds}}
+
+    def told(self, name: str, change: float, digits: str) -> str:
+        """A change in words, such as ``"+3.1 %"``; ``digits`` is a format."""
+        unit = self.kinds[self.names.index(name)].unit
+        return f"{100 * change:{digits}} %" if unit else f"{change:{digits}}"
 
 
 def modifiers(
-    given: Mapping[str, float] | Iterable[str] | None, gamma: float, params: Mapping[str, Any]
+    given: Mapping[str, float | Modifier] | Iterable[str] | None,
+    gamma: float,
+    params: Mapping[str, Any],
 ) -> Modifiers:
-    """Check a user's choice: names with a γ each, or names that share ``gamma``.
+    """Check a user's choice: names with a modifier or a γ each, or names that share ``gamma``.
 
     Raises:
-        TrainingError: for a name that is no numeric parameter, a γ outside (0, 1), or a parameter that is zero.
+        TrainingError: for a name that is no numeric parameter, or a modifier that does not fit its value.
     """
-    chosen = (
+    chosen: dict[str, Any] = (
         {}
         if given is None
         else dict(given)
@@ -55,17 +209,17 @@ def modifiers(
         else dict.fromkeys(given, gamma)
     )
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
-    for name, limit in chosen.items():
+    kinds: list[Modifier] = []
+    for name, wanted in chosen.items():
         if name not in numbers:
             raise TrainingError(
                 f"There is no parameter '{name}' to train: {nearest(name, numbers)}"
             )
-        if not 0 < limit < 1:
-            raise TrainingError(
-                f"The modifier of '{name}' has gamma={limit}; choose it between 0 and 1."
-            )
-        if float(params[name]) == 0.0:
-            raise TrainingError(
-                f"Parameter '{name}' is 0, and a modifier multiplies; give it a value to start from."
-            )
-    return Modifiers(tuple(chosen), tuple(float(g) for g in chosen.values()))
+        kind = Factor(float(wanted)) if isinstance(wanted, int | float) else wanted
+        refusal = kind.refusal(float(params[name]))
+        if refusal is not None:
+            raise TrainingError(refusal.format(name))
+        kinds.append(kind)
+    return Modifiers(
+        tuple(chosen), tuple(kinds), tuple(jnp.asarray(params[n], float) for n in chosen)
+    )

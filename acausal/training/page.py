@@ -123,8 +123,9 @@ def _parameters(page: Page, fit: Fit, sure: Confidence) -> None:
     if not fit.modifiers:
         return
     page.section("Trained parameters")
+    told = fit.problem.modifiers.told
     rows = [
-        (n, f"{float(fit.params[n]):.6g}", f"{100 * change:+.2f} %", f"{100 * sure.parameters[n]:.2g} %")
+        (n, f"{float(fit.params[n]):.6g}", told(n, change, "+.3g"), told(n, sure.parameters[n], ".2g"))
         for n, change in fit.modifiers.items()
     ]  # fmt: skip
     page.table(("parameter", "value", "change", "one sigma"), rows)

@@ -18,6 +18,7 @@ from acausal.precision import precision
 from acausal.simulation import solvers
 from acausal.training import losses
 from acausal.training import modifiers as parameter_modifiers
+from acausal.training.modifiers import Modifier
 from acausal.training.nodes import Nodes
 from acausal.training.problem import Problem
 from acausal.training.record import Record, Sequences, lay_out, sequences
@@ -43,7 +44,7 @@ def pose(
     params: dict[str, Any],
     *,
     train: Iterable[str] | None,
-    modifiers: Mapping[str, float] | Iterable[str] | None,
+    modifiers: Mapping[str, float | Modifier] | Iterable[str] | None,
     gamma: float,
     loss: str | losses.Loss,
     regularizers: tuple[Regularizer, ...],

@@ -228,5 +228,5 @@ class Problem(eqx.Module):
 
 
 def modified(objective: Any, trainable: Trainable) -> Mapping[str, Array]:
-    """The relative changes ``p̃/p − 1`` of the parameters that are trained."""
-    return objective.modifiers.relative(trainable.modifiers)
+    """The changes of the parameters that are trained, each as its modifier counts them."""
+    return objective.modifiers.changes(trainable.modifiers)

@@ -59,7 +59,8 @@ class Fit:
         best_epoch: updates after which ``params`` were reached: those of the lowest loss over what was held out,
             else over the whole record, among all evaluations.
         x0: the state at the record's start, by name.
-        modifiers: relative change p̃/p − 1 of every parameter that was trained.
+        modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
+            absolute, p̃ − p.
         predicted: the targets in one simulation of the record, shape (N, number of targets).
         arguments: by network, what it was called with in that simulation, shape (N, number of arguments).
         seen: by network, the statistics of that.

@@ -24,6 +24,7 @@ from acausal.training.held_out import Validation, hold_out, split
 from acausal.training.loop import Trained
 from acausal.training.loop import train as run
 from acausal.training.losses import Loss
+from acausal.training.modifiers import Modifier
 from acausal.training.pose import Start, pose
 from acausal.training.problem import Problem
 from acausal.training.progress import Observer, display
@@ -47,7 +48,7 @@ def together(
     seeds: Sequence[int],
     params: Sequence[Mapping[str, Any]],
     train: Iterable[str] | None,
-    modifiers: Mapping[str, float] | Iterable[str] | None,
+    modifiers: Mapping[str, float | Modifier] | Iterable[str] | None,
     gamma: float,
     loss: str | Loss,
     regularizers: Iterable[Regularizer],
