@@ -15,6 +15,10 @@ from acausal.training.modifiers import Modifiers, modifiers
 from tests.oscillator import M, force, plain, record
 
 INF = float("inf")
+ZERO = (
+    "Parameter 'p' is 0, and a modifier multiplies; give it a value to start from, "
+    "or let it move by a sum: modifiers={'p': ac.Shift(...)}."
+)
 
 
 def chosen(kind: Any, value: float) -> Modifiers:
@@ -114,8 +118,7 @@ def test_a_bound_is_where_training_ends_that_wants_beyond():
         (ac.Bounded(1, 2), 2.0, "Parameter 'p' starts at 2, not between its bounds 1 and 2."),
         (ac.Bounded(-INF, INF), 2.0,
          "The bounds of 'p' are both infinite; give one of them, or take ac.Shift(...)."),
-        (0.2, 0.0, "Parameter 'p' is 0, and a modifier multiplies; "
-          "give it a value to start from, or let it move by a sum: modifiers={'p': ac.Shift(...)}."),
+        (0.2, 0.0, ZERO),
     ],
 )  # fmt: skip
 def test_mistakes_get_one_sentence(kind: Any, value: float, sentence: str):
