@@ -93,6 +93,7 @@ if TYPE_CHECKING:
     from acausal.training.fit import fit
     from acausal.training.lbfgs import lbfgs
     from acausal.training.logs import CsvLog, TensorBoardLog
+    from acausal.training.modal import DampingRatio, FrequencyRange, Stability
     from acausal.training.modifiers import Bounded, Shift
     from acausal.training.regularizers import SmallCorrection, ZeroCrossing
     from acausal.training.result import Fit
@@ -128,6 +129,7 @@ _HOMES = {
     "training.fit": "fit",
     "training.lbfgs": "lbfgs",
     "training.logs": "CsvLog TensorBoardLog",
+    "training.modal": "DampingRatio FrequencyRange Stability",
     "training.modifiers": "Bounded Shift",
     "training.regularizers": "SmallCorrection ZeroCrossing",
     "training.result": "Fit",
@@ -158,6 +160,7 @@ __all__ = [
     "ConnectionError",
     "Connector",
     "CsvLog",
+    "DampingRatio",
     "Data",
     "DataError",
     "DeclarationError",
@@ -167,6 +170,7 @@ __all__ = [
     "Fit",
     "Flow",
     "Formula",
+    "FrequencyRange",
     "InitialParameter",
     "Initialization",
     "InitializationError",
@@ -185,6 +189,7 @@ __all__ = [
     "SimulationError",
     "SmallCorrection",
     "Solution",
+    "Stability",
     "Start",
     "StructureError",
     "System",

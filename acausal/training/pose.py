@@ -22,7 +22,7 @@ from acausal.training.modifiers import Modifier
 from acausal.training.nodes import Nodes
 from acausal.training.problem import Problem
 from acausal.training.record import Record, Sequences, lay_out, sequences
-from acausal.training.regularizers import Context, Regularizer, label
+from acausal.training.regularizers import Context, Regularizer, Trajectory, label
 from acausal.training.spread import Device, mesh
 
 if TYPE_CHECKING:
@@ -201,10 +201,12 @@ def _substeps(data: Data, dt: float | None) -> int:
 
 
 def _context(problem: Problem) -> Context:
-    """What networks are called with over the record."""
+    """Where the model is over the record, and what networks are called with there."""
     rows = np.unique(np.linspace(0, len(problem.record) - 1, REFERENCE_POINTS).astype(int))
     x = _trajectory(problem)
-    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)))
+    steps = problem.record.steps
+    passed = Trajectory(problem.system, steps.t[rows], x[rows], steps.inputs.start[rows])
+    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)), passed)
 
 
 def _trajectory(problem: Problem) -> Array:

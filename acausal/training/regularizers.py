@@ -8,7 +8,7 @@ counts, the slope.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax
@@ -19,6 +19,23 @@ from acausal.errors import TrainingError, nearest
 from acausal.networks.scaled import inputs_of, law_of
 from acausal.neural import output_scale
 
+if TYPE_CHECKING:
+    from acausal.system import System
+
+
+class Trajectory(eqx.Module):
+    """Where a model is over the record: as measured, else as it was before training.
+
+    Attributes:
+        system: the model.
+        t, x, u: samples of time, states and inputs, shapes (N,), (N, number of states), (N, number of inputs).
+    """
+
+    system: System = eqx.field(static=True)
+    t: Array
+    x: Array
+    u: Array
+
 
 class Context(eqx.Module):
     """What a regularizer may know beside the parameters.
@@ -26,10 +43,12 @@ class Context(eqx.Module):
     Attributes:
         networks: names of the networks that are trained.
         arguments: by network, the arguments it is called with over the record, shape (N, number of arguments).
+        trajectory: the model over the record.
     """
 
     networks: tuple[str, ...] = eqx.field(static=True)
     arguments: Mapping[str, Array]
+    trajectory: Trajectory | None = None
 
 
 Regularizer = Callable[[Mapping[str, Any], Context], Array]
