@@ -32,6 +32,8 @@ qvm: $(READY) ## the quarter vehicle: compile, simulate and train it in a minute
 paper: $(READY) ## the quarter vehicle with the whole training of the paper
 	$(BIN)/python -m examples.qvm --paper
 
+# Tests compile many small programs that run once: LLVM's optimizations take longer than they save.
+test: export XLA_FLAGS ?= --xla_backend_optimization_level=0
 test: $(READY) ## all tests but the slow ones
 	$(BIN)/python -m pytest $(PYTEST_ARGS)
 
