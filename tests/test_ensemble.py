@@ -64,6 +64,13 @@ def test_the_spread_is_that_of_the_members():
     np.testing.assert_allclose(told.law, ys.mean(axis=0))
     np.testing.assert_allclose(told.sigma, ys.std(axis=0))
     assert len(told.x) == len(found.fits[0].problem.record)
+    ahead = found.predict(record(end=5.0).between(2.5, 5.0))["mass.a"]
+    sol = ac.simulate(
+        learned(), (2.5, 5.0), dt=0.01, inputs=record(end=5.0).between(2.5, 5.0), solver="heun",
+        params=found.fits[2].params, x0=[record(end=5.0)[n][250] for n in learned().states],
+    )  # fmt: skip
+    deviation = np.abs(np.asarray(sol["mass.a"]) - ahead.law)
+    assert np.all(deviation <= np.sqrt(2) * ahead.sigma * (1 + 1e-6))  # one of three
     mean, sigma = found.modifiers["mass.m"]
     masses = [fit.modifiers["mass.m"] for fit in found.fits]
     assert (mean, sigma) == pytest.approx((np.mean(masses), np.std(masses)))

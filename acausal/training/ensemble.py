@@ -18,8 +18,10 @@ from acausal.data import Data
 from acausal.errors import TrainingError, need_compiled
 from acausal.networks.scaled import law_of
 from acausal.training.confidence import POINTS, REACH, Band
+from acausal.training.conformal import predicted
 from acausal.training.ensemble_page import write_ensemble_page
 from acausal.training.fit import fit
+from acausal.training.pose import Start
 from acausal.training.result import Fit
 from acausal.training.together import together
 
@@ -63,12 +65,19 @@ class Ensemble:
     @cached_property
     def predicted(self) -> dict[str, Band]:
         """By target, mean and standard deviation over the time of the record, in one simulation by each member."""
-        first = self.fits[0].problem
-        time = np.asarray(first.record.steps.t)
-        return {
-            name: _spread(time, [fit.predicted[:, i] for fit in self.fits])
-            for i, name in enumerate(first.targets)
-        }
+        time = np.asarray(self.fits[0].problem.record.steps.t)
+        return self._predictions(time, [fit.predicted for fit in self.fits])
+
+    def predict(
+        self, data: Data | Mapping[str, ArrayLike], x0: Start | Mapping[str, float] = "data"
+    ) -> dict[str, Band]:
+        """The same over another record; arguments as those of `Fit.conformal`."""
+        found = [predicted(fit.problem, fit.trained, data, x0) for fit in self.fits]
+        return self._predictions(found[0][0], [y for _, y, _ in found])
+
+    def _predictions(self, time: np.ndarray, ys: Sequence[np.ndarray]) -> dict[str, Band]:
+        names = self.fits[0].problem.targets
+        return {name: _spread(time, [y[:, i] for y in ys]) for i, name in enumerate(names)}
 
     @property
     def modifiers(self) -> dict[str, tuple[float, float]]:

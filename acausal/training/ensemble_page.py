@@ -27,8 +27,11 @@ def write_ensemble_page(ensemble: Ensemble, path: Path, title: str) -> Path:
         f"{trained} trained {len(fits)} times on {len(best.problem.record)} samples of "
         f"{', '.join(best.problem.targets)} in {best.seconds:.3g} s.",
     )
-    rows = [(k, f"{fit.loss_before:.4g}", f"{fit.loss:.4g}") for k, fit in enumerate(fits)]
-    page.table(("member", "loss before", "after"), rows)
+    rows = [
+        (k, f"{fit.loss_before:.4g}", f"{fit.loss:.4g}", f"{fit.score:.4g}")
+        for k, fit in enumerate(fits)
+    ]
+    page.table(("member", "loss before", "after", "of what decides"), rows)
     histories = {f"member {k}": fit.history for k, fit in enumerate(fits)}
     page.figure(
         figure(WIDE, plot.losses, histories),
