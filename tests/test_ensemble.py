@@ -15,7 +15,7 @@ import optax
 import pytest
 
 import acausal as ac
-from acausal.training import loop
+from acausal.training import loop, trainer
 from acausal.training.trainer import State
 from tests.oscillator import learned, record
 from tests.test_checkpoint import stop
@@ -51,6 +51,16 @@ def test_every_member_is_the_training_of_its_seed():
     assert member.validation_loss == pytest.approx(alone.validation_loss, rel=1e-6)
     np.testing.assert_allclose(member.predicted_before, alone.predicted_before)
     assert member.loss != trained().fits[0].loss
+
+
+def test_members_side_by_side_find_the_same(monkeypatch: pytest.MonkeyPatch):
+    """As on an accelerator: mapped over, L-BFGS with its line searches and all."""
+    monkeypatch.setattr(trainer, "_each", jax.vmap)
+    wishes = WISHES | {"strategy": "whole_record", "epochs": 12}
+    _, member = train(members=2, **wishes).fits
+    alone = ac.fit(learned(), record(end=5.0), "mass.a", seed=SEEDS[1], **wishes)
+    np.testing.assert_allclose(member.history.loss, alone.history.loss, rtol=1e-6)
+    np.testing.assert_allclose(member.history.full_loss, alone.history.full_loss, rtol=1e-6)
 
 
 def test_the_spread_is_that_of_the_members():

@@ -116,7 +116,7 @@ def ensemble(
     seed: int = 0,
     **wishes: Any,
 ) -> Ensemble:
-    """Train several times from different seeds, side by side in one compiled program.
+    """Train several times from different seeds, in one compiled program.
 
     Arguments:
         system, data, targets: as of `acausal.fit`.

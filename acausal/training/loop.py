@@ -63,7 +63,7 @@ def train(
 ) -> tuple[Trained, ...]:
     """Train leg by leg, each from where the one before was best, or until the user interrupts.
 
-    Several trainings of one problem go side by side, in one program. A leg ends when it has ended for all of them.
+    Several trainings of one problem go through one program. A leg ends when it has ended for all of them.
 
     Arguments:
         problem: what every leg serves: evaluations over the whole record, among which the best is chosen where

@@ -1,4 +1,4 @@
-"""A member: one of the trainings that one program makes side by side; mostly there is but one."""
+"""A member: one of the trainings that one program makes; mostly there is but one."""
 
 from __future__ import annotations
 

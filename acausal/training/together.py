@@ -1,4 +1,4 @@
-"""Trainings of one model on one record, from several starts side by side; mostly there is but one."""
+"""Trainings of one model on one record, from one start or from several, in one program."""
 
 from __future__ import annotations
 
