@@ -37,6 +37,7 @@ def fit(
     train: Iterable[str] | None = None,
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None = None,
     gamma: float = 0.2,
+    tolerances: Mapping[str, float] | None = None,
     loss: str | Loss = "nrmse",
     regularizers: Iterable[Regularizer] = (),
     sequence_length: float | None = None,
@@ -75,6 +76,9 @@ def fit(
         modifiers: parameters to train beside them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
             by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
         gamma: the γ of modifiers without their own.
+        tolerances: parameters that differ from run to run, with their deviations: the loss of a simulation is the mean
+            over the model and those with one of these parameters a deviation more or less, so that other runs are
+            followed, too.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
             (M, k), (M, k), (k,); averaged over a batch's sequences.
         regularizers: penalties, see `acausal.training.regularizers`; any function (params, context) -> scalar.
@@ -131,6 +135,7 @@ def fit(
         train=train,
         modifiers=modifiers,
         gamma=gamma,
+        tolerances=tolerances,
         loss=loss,
         regularizers=regularizers,
         sequence_length=sequence_length,

@@ -18,6 +18,7 @@ from acausal.precision import precision
 from acausal.simulation import solvers
 from acausal.training import losses
 from acausal.training import modifiers as parameter_modifiers
+from acausal.training import tolerances as parameter_tolerances
 from acausal.training.modifiers import Modifier
 from acausal.training.nodes import Nodes
 from acausal.training.problem import Problem
@@ -46,6 +47,7 @@ def pose(
     train: Iterable[str] | None,
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None,
     gamma: float,
+    tolerances: Mapping[str, float] | None = None,
     loss: str | losses.Loss,
     regularizers: tuple[Regularizer, ...],
     sequence_length: float | None,
@@ -92,6 +94,7 @@ def pose(
         },
         networks=chosen,
         modifiers=changed,
+        tolerances=parameter_tolerances.tolerances(tolerances, params),
         targets=targets,
         record=record,
         sequences=cut,

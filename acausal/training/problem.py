@@ -21,6 +21,7 @@ from acausal.training.nodes import Nodes
 from acausal.training.record import Batch, Record, Sequences
 from acausal.training.regularizers import Context, Regularizer
 from acausal.training.spread import spread
+from acausal.training.tolerances import Tolerances
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -63,6 +64,7 @@ class Problem(eqx.Module):
         params: all parameters where training starts.
         networks: names of the networks that are trained.
         modifiers: the parameters that are trained.
+        tolerances: the parameters that differ from run to run.
         targets: the variables that are compared.
         record: the data.
         sequences: how batches are drawn from it.
@@ -80,6 +82,7 @@ class Problem(eqx.Module):
     params: dict[str, Any]
     networks: tuple[str, ...] = eqx.field(static=True)
     modifiers: Modifiers
+    tolerances: Tolerances
     targets: tuple[str, ...] = eqx.field(static=True)
     record: Record
     sequences: Sequences
@@ -121,7 +124,15 @@ class Problem(eqx.Module):
         return spread(share, self.mesh, (arrays, trainable), (batch.start, batch.points))
 
     def _losses(self, trainable: Trainable, starts: Array, points: Array | None) -> Array:
-        packed = self.system.pack(self.assemble(trainable))
+        params = self.assemble(trainable)
+        return self.tolerances.mean(
+            lambda p: self._losses_with(p, trainable, starts, points), params
+        )
+
+    def _losses_with(
+        self, params: dict[str, Any], trainable: Trainable, starts: Array, points: Array | None
+    ) -> Array:
+        packed = self.system.pack(params)
 
         def one(start: Array, points: Array | None) -> Array:
             steps, measured = self.record.window(start, self.sequences.length)
@@ -147,11 +158,19 @@ class Problem(eqx.Module):
     @eqx.filter_jit
     def simulate(self, trainable: Trainable) -> Simulated:
         """One simulation of the whole record."""
-        packed = self.system.pack(self.assemble(trainable))
-        x, predicted, _ = self._integrate(
-            packed, self.first_state(trainable, packed), self.record.steps
-        )
-        return Simulated(self.loss(predicted, self.record.y, self.record.sigma), x, predicted)
+        params = self.assemble(trainable)
+        x, predicted = self._whole(params, trainable)
+
+        def loss(p: dict[str, Any]) -> Array:
+            y = predicted if p is params else self._whole(p, trainable)[1]
+            return self.loss(y, self.record.y, self.record.sigma)
+
+        return Simulated(self.tolerances.mean(loss, params), x, predicted)
+
+    def _whole(self, params: dict[str, Any], trainable: Trainable) -> tuple[Array, Array]:
+        """States and targets at every sample."""
+        packed = self.system.pack(params)
+        return self._integrate(packed, self.first_state(trainable, packed), self.record.steps)[:2]
 
     @eqx.filter_jit
     def seen(self, trainable: Trainable, x: Array, rows: Array | None = None) -> dict[str, Array]:
