@@ -97,3 +97,17 @@ def test_arguments_with_expressions_and_several_calls():
     packed = system.pack(system.parameters(0))
     seen = arguments(system, "net", 0.0, jnp.asarray([0.5]), jnp.asarray([20.0]), packed)
     assert sorted(np.asarray(seen).tolist()) == [[-0.5, 6.0], [1.5, 20.0]]
+
+
+def test_a_fourier_series_repeats_and_has_no_mean():
+    net = ac.networks.Fourier(2.0, harmonics=3, output_scale=5.0)
+    assert float(net(0.3)) == 0
+    weights = (jnp.array([1.0, 0.5, -2.0]), jnp.array([0.0, 1.0, 0.3]))
+    bent = eqx.tree_at(lambda n: (n.sines, n.cosines), net, weights)
+    x = jnp.linspace(0, 2, 40, endpoint=False)
+    values = jax.vmap(bent)(x)
+    assert float(values.mean()) == pytest.approx(0, abs=1e-9)
+    np.testing.assert_allclose(jax.vmap(bent)(x + 2), values, atol=1e-9)
+    assert float(bent(0.5)) == pytest.approx(5 * (1 + 2 - 1), abs=1e-9)
+    with pytest.raises(ac.DeclarationError, match="both must be positive"):
+        ac.networks.Fourier(0.0)

@@ -20,6 +20,9 @@ from acausal.networks.energy import (
     FromRest,
     Levelled,
 )
+from acausal.networks.fourier import (
+    Fourier,
+)
 from acausal.networks.law import (
     Law,
 )
@@ -67,6 +70,7 @@ __all__ = [
     "Convex",
     "Energy",
     "Even",
+    "Fourier",
     "FromRest",
     "Law",
     "Levelled",

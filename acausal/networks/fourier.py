@@ -1,0 +1,40 @@
+"""Laws that repeat, such as the cogging of a motor over its angle or the error of a screw over its turns."""
+
+from __future__ import annotations
+
+import equinox as eqx
+import jax.numpy as jnp
+from jax import Array
+from jax.typing import ArrayLike
+
+from acausal.errors import DeclarationError
+
+
+class Fourier(eqx.Module):
+    """``output_scale Σ_k a_k sin(2πkx/period) + b_k cos(2πkx/period)``, ``k = 1 … harmonics``: it starts as zero.
+
+    Its mean over a period is zero whatever is learned, so that a law of position alone is conservative.
+
+    Raises:
+        DeclarationError: for a period or a number of harmonics that is not positive.
+    """
+
+    sines: Array
+    cosines: Array
+    period: float = eqx.field(static=True)
+    output_scale: float = eqx.field(static=True, default=1.0)
+
+    def __init__(self, period: float, harmonics: int = 4, output_scale: float = 1.0) -> None:
+        if not (period > 0 and harmonics > 0):
+            raise DeclarationError(
+                f"Fourier: period={period:g}, harmonics={harmonics}; both must be positive"
+            )
+        self.sines, self.cosines = jnp.zeros(harmonics), jnp.zeros(harmonics)
+        self.period, self.output_scale = float(period), output_scale
+
+    def __call__(self, x: ArrayLike) -> Array:
+        """The output for a scalar input."""
+        orders = jnp.arange(1, len(self.sines) + 1)
+        angles = 2 * jnp.pi / self.period * orders * jnp.asarray(x)
+        waves = self.sines * jnp.sin(angles) + self.cosines * jnp.cos(angles)
+        return self.output_scale * jnp.sum(waves)
