@@ -21,7 +21,8 @@ class Row:
     """A line of a table of errors.
 
     Attributes:
-        model: its name. errors: by column; one that is not known is left out. spread: standard deviations.
+        model: its name. errors: by column; one that is not known is left out.
+        spread: standard deviations, of those that have any.
     """
 
     model: str
@@ -35,7 +36,8 @@ class Row:
     def _cell(self, name: str) -> str:
         if name not in self.errors:
             return ""
-        around = f" ± {self.spread[name]:.2g}" if self.spread else ""
+        spread = self.spread or {}
+        around = f" ± {spread[name]:.2g}" if name in spread else ""
         return f"{self.errors[name]:.3g}{around}"
 
 
