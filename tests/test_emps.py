@@ -22,6 +22,12 @@ def test_every_axis_has_the_same_states_and_trains_what_it_has(name: str) -> Non
     assert set(kind.trained) <= set(system.parameters())
 
 
+def test_a_kind_with_another_friction_can_be_built_alone_and_controlled() -> None:
+    kind = model.KINDS[model.OURS].instead(model.Coulomb)
+    for whole in (model.Axis, model.Controlled):
+        assert "friction.Fc" in kind.build(whole).parameters()
+
+
 def test_a_volt_accelerates_all_of_the_mass() -> None:
     kind = model.KINDS["white box, published parameters"]
     system = kind.build(model.Axis)

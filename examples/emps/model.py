@@ -156,9 +156,9 @@ class Kind:
         others = {"dry": Coulomb(Fv=0.0, Fc=12.0), "cable": cable()} if self.learned else {}
         return ac.compile(whole(self.friction(), ripple=self.ripple, **others))
 
-    def instead(self, friction: ac.Component) -> Kind:
+    def instead(self, friction: Callable[[], ac.Component]) -> Kind:
         """The same with another friction."""
-        return replace(self, friction=lambda: friction)
+        return replace(self, friction=friction)
 
 
 def learning(*, passive: bool = True, ripple: bool = False, **tolerances: float) -> Kind:

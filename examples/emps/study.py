@@ -185,7 +185,7 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     ours = KINDS[OURS]
     net = fits[OURS].params["friction.net"]
     law = ac.distill(lambda v: net(v, MIDDLE), -model.SPEED, model.SPEED)
-    formula = ours.instead(neural.Resistance(net=law.formula))
+    formula = ours.instead(lambda: neural.Resistance(net=law.formula))
     in_short = judge(formula, train(formula, training).params, test)
     rows.append(Row("... its network a formula of the speed", in_short))
     show("EMPS: root mean square errors in mm, relative errors in %", COLUMNS, [*rows, *PUBLISHED])
