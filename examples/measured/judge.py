@@ -19,24 +19,52 @@ def simulate(
     *,
     known: int,
     solver: str,
+    dt: float | None = None,
+    given: Mapping[str, float] | None = None,
 ) -> ac.Solution:
     """A simulation of a whole record that sees no more of its output than the first ``known`` samples.
 
-    From these comes the state at the start, by least squares.
+    From these comes the state at the start, by least squares, but for states that are ``given``. ``dt`` is the step, by
+    default the sample time.
     """
     h = record.sample_time
+    known_states = dict(given or {})
+    free = [n for n in system.states if n not in known_states]
     begin = record.between(record.time[0], record.time[0] + (known - 0.5) * h)
 
     def run(part: ac.Data, x0: np.ndarray) -> ac.Solution:
-        inputs = {name: part.signal(name) for name in system.inputs}
-        span = (part.time[0], part.time[-1])
-        return ac.simulate(system, span, dt=h, inputs=inputs, params=params, x0=x0, solver=solver)
+        start = {**known_states, **dict(zip(free, x0, strict=True))}
+        return follow(system, params, part, start, solver=solver, dt=dt or h)
 
     def errors(x0: np.ndarray) -> np.ndarray:
         return np.asarray(run(begin, x0)[target]) - begin[target]
 
-    guess = [record[n][0] if n in record.signals else 0.0 for n in system.states]
+    guess = [record[n][0] if n in record.signals else 0.0 for n in free]
     return run(record, least_squares(errors, guess, x_scale="jac").x)
+
+
+def follow(
+    system: ac.System,
+    params: Mapping[str, Any] | None,
+    record: ac.Data,
+    start: Mapping[str, float],
+    *,
+    solver: str,
+    dt: float,
+) -> ac.Solution:
+    """A simulation with a record's inputs, from a state that is known, at the record's times."""
+    inputs = {name: record.signal(name) for name in system.inputs}
+    span = (record.time[0], record.time[-1])
+    return ac.simulate(
+        system,
+        span,
+        dt=dt,
+        inputs=inputs,
+        params=params,
+        x0=start,
+        solver=solver,
+        saveat=record.time,
+    )
 
 
 def rms(solution: ac.Solution, record: ac.Data, target: str, *, known: int) -> float:
