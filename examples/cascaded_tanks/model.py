@@ -7,7 +7,7 @@ section of 100 cm2 and a rim at 15 cm here, and a volt is about a centimetre.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import acausal as ac
@@ -39,8 +39,8 @@ class CascadedTanks(ac.Component):
 
     def __init__(
         self,
-        upper: dict[str, ac.Component],
-        lower: dict[str, ac.Component],
+        upper: Mapping[str, ac.Component],
+        lower: Mapping[str, ac.Component],
         curve: neural.Characteristic | None = None,
         *,
         rims: bool = True,
@@ -66,7 +66,7 @@ class CascadedTanks(ac.Component):
         self.connect(self.curve.y if curve else self.lower.level, self.sensor.u2)
         self.connect(self.sensor.y, self.saturation.u)
 
-    def _lead(self, start: hy.FluidPort, end: hy.FluidPort, elements: dict[str, Any]) -> None:
+    def _lead(self, start: hy.FluidPort, end: hy.FluidPort, elements: Mapping[str, Any]) -> None:
         for name, element in elements.items():
             setattr(self, name, element)
             self.connect(start, element.port_a)
@@ -75,9 +75,9 @@ class CascadedTanks(ac.Component):
 
 def linear() -> Model:
     """Two tanks that never overflow, whose outflow rises linearly with the level."""
-    ways = ({f"{n}_way": hy.LinearResistance(k=1e-5)} for n in ("upper", "lower"))
+    upper, lower = ({f"{n}_way": hy.LinearResistance(k=1e-5)} for n in ("upper", "lower"))
     trained = {"drive.k": 0.9, "upper_way.k": 0.9, "lower_way.k": 0.9, **LINE}
-    return CascadedTanks(*ways, rims=False), trained
+    return CascadedTanks(upper, lower, rims=False), trained
 
 
 def white_box() -> Model:
@@ -114,13 +114,14 @@ def _holes() -> tuple[dict[str, ac.Component], dict[str, ac.Component]]:
 
 
 def _resistance(**options: Any) -> neural.Resistance:
-    given = {"input_scale": 500.0, "output_scale": 0.02, **options}
+    given: dict[str, Any] = {"input_scale": 500.0, "output_scale": 0.02, **options}
     return neural.Resistance(hy.FluidPort, width=6, depth=1, activation="tanh", **given)
 
 
 def _curve() -> neural.Characteristic:
-    sizes = {"width": 6, "depth": 1, "activation": "tanh"}
-    return neural.Characteristic(**sizes, input_scale=0.05, output_scale=0.5)
+    return neural.Characteristic(
+        width=6, depth=1, activation="tanh", input_scale=0.05, output_scale=0.5
+    )
 
 
 LINEAR, WHITE, OURS = "linear", "white box (Torricelli, rims)", "white box, sensor's curve learned"
