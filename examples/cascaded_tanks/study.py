@@ -64,16 +64,21 @@ def train(
     seeds: int = 1,
     epochs: int = EPOCHS,
 ) -> list[Trained]:
-    """Train a model from several random starts, and judge each."""
+    """Train a model from several random starts, and judge each.
+
+    The training on the whole record goes on from where the one on its first part ended: from scratch, the second flood
+    and the first one together lead some seeds astray.
+    """
     tanks, moves = make()
     system = ac.compile(tanks)
     networks = [n for n, value in system.parameters().items() if callable(value)]
 
-    def fit(samples: int, seed: int) -> ac.Fit:
+    def fit(samples: int, seed: int, params: Mapping[str, Any] | None = None) -> ac.Fit:
         return ac.fit(
             system,
             record(measured["uEst"], measured["yEst"], samples),
             [OUTPUT],
+            params=params,
             modifiers=moves,
             regularizers=[SMALL] if networks else [],
             strategy="whole_record",
@@ -87,7 +92,8 @@ def train(
 
     trained: list[Trained] = []
     for seed in range(seeds if networks else 1):
-        chosen, final = fit(CHOSEN, seed), fit(SAMPLES, seed)
+        chosen = fit(CHOSEN, seed)
+        final = fit(SAMPLES, seed, chosen.params)
         errors = {
             "validation": validation_error(measured, chosen),
             "test": test_error(measured, final, final.params),
