@@ -30,6 +30,8 @@ PULSE = 5.0695 / 5
 """Volts of a pulse by what the record gives as its height: what is left of the voltage without the controller's."""
 MIDDLE = 0.123
 """Of the way [m]."""
+TERMS = ("linear", "square", "signed square", "signed root", "tanh")
+"""Terms of frictions."""
 CLOSED = ("position", "velocity", "acceleration", "force")
 
 COLUMNS = {
@@ -191,7 +193,7 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     ]
     fits = {name: m[0][1] for name, m in models.items() if m[0][1] is not None}
     net = fits[figures.PHYSICS].params["friction.net"]
-    law = ac.distill(lambda v: net(v, MIDDLE), -model.SPEED, model.SPEED)
+    law = ac.distill(lambda v: net(v, MIDDLE), -model.SPEED, model.SPEED, among=TERMS)
     formula = KINDS[OURS].instead(lambda: neural.Resistance(net=law.formula))
     in_short = judge(formula, train(formula, training).params, test)
     rows.append(Row("... its network a formula of the speed", in_short))
