@@ -12,6 +12,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+import sympy as sp
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -37,7 +38,7 @@ def page(
     measured: Mapping[str, np.ndarray],
     rows: Sequence[Row],
     fits: Mapping[str, ac.Fit],
-    formulas: Mapping[str, Mapping[str, ac.Distilled]],
+    formulas: Mapping[str, ac.Fit],
 ) -> None:
     """Write the page."""
     ours = fits[OURS]
@@ -48,7 +49,7 @@ def page(
         "measured by M. Schoukens and J. P. Noël (2017).",
     )
     shown.section("The model")
-    diagram = ac.diagram(model.with_curve()[0]).figure
+    diagram = ac.diagram(model.with_tame_curve()[0]).figure
     assert isinstance(diagram, Figure)
     shown.figure(diagram, "The connected components; the tinted one holds a network.")
     shown.equations(ours.system.equations)
@@ -88,11 +89,10 @@ def page(
         "passive, to rise and to go on linearly starts at zero and stays a law of a hole."
     )
     shown.section("Read as physics")
-    for label, found in formulas.items():
-        for name, formula in found.items():
-            shown.text(
-                f"{label}: {name}(x) = {formula.expression}, {100 * formula.relative_error:.2g} % from the network."
-            )
+    for label, fit in formulas.items():
+        for name in fit.seen:
+            law = sp.N(fit.params[name].expression(), 3)
+            shown.text(f"{label}: {name}(x) = {law}, distilled from the network and trained on.")
     shown.write(path)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -42,11 +42,14 @@ Benchmarks, 2024, arXiv 2405.10779, and what it cites.
 
 @dataclass(frozen=True)
 class Trained:
-    """A model that was trained on the whole training record, and its errors in V.
+    """A model that was trained on a first part of the training record, and then on all of it.
 
-    The one over the validation part is of a training that did not see it.
+    Attributes:
+        first, fit: both results.
+        errors: in V; over the rest of the training record for the one, over the test record for the other.
     """
 
+    first: ac.Fit
     fit: ac.Fit
     errors: dict[str, float]
 
@@ -64,42 +67,62 @@ def train(
     seeds: int = 1,
     epochs: int = EPOCHS,
 ) -> list[Trained]:
-    """Train a model from several random starts, and judge each.
-
-    The training on the whole record goes on from where the one on its first part ended: from scratch, the second flood
-    and the first one together lead some seeds astray.
-    """
+    """Train a model from several random starts, and judge each."""
     tanks, moves = make()
     system = ac.compile(tanks)
-    networks = [n for n, value in system.parameters().items() if callable(value)]
+    learns = any(callable(value) for value in system.parameters().values())
+    return [
+        trained(
+            measured,
+            system,
+            moves,
+            system.parameters(seed),
+            regularizers=[SMALL] if learns else [],
+            epochs=epochs,
+        )
+        for seed in range(seeds if learns else 1)
+    ]
 
-    def fit(samples: int, seed: int, params: Mapping[str, Any] | None = None) -> ac.Fit:
+
+def trained(
+    measured: Mapping[str, np.ndarray],
+    system: ac.System,
+    moves: Mapping[str, float],
+    start: Mapping[str, Any],
+    then: Mapping[str, Any] | None = None,
+    *,
+    regularizers: Sequence[ac.SmallCorrection] = (),
+    epochs: int = EPOCHS,
+) -> Trained:
+    """Train from parameters, on a first part of the record, then on all of it.
+
+    The second training begins with parameters ``then``, by default where the first one ended: from scratch both floods
+    of the record together lead some seeds astray.
+    """
+
+    def fit(samples: int, params: Mapping[str, Any]) -> ac.Fit:
         return ac.fit(
             system,
             record(measured["uEst"], measured["yEst"], samples),
             [OUTPUT],
             params=params,
             modifiers=moves,
-            regularizers=[SMALL] if networks else [],
+            regularizers=regularizers,
             strategy="whole_record",
             x0="fit",
             epochs=epochs,
             dt=STEP,
             solver=SOLVER,
-            seed=seed,
             progress=False,
         )
 
-    trained: list[Trained] = []
-    for seed in range(seeds if networks else 1):
-        chosen = fit(CHOSEN, seed)
-        final = fit(SAMPLES, seed, chosen.params)
-        errors = {
-            "validation": validation_error(measured, chosen),
-            "test": test_error(measured, final, final.params),
-        }
-        trained.append(Trained(final, errors))
-    return trained
+    first = fit(CHOSEN, start)
+    final = fit(SAMPLES, first.params if then is None else then)
+    errors = {
+        "validation": validation_error(measured, first),
+        "test": test_error(measured, final, final.params),
+    }
+    return Trained(first, final, errors)
 
 
 def validation_error(measured: Mapping[str, np.ndarray], fit: ac.Fit) -> float:
@@ -136,9 +159,20 @@ def distilled(fit: ac.Fit) -> dict[str, ac.Distilled]:
     return {n: ac.distill(fit.params[n], *span.tolist()) for n, span in spans.items()}
 
 
-def middle(trained: list[Trained]) -> Trained:
+def in_short(
+    measured: Mapping[str, np.ndarray], make: Callable[[], model.Model], learned: Trained
+) -> Trained:
+    """Formulas in the place of networks, trained on."""
+    start, then = (
+        {**fit.params, **{n: d.formula for n, d in distilled(fit).items()}}
+        for fit in (learned.first, learned.fit)
+    )
+    return trained(measured, learned.fit.system, make()[1], start, then)
+
+
+def middle(found: list[Trained]) -> Trained:
     """The one that is neither good nor bad, by the validation part."""
-    return sorted(trained, key=lambda t: t.errors["validation"])[len(trained) // 2]
+    return sorted(found, key=lambda t: t.errors["validation"])[len(found) // 2]
 
 
 def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
@@ -146,28 +180,26 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     started = time.time()
     (measured,) = load(folder, "Cascaded_Tanks", ["dataBenchmark.mat"])
     models = {name: train(measured, make, seeds=seeds) for name, make in MODELS.items()}
-    shown = {name: middle(trained).fit for name, trained in models.items()}
-    averages = {name: spread([t.errors for t in trained]) for name, trained in models.items()}
-    formulas = {name: distilled(shown[name]) for name in (OURS, PROMISING)}
-    in_short = {
-        name: test_error(measured, fit, {**fit.params, **{n: d.formula for n, d in found.items()}})
-        for name, found in formulas.items()
-        for fit in [shown[name]]
+    shown = {name: middle(found).fit for name, found in models.items()}
+    averages = {name: spread([t.errors for t in found]) for name, found in models.items()}
+    formulas = {
+        name: in_short(measured, MODELS[name], middle(models[name])) for name in (OURS, PROMISING)
     }
     rows: list[Row] = []
     for name, (mean, around) in averages.items():
         rows.append(Row(name, mean, around if len(models[name]) > 1 else None))
-        if name in in_short:
-            rows.append(Row("... distilled", {"test": in_short[name]}))
+        if name in formulas:
+            rows.append(Row("... distilled, trained on", formulas[name].errors))
     rows += PUBLISHED
     show("Cascaded Tanks: root mean square error in V", COLUMNS, rows)
-    figures.page(out / "index.html", measured, rows, shown, formulas)
+    short = {name: found.fit for name, found in formulas.items()}
+    figures.page(out / "index.html", measured, rows, shown, short)
     mean, around = averages[OURS]
     return {
         "test_V": mean["test"],
         "validation_V": mean["validation"],
         "spread_V": around,
-        "distilled_V": in_short,
+        "distilled_V": {name: short.errors for name, short in formulas.items()},
         **{name: dict(zip(("mean", "spread"), averages[name], strict=True))
            for name in models if name != OURS},
         "seeds": seeds,
