@@ -100,7 +100,7 @@ $(READY): $(LOCK) pyproject.toml
 		fi; \
 	fi; \
 	if [ -n "$(UV)" ]; then \
-		"$(UV)" pip install --quiet --python $(BIN)/python --require-hashes -r $(LOCK); \
+		"$(UV)" pip install --quiet --compile-bytecode --python $(BIN)/python --require-hashes -r $(LOCK); \
 		"$(UV)" pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation -e .; \
 	else \
 		$(BIN)/python -m pip --version >/dev/null 2>&1 || $(BIN)/python -m ensurepip >/dev/null; \
