@@ -159,7 +159,7 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
                 else:
                     value[index] = float(element)
     bindings += _default_bindings(layout, value, {b.target for b in bindings})
-    bindings = _folded_through(bindings, value, folded)
+    _fold_through(bindings, value, folded)
     bound = {b.target for b in bindings}
     missing = [int(i) for i in np.flatnonzero(np.isnan(value)) if int(i) not in bound]
     if missing:
@@ -172,17 +172,12 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
     return value, tuple(bindings), folded
 
 
-def _folded_through(
-    bindings: list[Binding], value: np.ndarray, folded: np.ndarray
-) -> list[Binding]:
-    """The bindings that are left when what folded parameters make zero is folded to zero as well."""
-    found = True
-    while found:
-        zero = [b.target for b in bindings if folded[list(b.arguments)].all() and _is_zero(b)]
+def _fold_through(bindings: list[Binding], value: np.ndarray, folded: np.ndarray) -> None:
+    """Fold what folded parameters make zero to zero as well."""
+    left = bindings
+    while zero := [b.target for b in left if folded[list(b.arguments)].all() and _is_zero(b)]:
         value[zero], folded[zero] = 0.0, True
-        bindings = [b for b in bindings if not folded[b.target]]
-        found = bool(zero)
-    return bindings
+        left = [b for b in left if not folded[b.target]]
 
 
 def _is_zero(binding: Binding) -> bool:

@@ -206,7 +206,9 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     position[free[rank]] = np.arange(len(free))
     groups: list[_BoundGroup] = []
     filled = len(free)
-    waiting = [b for b in model.bindings if target[b.target] == b.target]
+    waiting = [
+        b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]
+    ]
     while waiting:
         ready = [
             b for b in waiting if all(_is_placed(a, target, position, model) for a in b.arguments)
