@@ -288,6 +288,10 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: neural.Resistance(passive=True, zero_crossing="regularizer"),
         "passive=True makes the law vanish at zero already",
     ),
+    "cube about zero": (
+        lambda: neural.Compliance(extrapolation="cubic", limits=(0.0, 1.0)),
+        "a law goes on along a cube about zero, which must lie between its limits",
+    ),
     "convex law": (lambda: neural.Compliance(convex=True), "say energy=True, too"),
     "monotone energy": (
         lambda: neural.Compliance(energy=True, monotone=True),
@@ -361,7 +365,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: neural.MultiportCompliance((tl.Flange, fluid.FlowPort)),
         "give ports of one domain",
     ),
-    "recipe": (lambda: Law(extrapolation="cubic"), "extrapolation='cubic' is none of 'linear'"),  # pyright: ignore[reportArgumentType]
+    "recipe": (lambda: Law(extrapolation="square"), "'square' is none of 'saturating', 'linear'"),  # pyright: ignore[reportArgumentType]
     "curved": (lambda: Energy(floor=0.1), "say convex=True, too"),
     "several inputs": (
         lambda: Energy(inputs=2, convex=True, extrapolation="linear"),

@@ -8,6 +8,10 @@ whatever is inside it, a user's own module, too: ``ac.networks.Passive(my_networ
 from acausal.networks.activations import (
     ACTIVATIONS,
 )
+from acausal.networks.beyond import (
+    Continued,
+    ContinuedEnergy,
+)
 from acausal.networks.bounded import (
     Between,
     Positive,
@@ -48,7 +52,6 @@ from acausal.networks.scaled import (
     law_of,
 )
 from acausal.networks.slope import (
-    Continued,
     Rounder,
     Steeper,
 )
@@ -67,6 +70,7 @@ __all__ = [
     "Between",
     "Bowl",
     "Continued",
+    "ContinuedEnergy",
     "Convex",
     "Energy",
     "Even",

@@ -8,6 +8,7 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import RISING, checked
+from acausal.networks.beyond import Continued
 from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone import Monotone
 from acausal.networks.passive import Passive, SameSign
@@ -109,7 +110,7 @@ class Law(Recipe):
             return MLP(self.in_size, **own, **scales)
         net = self._monotone(own) if self.monotone else self._free(own)
         passive = self.passive or (self.monotone and self.zero_crossing == "exact")
-        net = self.continued(net, 0, rising=passive)
+        net = self.continued(net, Continued, rising=passive)
         return Scaled(net, self.input_scale, self.output_scale)
 
     def _free(self, own: dict[str, Any]) -> Net:

@@ -8,6 +8,7 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX, checked
+from acausal.networks.beyond import ContinuedEnergy
 from acausal.networks.convex import Convex
 from acausal.networks.energy import Bowl, FromRest, Levelled
 from acausal.networks.mlp import MLP, Key
@@ -102,9 +103,8 @@ class Energy(Recipe):
         }
         net = self._convex(own) if self.convex else self._free(own)
         scale = self.input_scale[0] if isinstance(self.input_scale, tuple) else self.input_scale
-        return Potential(
-            self.continued(net, 1), self.input_scale, scale * self.output_scale, self.inputs
-        )
+        net = self.continued(net, ContinuedEnergy)
+        return Potential(net, self.input_scale, scale * self.output_scale, self.inputs)
 
     def _free(self, own: dict[str, Any]) -> Net:
         net = MLP(self.in_size, **own)

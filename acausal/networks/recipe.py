@@ -8,18 +8,14 @@ from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
 from acausal.errors import DeclarationError
+from acausal.networks.beyond import Extrapolation, check_limits
 from acausal.networks.mlp import Scale, check_sizes
-from acausal.networks.slope import Continued
 
 ZeroCrossing = Literal["regularizer", "offset", "exact"]
-Extrapolation = Literal["linear", "saturating"]
 Net = Callable[..., Any]
 
 KNOWN = 3.0
 """So many input scales from zero the data are taken to reach, where no limits are given."""
-
-ORDER: dict[Extrapolation, int] = {"saturating": 0, "linear": 1}
-"""Order of the polynomial that continues a law; that of an energy is one higher."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +32,8 @@ class Recipe:
         zero_crossing: how the law comes to vanish at zero: by a ``"regularizer"`` in training, that is by itself not at
             all; by correction of its ``"offset"``, ``F(x) − F(0)``; or ``"exact"``, to the last bit. ``None`` is what
             the other promises imply.
-        extrapolation: how the law goes on beyond the limits: ``"linear"`` along its tangent, ``"saturating"`` held.
+        extrapolation: how the law goes on beyond the limits: ``"saturating"`` held, ``"linear"`` along its tangent,
+            ``"cubic"`` along the ``F(0) + a x + b x³`` with its value and slope there, `Continued`.
         limits: of the first input, in its unit: a pair, or one number for both sides. The default is three input
             scales.
         floor: the least slope of a monotone law, relative to ``output_scale / input_scale``.
@@ -75,7 +72,7 @@ class Recipe:
                 raise DeclarationError(f"{name}={slope} is a slope; give zero or more")
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
-                "limits=... says where a law is continued; say how by extrapolation='linear' or 'saturating'"
+                "limits=... says where a law is continued; say how by extrapolation='linear' or another"
             )
         _ = self.rho, self.range
 
@@ -105,8 +102,8 @@ class Recipe:
         if limits is None:
             return -KNOWN, KNOWN
         low, high = (limits[0], limits[1]) if isinstance(limits, tuple) else (-limits, limits)
-        if not -math.inf < low < high < math.inf:
-            raise DeclarationError(f"limits={limits}: the first must be less than the second")
+        if self.extrapolation:
+            check_limits(low, high, self.extrapolation)
         if self.odd and low != -high:
             raise DeclarationError(
                 f"limits={limits}: an odd law needs symmetric limits; give limits={max(-low, high):g}"
@@ -122,11 +119,11 @@ class Recipe:
         """Whether the law is zero at zero by construction."""
         raise NotImplementedError
 
-    def continued(self, net: Net, order: int, *, rising: bool = False) -> Net:
-        """The network, continued beyond the limits if that is wanted; ``order`` is that of what is held."""
+    def continued(self, net: Net, beyond: Callable[..., Net], **more: Any) -> Net:
+        """The network, continued beyond the limits by `Continued` or the like if that is wanted."""
         if self.extrapolation is None:
             return net
-        return Continued(net, *self.range, order + ORDER[self.extrapolation], rising)
+        return beyond(net, *self.range, self.extrapolation, **more)
 
     def refuse_regularizer(self, because: str) -> None:
         """A law that vanishes by construction leaves nothing to a regularizer or a correction.

@@ -129,7 +129,7 @@ class PartialLaw(PartialNetwork):
     odd = ac.Option(False, doc="the law is odd: the same from both sides")
     extrapolation = ac.Option(
         None,
-        choices=(None, "linear", "saturating"),
+        choices=(None, "saturating", "linear", "cubic"),
         doc="how the law goes on beyond the limits",
     )
     limits = ac.Option(

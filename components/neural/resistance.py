@@ -23,7 +23,7 @@ class Resistance(PartialNeural):
     - ``odd=True``: ``net(-x) = -net(x)``.
     - ``zero_crossing``: ``"offset"`` is ``net(x) - net(0)``, the paper's (5), already in training; ``"exact"`` is zero
       at zero to the last bit. ``"regularizer"`` leaves it to `acausal.ZeroCrossing` in training, the paper's (4), (6).
-    - ``extrapolation="linear"`` or ``"saturating"`` beyond ``limits``.
+    - ``extrapolation="saturating"``, ``"linear"`` or ``"cubic"`` beyond ``limits``.
 
     They combine: see `acausal.networks.Law`. With ``useHeatPort``, for passive laws in domains where difference
     times flow is a power, ``lossPower`` leaves at ``heatPort``. See `PartialNeural` for the other arguments.
