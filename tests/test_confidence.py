@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import acausal as ac
 from acausal.components import translational as tl
+from acausal.training.confidence import _covariance  # pyright: ignore[reportPrivateUsage]
 from acausal.training.residuals import residuals
-from tests.oscillator import learned, plain, record
+from tests.oscillator import Oscillator, learned, plain, record
 
 CUBIC, NOISE = 80.0, 0.05
 
@@ -73,6 +76,42 @@ def test_standard_deviations_are_those_of_repeated_measurements():
     assert np.all(np.abs(np.mean(found, axis=0)) < 3 * np.asarray(told) / np.sqrt(12) + 1e-5)
 
 
+def coloured(seed: int, keep: float = 0.9) -> ac.Data:
+    """A short record with noise of the first order, each sample ``keep`` times the one before and something new."""
+    data, rng = record(0.0, end=2.0), np.random.default_rng(seed)
+    fresh = np.sqrt(1 - keep**2) * rng.standard_normal(len(data) + 200)
+    noise = lfilter([1.0], [1.0, -keep], fresh)[200:]
+    a = data["mass.a"] + NOISE * data["mass.a"].std() * noise
+    return ac.Data(data.time, {"mass.a": a, "push.f": data["push.f"]})
+
+
+def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure():
+    """Standard deviations of white noise and a known start are an eighth of these."""
+    fits = [
+        ac.fit(
+            plain(), coloured(seed), "mass.a", x0="fit", strategy="whole_record", epochs=40,
+            modifiers=["mass.m", "spring.c"], solver="rk4", progress=False,
+        )
+        for seed in range(10)
+    ]  # fmt: skip
+    sure = [fit.confidence() for fit in fits[:3]]
+    found = np.std([list(fit.modifiers.values()) for fit in fits], axis=0, ddof=1)
+    told = np.mean([list(s.parameters.values()) for s in sure], axis=0)
+    np.testing.assert_allclose(told, found, rtol=0.5)
+    assert all(s.alike["mass.a"] > 4 for s in sure)
+    assert "which count as one here" in sure[0].words()[-1]
+
+
+def test_a_covariance_keeps_its_digits():
+    """Against fractions; the plain inverse of JᵀJ + 1 is off by its own size here."""
+    J = np.array([[1e9, 1e9], [1e9, 1e9 + 1.0]])
+    (a, b), (_, d) = ([Fraction(int(v)) for v in row] for row in J)
+    p, q, r = 2 * a * a + 1, a * b + a * d, b * b + d * d + 1
+    det = p * r - q * q
+    exact = np.array([[float(r / det), float(-q / det)], [float(-q / det), float(p / det)]])
+    np.testing.assert_allclose(_covariance(J), exact, rtol=1e-6)
+
+
 class TwoSprings(ac.Component):
     """A mass on two springs side by side, which no measurement of it can tell apart."""
 
@@ -96,6 +135,37 @@ def test_what_cannot_be_told_apart_is_said():
     assert words[-1].startswith("The data can hardly tell 'other.c' from 'one.c' (correlation -")
 
 
+class Beside(ac.Component):
+    """Two oscillators that have nothing to do with each other."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.one, self.other = Oscillator(), Oscillator(learned=True)
+
+
+def test_what_no_target_depends_on_is_told_of():
+    data = noisy(0, 0.0)
+    twice = ac.Data(
+        data.time,
+        {
+            "one.mass.a": data["mass.a"],
+            "one.push.f": data["push.f"],
+            "other.push.f": data["push.f"],
+        },
+    )
+    told = (
+        r"^Training did not move 'other\.extra\.net', 'other\.mass\.m': no target depends on it\."
+    )
+    with pytest.warns(UserWarning, match=told):
+        fit = ac.fit(
+            ac.compile(Beside()), twice, "one.mass.a", x0="model", strategy="whole_record", epochs=5,
+            modifiers={"one.mass.m": 0.2, "other.mass.m": 0.2}, progress=False,
+        )  # fmt: skip
+    words = fit.confidence().words()
+    assert words[0].startswith("'one.mass.m' is known to ±")
+    assert words[1].startswith("The data tell nothing of 'other.mass.m'")
+
+
 # -- residuals ---------------------------------------------------------------------------------------
 
 
@@ -113,6 +183,31 @@ def test_residuals_are_judged():
     lag = int(np.argmax(np.abs(follows.inputs["u"]))) - len(follows.inputs["u"]) // 2
     assert lag == 7
     assert follows.inputs["u"].max() == pytest.approx(0.3 / np.sqrt(1.09), abs=0.05)
+
+
+def test_two_lags_are_enough_to_betray_colour():
+    white = np.random.default_rng(0).standard_normal(4000)
+    short = white[2:] + 0.8 * white[1:-1] + 0.5 * white[:-2]
+    assert not residuals("y", short, {}).is_white
+
+
+def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
+    """Of 40 pairs that have nothing to do with each other; the bound of white noise would accuse most of them."""
+    rng = np.random.default_rng(0)
+    slow = lfilter([1.0], [1.0, -0.97], rng.standard_normal((2, 40, 4000)))
+    found = [residuals("y", y, {"u": u}) for y, u in zip(*slow, strict=True)]
+    assert sum(bool(r.drivers) for r in found) <= 2
+    assert sum(np.max(np.abs(r.inputs["u"])) > r.bound for r in found) > 20
+    driven = residuals("y", slow[0, 0] + 0.7 * slow[1, 0], {"u": slow[1, 0]})
+    assert driven.drivers == ("u",)
+
+
+@pytest.mark.parametrize("count", [2, 3, 5, 12])
+def test_few_samples_tell_nothing(count: int):
+    found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0})
+    assert (
+        found.words() == f"'y': {count} samples are too few to tell what is left over from noise."
+    )
 
 
 def test_residuals_of_a_fit():

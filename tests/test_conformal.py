@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.training.conformal import correlation_time
+from acausal.training.residuals import correlation_time
 from examples.qvm.model import with_networks
 from examples.qvm.record import INPUT, OUTPUTS, STATES, ride
 from tests.oscillator import plain, record

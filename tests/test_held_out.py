@@ -138,10 +138,11 @@ def test_the_next_part_begins_where_the_one_before_predicted_best():
 
 def test_patience_without_anything_held_out():
     """The whole record decides; an optimizer that stands still finds nothing better."""
-    fit = ac.fit(
-        plain(), record(end=1.0), "mass.a", modifiers=["mass.m"], optimizer=optax.sgd(0.0),
-        epochs=30, evaluate_every=3, patience=2, progress=False,
-    )  # fmt: skip
+    with pytest.warns(UserWarning, match=r"^Training did not move 'mass\.m'"):
+        fit = ac.fit(
+            plain(), record(end=1.0), "mass.a", modifiers=["mass.m"], optimizer=optax.sgd(0.0),
+            epochs=30, evaluate_every=3, patience=2, progress=False,
+        )  # fmt: skip
     assert (fit.best_epoch, fit.history.epochs) == (0, 6)
     assert fit.validation_loss is None
     assert fit.history.validation_loss.shape == (0, 2)

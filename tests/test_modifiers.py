@@ -11,7 +11,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import translational as tl
-from acausal.training.modifiers import Modifiers, modifiers
+from acausal.training.modifiers import Factor, Modifiers, modifiers
 from tests.oscillator import M, force, plain, record
 
 INF = float("inf")
@@ -102,13 +102,39 @@ def test_an_offset_is_found_from_zero_and_a_damping_within_its_bounds():
 
 
 def test_a_bound_is_where_training_ends_that_wants_beyond():
-    """The record's damping is 1 N s/m."""
-    fit = ac.fit(
-        plain(), record(cubic=0.0, end=5.0), "mass.a", modifiers={"spring.d": ac.Bounded(0.0, 0.5)},
-        params=plain().parameters() | {"spring.d": 0.25}, strategy="whole_record", epochs=40,
-        progress=False,
-    )  # fmt: skip
+    """The record's damping is 1 N s/m. A user is told of it, and that no deviation says how well it is known."""
+    told = (
+        r"^'spring\.d' has run into the limit of its modifier, \+0\.25 N\.s/m: let it move further"
+    )
+    with pytest.warns(UserWarning, match=told):
+        fit = ac.fit(
+            plain(), record(cubic=0.0, end=5.0), "mass.a", strategy="whole_record", epochs=40,
+            modifiers={"spring.d": ac.Bounded(0.0, 0.5)}, params={"spring.d": 0.25}, progress=False,
+        )  # fmt: skip
     assert 0.499 < fit.params["spring.d"] <= 0.5
+    assert fit.confidence().words()[0].endswith("How well it is known cannot be said.")
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "change", "limit"),
+    [
+        (ac.Bounded(0, 3), 1.0, -0.98, None),
+        (ac.Bounded(0, 3), 1.0, -0.995, -1.0),
+        (ac.Bounded(0, 3), 1.0, 1.99, 2.0),
+        (ac.Bounded(0, INF), 1.0, 1e6, None),
+        (ac.Bounded(0, INF), 1.0, -0.995, -1.0),
+        (ac.Bounded(-INF, 3), 1.0, -1e6, None),
+        (Factor(0.2), 5.0, -0.199, -0.2),
+        (Factor(0.2), 5.0, 0.19, None),
+        (ac.Shift(0.1), 0.0, 1e6, None),
+    ],
+)
+def test_a_limit_is_reached_or_not(kind: Any, value: float, change: float, limit: float | None):
+    assert kind.limit(value, change) == limit
+
+
+def test_one_name_is_no_list_of_letters():
+    assert modifiers("mass", 0.2, {"mass": 1.0}).names == ("mass",)
 
 
 @pytest.mark.parametrize(
@@ -119,6 +145,8 @@ def test_a_bound_is_where_training_ends_that_wants_beyond():
         (ac.Bounded(-INF, INF), 2.0,
          "The bounds of 'p' are both infinite; give one of them, or take ac.Shift(...)."),
         (0.2, 0.0, ZERO),
+        ("much", 2.0,
+         "The modifier of 'p' is 'much'; give a gamma, ac.Shift(...) or ac.Bounded(...)."),
     ],
 )  # fmt: skip
 def test_mistakes_get_one_sentence(kind: Any, value: float, sentence: str):

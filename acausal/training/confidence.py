@@ -1,13 +1,15 @@
 """Confidence: how well the record determines learned laws and parameters.
 
-A law is given the freedom to change by small bumps over what it has seen; parameters may change, too. The sensitivity
-of the whole simulation to all of them gives the Fisher information, and its inverse their covariance: a Laplace
-approximation in the space of functions, independent of how many weights a network has.
+A law is given the freedom to change by small bumps over what it has seen; parameters may change, too, and so may the
+state at the start where it was trained. The sensitivity of the whole simulation to all of them gives the Fisher
+information, and its inverse their covariance: a Laplace approximation in the space of functions, independent of how
+many weights a network has. Samples whose residuals are alike count for less than one each.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any
 
 import equinox as eqx
@@ -16,12 +18,13 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 from jax.scipy.special import erf
+from scipy.linalg import solve_triangular
 
 from acausal.errors import TrainingError
 from acausal.networks.scaled import Potential, law_of
 from acausal.neural import output_scale
-from acausal.training.modifiers import Modifiers
-from acausal.training.problem import Problem, Trainable
+from acausal.training.problem import Problem, Trainable, modified
+from acausal.training.residuals import correlation_time
 
 BUMPS, REACH = 12, 3.0
 """Bumps of each law, evenly over so many sigmas of its inputs to either side."""
@@ -31,6 +34,15 @@ POINTS = 201
 
 ALIKE = 0.98
 """Correlation from which on the data can't tell two parameters apart."""
+
+UNKNOWN = 0.9
+"""Part of what was believed before there were data that a standard deviation is where they tell nothing."""
+
+SLOW = 2.0
+"""Samples that are alike from which on residuals are called correlated."""
+
+ROUNDING = 1e-12
+"""Least noise that is taken for possible, relative to a target's standard deviation."""
 
 
 class Bumped(eqx.Module):
@@ -73,38 +85,40 @@ class Band:
 class Confidence:
     """What a record tells of laws and parameters.
 
-    Standard deviations hold if what the model leaves over is white noise; `residuals` tells.
-
     Attributes:
-        laws: by network.
-        parameters: standard deviations of the trained parameters, by name: relative to their values, or absolute
+        laws: by network, the law and its standard deviation.
+        parameters: by name, the standard deviation of trained parameters, relative to their values, or absolute
             where `Fit.modifiers` is.
-        correlation: between the parameters, in their order.
+        correlation: between the parameters, in their order, shape (parameters, parameters).
         noise: standard deviation of what is left over, by target.
-        modifiers: how the parameters move.
+        alike: by target, how many neighbouring samples of what is left over tell as much as one; 1 for white noise.
+        about: what is to be said of the parameters, one sentence each.
     """
 
     laws: dict[str, Band]
     parameters: dict[str, float]
     correlation: np.ndarray
     noise: dict[str, float]
-    modifiers: Modifiers
+    alike: dict[str, float]
+    about: tuple[str, ...]
 
     def words(self) -> list[str]:
-        """What the parameters' uncertainties mean, one sentence each."""
+        """What all this means, sentence by sentence."""
         names = list(self.parameters)
-        told = [
-            f"'{n}' is known to ±{self.modifiers.told(n, sigma, '.2g')} (one sigma)."
-            for n, sigma in self.parameters.items()
-        ]
-        told += [
+        together = [
             f"The data can hardly tell '{names[i]}' from '{names[j]}' (correlation {self.correlation[i, j]:+.3f}): "
             "only a combination of the two is known well; fix one, or measure more."
             for i in range(len(names))
             for j in range(i)
             if abs(self.correlation[i, j]) > ALIKE
         ]
-        return told
+        slow = [
+            f"What is left over of '{n}' is alike over {count:.0f} samples, which count as one here. If the "
+            "model lacks something, it is further off than its deviations say: see fit.residuals()."
+            for n, count in self.alike.items()
+            if count > SLOW
+        ]
+        return [*self.about, *together, *slow]
 
     def __repr__(self) -> str:
         return "\n".join(
@@ -114,6 +128,9 @@ class Confidence:
 
 def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarray]) -> Confidence:
     """How well a record determines what was trained on it.
+
+    The residuals of a target that are alike over τ neighbouring samples have at low frequencies τ times the spectrum of
+    white noise, so that each sample counts 1/τ.
 
     Arguments:
         problem: what was trained, over the whole record.
@@ -126,42 +143,93 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: _bumped(params[n], seen[n]) for n in laws}
-    kinds = zip(problem.modifiers.kinds, names, strict=True)
-    prior = [kind.believed(float(params[n])) for kind, n in kinds]
-    believed = np.concatenate([np.full(BUMPS, output_scale(params[n])) for n in laws] + [prior])
+    heights = [np.full(BUMPS, output_scale(params[n])) for n in laws]
+    prior, moves = _prior(problem, params), np.ones(_moves(trainable))
+    believed = np.concatenate([*heights, prior, moves])
+    ends = np.cumsum([BUMPS * len(laws), len(names)]).tolist()
 
-    def changed(z: Array) -> dict[str, Any]:
-        heights = jnp.split(z[: BUMPS * len(laws)], len(laws)) if laws else []
+    def changed(z: Array) -> tuple[Trainable, dict[str, Any]]:
+        bumps, changes, moves = jnp.split(scale * z, ends)
         nets = {
-            n: eqx.tree_at(lambda b: b.heights, bumped[n], h)
-            for n, h in zip(laws, heights, strict=True)
+            n: eqx.tree_at(lambda b: b.heights, bumped[n], bumps[k * BUMPS : (k + 1) * BUMPS])
+            for k, n in enumerate(laws)
         }
-        changes = dict(zip(names, z[BUMPS * len(laws) :], strict=True))
-        return problem.modifiers.changed({**params, **nets}, changes)
+        new = problem.modifiers.changed({**params, **nets}, dict(zip(names, changes, strict=True)))
+        return _moved(trainable, moves), new
 
     scale = jnp.asarray(believed)
-    left, slopes = _sensitivity(problem, trainable, lambda z: changed(scale * z), len(believed))
+    left, slopes = _sensitivity(problem, changed, len(believed))
     if not (np.isfinite(left).all() and np.isfinite(slopes).all()):
         raise TrainingError(
             "The trained model diverges over the record; nothing can be said of it."
         )
     noise = np.sqrt(np.mean(left**2, axis=0))
-    weighted = (slopes / np.maximum(noise, 1e-300)[None, :, None]).reshape(-1, len(believed))
-    covariance = np.linalg.inv(weighted.T @ weighted + np.eye(len(believed)))
-    covariance *= believed[:, None] * believed[None, :]
-    own = covariance[BUMPS * len(laws) :, BUMPS * len(laws) :]
+    alike = np.array([correlation_time(column) for column in left.T])
+    least = np.maximum(noise, ROUNDING * np.asarray(problem.record.sigma)) * np.sqrt(alike)
+    weighted = (slopes / least[:, None]).reshape(-1, len(believed))
+    covariance = _covariance(weighted) * np.outer(believed, believed)
+    own = covariance[ends[0] : ends[1], ends[0] : ends[1]]
     sigma = np.sqrt(np.diag(own))
     bands = {
         n: _band(params[n], bumped[n], covariance[k : k + BUMPS, k : k + BUMPS], seen[n])
-        for n, k in zip(laws, range(0, BUMPS * len(laws), BUMPS), strict=True)
+        for n, k in zip(laws, range(0, ends[0], BUMPS), strict=True)
     }
     return Confidence(
         bands,
         dict(zip(names, sigma.tolist(), strict=True)),
         own / np.maximum(np.outer(sigma, sigma), 1e-300),
         dict(zip(problem.targets, noise.tolist(), strict=True)),
-        problem.modifiers,
+        dict(zip(problem.targets, alike.tolist(), strict=True)),
+        _about(problem, trainable, sigma, prior),
     )
+
+
+def _about(
+    problem: Problem, trainable: Trainable, sigma: np.ndarray, prior: np.ndarray
+) -> tuple[str, ...]:
+    """How well each parameter is known, one sentence each."""
+    at_limit = problem.modifiers.at_limit(modified(problem, trainable), problem.system.unit)
+
+    def one(name: str, sigma: float, prior: float) -> str:
+        if name in at_limit:
+            return f"{at_limit[name]} How well it is known cannot be said."
+        if sigma > UNKNOWN * prior:
+            return f"The data tell nothing of '{name}'; leave it as it was, or measure what depends on it."
+        told = problem.modifiers.told(name, sigma, ".2g", problem.system.unit(name))
+        return f"'{name}' is known to ±{told} (one sigma)."
+
+    rows = zip(problem.modifiers.names, sigma.tolist(), prior.tolist(), strict=True)
+    return tuple(one(*row) for row in rows)
+
+
+def _prior(problem: Problem, params: dict[str, Any]) -> np.ndarray:
+    """By how much parameters are believed to be off: as seen from where they began or came to, whichever is more."""
+    rows = zip(
+        problem.modifiers.names, problem.modifiers.kinds, problem.modifiers.values, strict=True
+    )
+    return np.array(
+        [max(kind.believed(float(v)) for v in (start, params[n])) for n, kind, start in rows]
+    )
+
+
+def _moves(trainable: Trainable) -> int:
+    """How many numbers say where the record starts."""
+    return 0 if trainable.states is None else trainable.states.shape[1]
+
+
+def _moved(trainable: Trainable, moves: Array) -> Trainable:
+    """The same with another state at the record's start."""
+    if trainable.states is None:
+        return trainable
+    return replace(trainable, states=trainable.states.at[0].add(moves))
+
+
+def _covariance(slopes: np.ndarray) -> np.ndarray:
+    """``(JᵀJ + 1)⁻¹`` for slopes J, shape (rows, n), by QR decomposition: JᵀJ would lose twice as many digits."""
+    count = slopes.shape[1]
+    triangle = np.linalg.qr(np.concatenate([slopes, np.eye(count)]), mode="r")
+    inverse = solve_triangular(triangle, np.eye(count))
+    return inverse @ inverse.T
 
 
 def _bumped(network: Any, seen: np.ndarray) -> Bumped:
@@ -173,19 +241,19 @@ def _bumped(network: Any, seen: np.ndarray) -> Bumped:
 
 
 def _sensitivity(
-    problem: Problem, trainable: Trainable, params: Any, count: int
+    problem: Problem, changed: Callable[[Array], tuple[Trainable, dict[str, Any]]], count: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """What is left over, shape (N, targets), and the slopes of the predictions, shape (N, targets, count)."""
 
     @eqx.filter_jit
-    def run(problem: Problem, trainable: Trainable) -> tuple[Array, Array]:
+    def run(problem: Problem) -> tuple[Array, Array]:
         def predicted(z: Array) -> Array:
-            return problem.predict(trainable, params(z))
+            return problem.predict(*changed(z))
 
         at, push = jax.linearize(predicted, jnp.zeros(count))
         return problem.record.y - at, jax.vmap(push, out_axes=-1)(jnp.eye(count))
 
-    left, slopes = run(problem, trainable)
+    left, slopes = run(problem)
     return np.asarray(left), np.asarray(slopes)
 
 

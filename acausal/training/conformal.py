@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.signal import correlate
 
 from acausal.data import Data
 from acausal.errors import DataError
 from acausal.training.held_out import over
 from acausal.training.pose import Start, first_state
 from acausal.training.problem import Problem, Trainable
+from acausal.training.residuals import correlation_time
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,16 +128,3 @@ def predicted(
     start = first_state(problem.system, record, x0)
     other = over(problem, record, start)
     return record.time, np.asarray(other.simulate(trained).y), np.asarray(other.record.y)
-
-
-def correlation_time(values: np.ndarray) -> float:
-    """How many samples of a signal, shape (N,), tell as much as one independent one; at least 1.
-
-    ``1 + 2 Σ ρ_k``, up to the first autocorrelation that is not positive.
-    """
-    centred = values - values.mean()
-    own = np.asarray(correlate(centred, centred, method="fft"))[len(values) - 1 :]
-    if own[0] <= 0:
-        return 1.0
-    rho = own[1:] / own[0]
-    return float(1 + 2 * np.sum(rho * np.cumprod(rho > 0)))

@@ -38,12 +38,14 @@ class Trained:
 
     Attributes:
         best: its best state.
+        last: what was trained, as the last update or evaluation had it.
         history: what happened.
         seconds: all of it; ``compiling``: of which in XLA's compiler; ``updating``: of which in updates.
         interrupted: whether the user ended it.
     """
 
     best: Best
+    last: Trainable
     history: History
     seconds: float
     compiling: float
@@ -95,9 +97,10 @@ def train(
         interrupted = True
         run.evaluate(run.last)
     seconds = time.perf_counter() - run.began
+    last = parted(run.last, len(run.members))
     return tuple(
-        Trained(m.best, m.log.history(), seconds, run.compiling, run.updating, interrupted)
-        for m in run.members
+        Trained(m.best, end, m.log.history(), seconds, run.compiling, run.updating, interrupted)
+        for m, end in zip(run.members, last, strict=True)
     )
 
 

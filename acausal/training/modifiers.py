@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any, Protocol
 
 import equinox as eqx
@@ -13,6 +14,9 @@ import numpy as np
 from jax import Array
 
 from acausal.errors import TrainingError, nearest
+
+REACHED = 0.99
+"""Part of the way to a limit from which on a parameter has run into it."""
 
 
 class Modifier(Protocol):
@@ -33,6 +37,10 @@ class Modifier(Protocol):
 
     def believed(self, value: float) -> float:
         """The change that is believed to be likely before there are data."""
+        ...
+
+    def limit(self, value: float, change: float) -> float | None:
+        """The change beyond which there is none, where a change has as good as come there."""
         ...
 
     def refusal(self, value: float) -> str | None:
@@ -76,6 +84,10 @@ class Factor(_Relative):
         """The whole parameter, whatever γ."""
         return 1.0
 
+    def limit(self, value: float, change: float) -> float | None:
+        """``±γ``."""
+        return _reached(change, -self.gamma, self.gamma)
+
     def refusal(self, value: float) -> str | None:
         """For a γ that is too large, and at zero."""
         if not 0 < self.gamma < 1:
@@ -105,6 +117,10 @@ class Shift(_Absolute):
     def believed(self, value: float) -> float:
         """The scale."""
         return self.scale
+
+    def limit(self, value: float, change: float) -> float | None:
+        """There is none."""
+        return None
 
     def refusal(self, value: float) -> str | None:
         """For a scale that is none."""
@@ -142,8 +158,13 @@ class Bounded(_Absolute):
         return jnp.clip(value + change, self.low, self.high)
 
     def believed(self, value: float) -> float:
-        """The way to the nearer bound."""
-        return min(value - self.low, self.high - value)
+        """Half the way from bound to bound; where one is infinite, the way to the other."""
+        way = self.high - self.low
+        return min(value - self.low, self.high - value) if np.isinf(way) else way / 2
+
+    def limit(self, value: float, change: float) -> float | None:
+        """The way to a bound."""
+        return _reached(change, self.low - value, self.high - value)
 
     def refusal(self, value: float) -> str | None:
         """Outside of the bounds, and where there are none."""
@@ -152,6 +173,11 @@ class Bounded(_Absolute):
         if self.low < value < self.high:
             return None
         return f"Parameter '{{}}' starts at {value:g}, not between its bounds {self.low:g} and {self.high:g}."
+
+
+def _reached(change: float, low: float, high: float) -> float | None:
+    """The limit to which a change has come that began at 0, all but a hundredth of the way."""
+    return next((end for end in (low, high) if change / end > REACHED), None)
 
 
 class Modifiers(eqx.Module):
@@ -185,10 +211,22 @@ class Modifiers(eqx.Module):
         kinds = zip(self.names, self.kinds, strict=True)
         return {**params, **{n: kind.changed(params[n], changes[n]) for n, kind in kinds}}
 
-    def told(self, name: str, change: float, digits: str) -> str:
-        """A change in words, such as ``"+3.1 %"``; ``digits`` is a format."""
-        unit = self.kinds[self.names.index(name)].unit
-        return f"{100 * change:{digits}} %" if unit else f"{change:{digits}}"
+    def at_limit(self, changes: Mapping[str, Any], unit: Callable[[str], str]) -> dict[str, str]:
+        """A sentence about every parameter whose change has run into a limit, by name; ``unit`` is that of a name."""
+        rows = zip(self.names, self.kinds, self.values, strict=True)
+        found = {n: kind.limit(float(value), float(changes[n])) for n, kind, value in rows}
+        return {
+            n: f"'{n}' has run into the limit of its modifier, {self.told(n, end, '+.3g', unit(n))}: let it move "
+            "further, or look for what else the model lacks."
+            for n, end in found.items()
+            if end is not None
+        }
+
+    def told(self, name: str, change: float, digits: str, unit: str) -> str:
+        """A change in words, such as ``"+3.1 %"``; ``digits`` is a format, ``unit`` that of the parameter."""
+        if self.kinds[self.names.index(name)].unit:
+            return f"{100 * change:{digits}} %"
+        return f"{change:{digits}}" if unit in ("", "1") else f"{change:{digits}} {unit}"
 
 
 def modifiers(
@@ -201,12 +239,9 @@ def modifiers(
     Raises:
         TrainingError: for a name that is no numeric parameter, or a modifier that does not fit its value.
     """
+    names = (given,) if isinstance(given, str) else given or ()
     chosen: dict[str, Any] = (
-        {}
-        if given is None
-        else dict(given)
-        if isinstance(given, Mapping)
-        else dict.fromkeys(given, gamma)
+        dict(names) if isinstance(names, Mapping) else dict.fromkeys(names, gamma)
     )
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     kinds: list[Modifier] = []
@@ -215,7 +250,11 @@ def modifiers(
             raise TrainingError(
                 f"There is no parameter '{name}' to train: {nearest(name, numbers)}"
             )
-        kind = Factor(float(wanted)) if isinstance(wanted, int | float) else wanted
+        kind = Factor(float(wanted)) if isinstance(wanted, Real) else wanted
+        if not hasattr(kind, "refusal"):
+            raise TrainingError(
+                f"The modifier of '{name}' is {wanted!r:.80}; give a gamma, ac.Shift(...) or ac.Bounded(...)."
+            )
         refusal = kind.refusal(float(params[name]))
         if refusal is not None:
             raise TrainingError(refusal.format(name))

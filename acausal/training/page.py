@@ -41,7 +41,10 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
     _trajectories(page, fit)
     sure = fit.confidence()
     laws(page, fit, sure.laws)
-    _parameters(page, fit, sure)
+    if fit.modifiers:
+        _parameters(page, fit, sure)
+    for sentence in sure.words():
+        page.text(sentence)
     _leftovers(page, fit.residuals())
     if fit.history.divergences:
         page.section("What diverged")
@@ -120,32 +123,34 @@ def laws(page: Page, fit: Fit, bands: Mapping[str, Band]) -> None:
 
 
 def _parameters(page: Page, fit: Fit, sure: Confidence) -> None:
-    if not fit.modifiers:
-        return
     page.section("Trained parameters")
-    told = fit.problem.modifiers.told
+    told, units = fit.problem.modifiers.told, {n: fit.system.unit(n) for n in fit.modifiers}
     rows = [
-        (n, f"{float(fit.params[n]):.6g}", told(n, change, "+.3g"), told(n, sure.parameters[n], ".2g"))
+        (n, f"{float(fit.params[n]):.6g} {units[n]}".removesuffix(" 1"),
+         told(n, change, "+.3g", units[n]), told(n, sure.parameters[n], ".2g", units[n]))
         for n, change in fit.modifiers.items()
     ]  # fmt: skip
     page.table(("parameter", "value", "change", "one sigma"), rows)
-    for sentence in sure.words():
-        page.text(sentence)
 
 
 def _leftovers(page: Page, found: tuple[Residuals, ...]) -> None:
     page.section("What is left over")
     for residuals in found:
         page.text(residuals.words())
-        rows: Mapping[str, np.ndarray] = {"itself": residuals.own, **residuals.inputs}
+        rows = {"itself": (residuals.own, residuals.bound)}
+        rows |= {n: (c, residuals.bounds[n]) for n, c in residuals.inputs.items()}
 
-        def draw(ax: Axes, rows: Mapping[str, np.ndarray] = rows, r: Residuals = residuals) -> None:
-            for label, values in rows.items():
-                first = 1 if label == "itself" else -(len(values) // 2)
-                ax.plot(first + np.arange(len(values)), values, lw=1.1, label=f"with {label}")
-            ax.axhspan(-r.bound, r.bound, color=GUIDE, alpha=0.2, lw=0)
+        def draw(ax: Axes, rows: Mapping[str, tuple[np.ndarray, float]] = rows) -> None:
+            for label, (values, bound) in rows.items():
+                lags = np.arange(len(values)) + (1 if label == "itself" else -(len(values) // 2))
+                (line,) = ax.plot(lags, values, lw=1.1, label=f"with {label}")
+                for side in (-bound, bound):
+                    ax.plot(lags[[0, -1]], [side, side], color=line.get_color(), lw=0.9, ls=":")
             ax.set(xlabel="lag [samples]", ylabel="correlation")
             ax.grid(alpha=0.25)
             ax.legend(frameon=False)
 
-        page.figure(figure(WIDE, draw), f"Correlations of the residuals of '{residuals.target}'.")
+        page.figure(
+            figure(WIDE, draw),
+            f"Correlations of the residuals of '{residuals.target}'; dotted, what chance reaches.",
+        )

@@ -73,6 +73,10 @@ def pose(
         )
     if not targets:
         raise TrainingError("There are no targets: name the variables to fit.")
+    if driven := [n for n in targets if n in system.inputs]:
+        raise TrainingError(
+            f"{listing(driven)}: a target is what the model computes, not its input."
+        )
     if len(data) < 2:
         raise DataError("The record has less than two samples.")
     cut = sequences(data, sequence_length, batch_size, subsample)

@@ -11,7 +11,7 @@ LAGS = 50
 """Lags at which correlations are looked at."""
 
 SURE = 4.0
-"""Standard deviations of a correlation of white noise beyond which it is none."""
+"""Standard deviations of a correlation by chance; among the lags of white noise one in 300 records has a larger one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,9 +21,10 @@ class Residuals:
     Attributes:
         target: its name.
         values: measured less predicted, shape (N,).
-        own: autocorrelation at the lags 1 to `LAGS`.
-        inputs: by input, the correlation with the input at the lags −`LAGS` to `LAGS`.
-        bound: the size of a correlation up to which it is taken for chance.
+        own: autocorrelation at the lags 1 to `LAGS` (fewer where N < 4 `LAGS`), shape (lags,).
+        inputs: by input that is not constant, the correlation with it at the lags −lags to lags, shape (2 lags + 1,).
+        bound: the size of an autocorrelation up to which it is taken for chance.
+        bounds: the same for the correlations with the inputs, by input.
     """
 
     target: str
@@ -31,29 +32,30 @@ class Residuals:
     own: np.ndarray
     inputs: dict[str, np.ndarray]
     bound: float
+    bounds: dict[str, float]
 
     @property
     def is_white(self) -> bool:
-        """Whether not more than a twentieth of the autocorrelation is beyond the bound."""
-        return float(np.mean(np.abs(self.own) > self.bound)) <= 0.05
+        """Whether no autocorrelation is beyond the bound."""
+        return bool(np.max(np.abs(self.own)) <= self.bound)
 
     @property
     def drivers(self) -> tuple[str, ...]:
         """Inputs that the residuals still follow."""
-        return tuple(
-            n for n, c in self.inputs.items() if float(np.mean(np.abs(c) > self.bound)) > 0.05
-        )
+        return tuple(n for n, c in self.inputs.items() if np.max(np.abs(c)) > self.bounds[n])
 
     def words(self) -> str:
         """What this means, in a sentence."""
-        if self.is_white and not self.drivers:
-            return f"'{self.target}': what is left over looks like white noise; nothing more is to be learned from it."
+        if self.bound >= 1:
+            return f"'{self.target}': {len(self.values)} samples are too few to tell what is left over from noise."
         if self.drivers:
             largest = max(float(np.max(np.abs(self.inputs[n]))) for n in self.drivers)
             return (
                 f"'{self.target}': what is left over still follows {', '.join(map(repr, self.drivers))}, up to "
                 f"a correlation of {largest:.2g}: the model lacks something, or trained too little."
             )
+        if self.is_white:
+            return f"'{self.target}': what is left over looks like white noise; nothing more is to be learned from it."
         return (
             f"'{self.target}': what is left over is no white noise, up to a correlation of "
             f"{np.max(np.abs(self.own)):.2g}: coloured noise, or something that the model lacks."
@@ -61,19 +63,41 @@ class Residuals:
 
 
 def residuals(target: str, values: np.ndarray, inputs: dict[str, np.ndarray]) -> Residuals:
-    """Correlations of what is left over of a target, shape (N,), with itself and with inputs."""
-    lags = min(LAGS, len(values) // 4)
-    whole = _correlation(values, values, lags)
+    """Correlations of what is left over of a target, shape (N,), with itself and with inputs.
+
+    An autocorrelation of N samples of white noise has the variance 1/N. The correlation with an input that has nothing
+    to do with it has ``1/N Σ ρ_k ρ'_k`` over all lags of both autocorrelations (L. Ljung: System Identification,
+    Prentice Hall 1999, section 16.6): slow noise and a slow input look alike by chance.
+    """
+    lags = max(1, min(LAGS, len(values) // 4))
+    own = _correlation(values, values, lags)
+    chance = SURE / np.sqrt(len(values))
+
+    def bound(u: np.ndarray) -> float:
+        return float(chance * np.sqrt(max(1.0, own @ _correlation(u, u, lags))))
+
+    varying = {n: u for n, u in inputs.items() if np.std(u) > 0}
     return Residuals(
         target,
         values,
-        whole[lags + 1 :],
-        {n: _correlation(values, u, lags) for n, u in inputs.items() if np.std(u) > 0},
-        SURE / np.sqrt(len(values)),
+        own[lags + 1 :],
+        {n: _correlation(values, u, lags) for n, u in varying.items()},
+        float(chance),
+        {n: bound(u) for n, u in varying.items()},
     )
 
 
+def correlation_time(values: np.ndarray) -> float:
+    """How many samples of a signal, shape (N,), tell as much as one independent one; at least 1.
+
+    ``1 + 2 Σ ρ_k``, up to the first autocorrelation that is not positive.
+    """
+    rho = _correlation(values, values, len(values) - 1)[len(values) :]
+    return float(1 + 2 * np.sum(rho * np.cumprod(rho > 0)))
+
+
 def _correlation(a: np.ndarray, b: np.ndarray, lags: int) -> np.ndarray:
+    """The correlation of a with earlier b, at the lags −lags to lags; 0 where one of them is constant."""
     a, b = a - a.mean(), b - b.mean()
     size = np.sqrt((a @ a) * (b @ b)) or 1.0
     first = len(a) - 1 - lags

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +16,7 @@ from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError
+from acausal.errors import TrainingError, listing
 from acausal.simulation.solvers import Solver
 from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import fingerprint
@@ -26,7 +26,7 @@ from acausal.training.loop import train as run
 from acausal.training.losses import Loss
 from acausal.training.modifiers import Modifier
 from acausal.training.pose import Start, pose
-from acausal.training.problem import Problem
+from acausal.training.problem import Problem, Trainable, modified
 from acausal.training.progress import Observer, display
 from acausal.training.regularizers import Regularizer
 from acausal.training.result import Fit, result
@@ -38,6 +38,9 @@ if TYPE_CHECKING:
 
 DIVERGED = 1e3
 """A sequence whose normalised error is larger has diverged."""
+
+EXACT = 1e-100
+"""A loss at which a model follows its record to the last bit, and nothing moves."""
 
 
 def together(
@@ -115,8 +118,9 @@ def together(
         checkpoints.keeping(path if first else None, checkpoint_every, identity) as keep,
     ):
         trained = run(problem, starts, plan, keys, (show, *observers), keep, stored, held)
-    for one in trained:
-        _warn(one)
+    for posed, start, one in zip(problems, starts, trained, strict=True):
+        for sentence in _warnings(posed, start, one):
+            warnings.warn(sentence, stacklevel=3)
     return tuple(map(result, problems, trained))
 
 
@@ -159,15 +163,31 @@ def _checkpoint(
     return file, checkpoints.read(file, identity)
 
 
-def _warn(trained: Trained) -> None:
-    diverged = trained.history.divergences
+def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
+    """What a user should know of a training, a sentence each."""
+    diverged, epochs = trained.history.divergences, trained.history.epochs
     if diverged:
-        warnings.warn(
-            f"Something diverged in {len(diverged)} of {trained.history.epochs} epochs and was left out "
-            f"(fit.history.divergences); first, {diverged[0]}.",
-            stacklevel=4,
+        yield (
+            f"Something diverged in {len(diverged)} of {epochs} epochs and was left out "
+            f"(fit.history.divergences); first, {diverged[0]}."
         )
     if not np.isfinite(trained.best.loss):
-        warnings.warn(
-            "The trained model diverges over the whole record: its loss is infinite.", stacklevel=4
+        yield "The trained model diverges over the whole record: its loss is infinite."
+    unmoved = _unmoved(start, trained.last)
+    if unmoved and len(diverged) < epochs and trained.history.full_loss[0, 1] > EXACT:
+        yield (
+            f"Training did not move {listing(unmoved)}: no target depends on it. "
+            "Fit a target that does, or leave it out (train=..., modifiers=...)."
         )
+    changes = modified(problem, trained.best.trainable)
+    yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
+
+
+def _unmoved(start: Trainable, end: Trainable) -> list[str]:
+    """The networks and parameters that are as they were, to the last bit."""
+    before, after = ({**t.networks, **t.modifiers} for t in (start, end))
+    return [
+        name
+        for name, tree in before.items()
+        if all(map(np.array_equal, jax.tree.leaves(tree), jax.tree.leaves(after[name])))
+    ]
