@@ -31,7 +31,14 @@ FUNCTIONS = {
     "number and vector": lambda s, v, m, w: (s * v, v / s, jnp.clip(v, -s, jnp.abs(s))),
     "shared": lambda s, v, m, w: (w + m, w * s, w[:, 0] - 1, v + w[1]),
     "shared alone": lambda s, v, m, w: (jnp.tanh(w).sum(),),
-    "shapes": lambda s, v, m, w: (m.T, m.reshape(2, 6), m.ravel()[::2], v[None], m[1:3, ::2]),
+    "shapes": lambda s, v, m, w: (
+        m.T,
+        m.reshape(2, 6),
+        m.ravel()[::2],
+        v[None],
+        m[1:3, ::2],
+        m[::-1],
+    ),
     "pieces": lambda s, v, m, w: (
         jnp.concatenate([m, w]),
         jnp.stack([s, v[0]]),

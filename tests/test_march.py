@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from jax import lax
 
-from acausal.simulation.batch import LARGEST, batched, is_small
+import acausal as ac
+from acausal.simulation.batch import LARGEST, batched, is_small, operations
 from acausal.simulation.march import march
+from tests import oscillator
 
 US, COUNT = jnp.linspace(0.0, 1.0, 7), jnp.arange(7)
 MATRIX = jnp.asarray(np.random.default_rng(0).standard_normal((3, 3)))
@@ -115,6 +117,37 @@ def test_what_calls_a_library_is_left_to_jax():
         traced = jax.make_jaxpr(other)(GAIN, X0, US[0])
         assert not is_small(traced.jaxpr, in_loop=True)
         assert_same(lambda f, g=other: jax.jacfwd(lambda x: f(g, GAIN, x, US)[1])(X0))
+
+
+@pytest.mark.parametrize(
+    ("interpolation", "dt"),
+    [("linear", 0.5), ("previous", 0.3), ("cubic", 0.2), ("band-limited", 0.1)],
+)
+def test_a_model_with_any_input_is_compiled_as_a_whole(interpolation: str, dt: float, monkeypatch):
+    """Its number of steps is its own, so that it is traced anew."""
+    found = []
+    monkeypatch.setattr(
+        "acausal.simulation.march.is_small",
+        lambda jaxpr, in_loop: found.append(is_small(jaxpr, in_loop)) or found[-1],
+    )
+    force = ac.Signal(np.arange(4.0), np.arange(4.0) % 2, interpolation)
+    ac.simulate(oscillator.learned(), (0.0, 3.0), dt=dt, inputs={"push.f": force}, solver="heun")
+    assert found == [True]
+
+
+def test_totals_are_written_once_a_turn_where_they_are_large():
+    """In one turn of the derivative's loop are two steps then, else one."""
+
+    def sines(width):
+        weights = jnp.ones((width, 3))
+        back = jax.grad(lambda w: jnp.sum(march(one, w, X0, US)[1]))
+        return str(jax.make_jaxpr(back)(weights)).count("cos")
+
+    def one(weights, x, u):
+        return jnp.tanh(jnp.sin(u) * weights[0] + jnp.sum(weights) * x), None
+
+    assert operations(jax.make_jaxpr(one)(jnp.ones((30, 3)), X0, US[0]).jaxpr) < 10
+    assert sines(30) == 2 * sines(1)
 
 
 def test_what_is_large_is_left_to_jax():

@@ -28,7 +28,12 @@ LARGEST = 16_384
 MOST = 4_000
 """Operations in a loop up to which it is compiled as a whole; it takes the longer, the more there are."""
 
-SIMPLE = ELEMENTWISE | RULES.keys() | CALLS | {"custom_linear_solve", "iota", "while"}
+SIMPLE = (
+    ELEMENTWISE
+    | RULES.keys()
+    | CALLS
+    | {"custom_linear_solve", "dynamic_slice", "gather", "iota", "while"}
+)
 """Operations that XLA compiles itself; for others, and for products of two matrices, it calls libraries."""
 
 
@@ -107,6 +112,11 @@ def is_small(jaxpr: Any, in_loop: bool = False) -> bool:
         and all(_is_small(*found) for found in equations)
         and compiles_small_loops()
     )
+
+
+def operations(jaxpr: Any) -> int:
+    """How many operations a jaxpr has, those in its inner ones included."""
+    return sum(1 for _ in _equations(jaxpr, in_loop=False))
 
 
 def _equations(jaxpr: Any, in_loop: bool) -> Iterator[tuple[Any, bool]]:

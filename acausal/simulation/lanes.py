@@ -240,6 +240,7 @@ RULES: dict[str, Callable[[Any, list[Value], int], list[Any]]] = {
     "reduce_prod": _same_axes,
     "reduce_sum": _same_axes,
     "reshape": _reshape,
+    "rev": _same_axes,
     "scan": _scan,
     "slice": _slice,
     "split": _same_axes,

@@ -7,6 +7,7 @@ computed: arithmetic is cheaper than memory.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import equinox as eqx
@@ -16,7 +17,7 @@ from jax import Array, lax
 from jax.custom_derivatives import SymbolicZero
 from jax.extend.core import ClosedJaxpr, jaxpr_as_fun
 
-from acausal.simulation.batch import batched, is_small
+from acausal.simulation.batch import batched, is_small, operations
 
 Step = Callable[[Any, Array, Any], tuple[Array, Any]]
 """(constants, state, row) -> (next state, outputs), of arrays."""
@@ -24,10 +25,11 @@ Step = Callable[[Any, Array, Any], tuple[Array, Any]]
 Flat = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
 """The same with flat lists: [next state, *outputs]."""
 
-AT_ONCE, FEW = 2, 32
-"""Steps of the derivative in one turn of its loop, up to so many states: what they add to totals is written once.
+AT_ONCE, MANY = 2, 2
+"""Steps of the derivative in one turn of its loop, where totals have so many numbers for each operation of a step.
 
-That saves a fifth of the time; more steps a turn only take longer to compile.
+What the steps of a turn add to totals is written once. Of the quarter vehicle, whose networks have four weights for
+each operation, that saves a fifth of the time; of smaller networks nothing, and they take twice as long to compile.
 """
 
 
@@ -57,7 +59,7 @@ def march(
         return jaxpr_as_fun(own)(*constants[captured:], x, *row)
 
     is_repeated = not direct and is_small(closed.jaxpr, in_loop=True)
-    run = _march if is_repeated else _forward
+    run = partial(_march, operations(closed.jaxpr)) if is_repeated else _forward
     states, end, *outputs = run(flat, [*closed.consts, *shared], x0, each)
     return states, end, jax.tree.unflatten(jax.tree.structure(shapes[1]), outputs)
 
@@ -68,12 +70,14 @@ class _Saved(eqx.Module):
     Attributes:
         constants, states, rows: of the loop.
         moved: which constants and which rows are differentiated by.
+        operations: in a step.
     """
 
     constants: list[Array]
     states: Array
     rows: list[Array]
     moved: tuple[tuple[bool, ...], tuple[bool, ...]] = eqx.field(static=True)
+    operations: int = eqx.field(static=True)
 
 
 def _forward(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -> Sequence[Array]:
@@ -87,7 +91,9 @@ def _forward(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -
     return [states, end, *outputs]
 
 
-def _march(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -> Sequence[Array]:
+def _march(
+    size: int, step: Flat, constants: list[Array], x0: Array, rows: list[Array]
+) -> Sequence[Array]:
     """The same, with a derivative that repeats the steps."""
     n = len(constants)
 
@@ -103,7 +109,7 @@ def _march(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -> 
         moved = tuple(p.perturbed for p in constants), tuple(p.perturbed for p in rows)
         shared, each = [p.value for p in constants], [p.value for p in rows]
         results = run(*shared, x0.value, *each)
-        return results, _Saved(shared, results[0], each, moved)
+        return results, _Saved(shared, results[0], each, moved, size)
 
     def back(saved: _Saved, cotangents: list[Any]) -> tuple[list[Any], Array, list[Any]]:
         return _back(step, saved, [None if isinstance(c, SymbolicZero) else c for c in cotangents])
@@ -143,7 +149,7 @@ def _back(
         adjoint = jnp.zeros_like(states[0]) if to_end is None else to_end
         start = adjoint, [jnp.zeros_like(c) for c in _some(constants, some_constants)]
         samples = states, rows, to_states, to_outputs
-        unroll = AT_ONCE if states.shape[1] <= FEW else 1
+        unroll = AT_ONCE if sum(t.size for t in start[1]) > MANY * saved.operations else 1
         (adjoint, totals), by_rows = lax.scan(body, start, samples, reverse=True, unroll=unroll)
         return [adjoint, *totals, *by_rows]
 
