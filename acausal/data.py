@@ -152,8 +152,17 @@ class Data:
         return Signal(self.time, self[name], cast(Interpolation, kind), name=name)
 
     def between(self, start: float, end: float) -> Data:
-        """The samples with ``start <= time <= end``."""
+        """The samples with ``start <= time <= end``.
+
+        Raises:
+            DataError: if there are fewer than two.
+        """
         inside = (self.time >= start) & (self.time <= end)
+        if inside.sum() < 2:
+            raise DataError(
+                f"No two samples lie between {start:g} and {end:g} s; the record goes from "
+                f"{self.time[0]:g} to {self.time[-1]:g} s."
+            )
         return self._with(self.time[inside], {n: v[inside] for n, v in self.signals.items()})
 
     def select(self, names: Iterable[str]) -> Data:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 TRUTH = "#22303c"
 LEARNED = ("#1f77b4", "#d1603d", "#3d8c5a", "#8a5a9e", "#b8860b", "#417f8a")
-"""Colours of learned curves, in order."""
+"""Colours of learned curves, in turn."""
 GUIDE = "#8795a1"
 SPAN = 3.0
 """Learned functions are drawn over this many sigmas of their inputs."""
@@ -47,7 +48,7 @@ def learned(
     x = np.linspace(mean - SPAN * sigma, mean + SPAN * sigma, 601)
     if truth is not None:
         ax.plot(x, np.asarray(truth(x)), color=TRUTH, lw=2.4, alpha=0.55, label="truth")
-    for (label, function), color in zip(functions.items(), LEARNED, strict=False):
+    for (label, function), color in zip(functions.items(), cycle(LEARNED), strict=False):
         ax.plot(x, np.asarray(jax.vmap(function)(jnp.asarray(x))), color=color, lw=1.5, label=label)
     guides(ax, seen, x[0], x[-1])
     ax.set(xlabel=xlabel, ylabel=ylabel)
@@ -80,7 +81,7 @@ def losses(
     Arguments:
         levels: horizontal lines by label, such as a published loss.
     """
-    for (label, history), color in zip(histories.items(), LEARNED, strict=False):
+    for (label, history), color in zip(histories.items(), cycle(LEARNED), strict=False):
         ax.semilogy(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
         ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
         if len(history.validation_loss):
@@ -100,7 +101,7 @@ def losses(
 
 def modifiers(ax: Axes, fit: Fit, *, targets: Mapping[str, float] | None = None) -> None:
     """Draw the changes of trained parameters over epochs, and their targets where these are known."""
-    for (name, values), color in zip(fit.history.modifiers.items(), LEARNED, strict=False):
+    for (name, values), color in zip(fit.history.modifiers.items(), cycle(LEARNED), strict=False):
         ax.plot(values, color=color, lw=1.4, label=name)
         if targets is not None:
             ax.axhline(targets[name], color=color, lw=0.9, ls="--")

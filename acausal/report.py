@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.printing.mathml import MathMLPresentationPrinter
 
+from acausal.errors import DataError, reason
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -95,16 +97,23 @@ class Page:
         )
 
     def write(self, path: str | Path, footer: str = "") -> Path:
-        """Write the page, making its folder."""
+        """Write the page, making its folder.
+
+        Raises:
+            DataError: if it cannot be written.
+        """
         path = Path(path)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(
+        text = (
             '<!doctype html><html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>{html.escape(self.title)}</title><style>{STYLE}</style></head><body>"
-            f"{''.join(self._body)}<footer>{html.escape(footer)}</footer></body></html>",
-            encoding="utf-8",
+            f"{''.join(self._body)}<footer>{html.escape(footer)}</footer></body></html>"
         )
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        except OSError as error:
+            raise DataError(f"Page '{path}' cannot be written: {reason(error)}.") from error
         return path
 
 

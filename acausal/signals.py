@@ -175,7 +175,9 @@ def check_samples(values: Any, shape: tuple[int, ...], what: str) -> None:
     bad = np.flatnonzero(~np.isfinite(samples))
     if len(bad):
         more = f" and {len(bad) - 1} more" if len(bad) > 1 else ""
-        raise DataError(f"{what} is {samples[bad[0]]} at sample {bad[0]}{more}.")
+        raise DataError(
+            f"{what} is {samples[bad[0]]} at sample {bad[0]}{more}; leave such samples out, or fill the gap."
+        )
 
 
 def is_uniform(ts: np.ndarray) -> bool:

@@ -66,9 +66,13 @@ def test_temperatures_have_an_offset():
     [
         (
             lambda: ac.Data(TIME, {"x": np.where(TIME > 0.75, np.nan, TIME)}),
-            "'x' is nan at sample 8 and 2 more.",
+            "'x' is nan at sample 8 and 2 more; leave such samples out, or fill the gap.",
         ),
         (lambda: ac.Data(TIME, {"x": TIME[:-1]}), "'x' has 10 samples for 11 times."),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}).between(5, 6),
+            "No two samples lie between 5 and 6 s; the record goes from 0 to 1 s.",
+        ),
         (
             lambda: ac.Data(TIME[::-1], {"x": TIME}),
             "The record has a time base that does not increase: 1 s at sample 0 is followed by 0.9 s.",
@@ -122,7 +126,10 @@ def test_csv(tmp_path):
         ("", "is empty; its first line must name the columns."),
         ("time,x\n0,1\n1\n", ", line 3: 1 values for 2 columns."),
         ("time,x\n0,1\n1,abc\n", ", line 3: 'abc' in column 'x' is no number."),
-        ("time,x\n0,1\n1,nan\n", ": 'x' is nan at sample 1."),
+        (
+            "time,x\n0,1\n1,nan\n",
+            ": 'x' is nan at sample 1; leave such samples out, or fill the gap.",
+        ),
         ("time,x,x\n0,1,1\n", ", line 1: two columns are called 'x'."),
         (
             "time,x [m\n0,1\n",

@@ -68,11 +68,11 @@ def test_the_spread_is_that_of_the_members():
     band = found.laws["extra.net"]
     values = [float(fit.params["extra.net"](band.x[at])) for fit in found.fits]
     assert band.law[at] == pytest.approx(np.mean(values))
-    assert band.sigma[at] == pytest.approx(np.std(values)) != 0
+    assert band.sigma[at] == pytest.approx(np.std(values, ddof=1)) != 0
     told = found.predicted["mass.a"]
     ys = np.stack([fit.predicted[:, 0] for fit in found.fits])
     np.testing.assert_allclose(told.law, ys.mean(axis=0))
-    np.testing.assert_allclose(told.sigma, ys.std(axis=0))
+    np.testing.assert_allclose(told.sigma, ys.std(axis=0, ddof=1))
     assert len(told.x) == len(found.fits[0].problem.record)
     ahead = found.predict(record(end=5.0).between(2.5, 5.0))["mass.a"]
     sol = ac.simulate(
@@ -80,10 +80,10 @@ def test_the_spread_is_that_of_the_members():
         params=found.fits[2].params, x0=[record(end=5.0)[n][250] for n in learned().states],
     )  # fmt: skip
     deviation = np.abs(np.asarray(sol["mass.a"]) - ahead.law)
-    assert np.all(deviation <= np.sqrt(2) * ahead.sigma * (1 + 1e-6))  # one of three
+    assert np.all(deviation <= 2 / np.sqrt(3) * ahead.sigma * (1 + 1e-6))  # one of three
     mean, sigma = found.modifiers["mass.m"]
     masses = [fit.modifiers["mass.m"] for fit in found.fits]
-    assert (mean, sigma) == pytest.approx((np.mean(masses), np.std(masses)))
+    assert (mean, sigma) == pytest.approx((np.mean(masses), np.std(masses, ddof=1)))
     assert found.best.validation_loss == min(fit.validation_loss or 0 for fit in found.fits)
     assert "Ensemble of 3 for extra.net, mass.m" in repr(found)
 
@@ -143,3 +143,10 @@ def test_mistakes_get_one_sentence(wishes: dict[str, Any], sentence: str):
     with pytest.raises(ac.TrainingError) as error:
         train(**wishes)
     assert str(error.value) == sentence
+
+
+def test_a_wish_that_fit_does_not_know():
+    with pytest.raises(
+        TypeError, match=r"^ensemble has no argument 'epoch': did you mean 'epochs'"
+    ):
+        train(epoch=3)

@@ -428,10 +428,16 @@ def test_outputs_alone_suffice_for_the_whole_record():
          ("The data lack 'mass.v', with which the record starts: "
           "give x0={'mass.v': ...}, or x0='model' for the model's start values.")),
         ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is no state of the model: did you mean 'mass.v'?"),
+        ({"x0": {"mass.s": float("nan")}}, ac.DataError, "x0: 'mass.s' is nan; give a finite number."),
+        ({"x0": {"mass.s": "rest"}}, ac.DataError, "x0: 'mass.s' is 'rest'; give a finite number."),
+        ({"x0": "modle"}, ac.DataError, "x0='modle' is no way to start here: did you mean 'model'?"),
         ({"data": ["mass.a", "mass.s", "mass.v"]}, ac.DataError, "The data lack 'push.f', an input of the model."),
         ({"targets": ("spring.f",)}, ac.DataError, "The data lack 'spring.f', a target of the training."),
         ({"sequence_length": 100.0}, ac.DataError,
          "sequence_length=100 s is 10000 samples; the record has 2001 at 0.01 s."),
+        ({"sequence_length": float("nan")}, ac.DataError,
+         "sequence_length=nan is no length; give seconds, or None for all."),
+        ({"batch_size": 2.5}, ac.DataError, "batch_size=2.5; give a whole number of sequences."),
         ({"sequence_length": None}, ac.DataError,
          "batch_size=4 needs a sequence_length in seconds, shorter than the record."),
         ({"subsample": 1.5}, ac.DataError, "subsample=1.5 is no fraction of the points; give a number in (0, 1]."),
@@ -444,9 +450,12 @@ def test_outputs_alone_suffice_for_the_whole_record():
         ({"modifiers": {"mass.m": 1.5}}, ac.TrainingError,
          "The modifier of 'mass.m' has gamma=1.5; choose it between 0 and 1."),
         ({"train": []}, ac.TrainingError,
-         "There is nothing to train: the model has no network. Give modifiers=[...] to train parameters."),
+         ("There is nothing to train: no network is in the model or chosen by train=[...]. "
+          "Give modifiers=[...] to train parameters.")),
         ({"loss": "rmse"}, ac.TrainingError, "No loss 'rmse': did you mean 'nrmse'?"),
         ({"targets": ()}, ac.TrainingError, "There are no targets: name the variables to fit."),
+        ({"targets": ("push.f",)}, ac.TrainingError,
+         "'push.f': a target is what the model computes, not its input."),
     ],
 )  # fmt: skip
 def test_mistakes_get_one_sentence(wishes, kind, sentence):

@@ -160,6 +160,11 @@ def test_it_is_drawn(tmp_path: Path):
     [
         ({"validation": 1.2}, "validation=1.2 of 501 samples leaves -100 to train on; give a"),
         ({"validation": 0.001}, "validation=0.001 of 501 samples leaves 500 to train on; give a"),
+        (
+            {"validation": float("nan")},
+            "validation=nan is no fraction; give a number between 0 and 1.",
+        ),
+        ({"validation": np.float32(1.5)}, "validation=1.5 of 501 samples leaves -251 to train on"),
         ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'mass.s'"),
         ({"patience": 0}, "patience=0; at least one evaluation is needed."),
     ],

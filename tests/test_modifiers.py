@@ -109,7 +109,8 @@ def test_a_bound_is_where_training_ends_that_wants_beyond():
     with pytest.warns(UserWarning, match=told):
         fit = ac.fit(
             plain(), record(cubic=0.0, end=5.0), "mass.a", strategy="whole_record", epochs=40,
-            modifiers={"spring.d": ac.Bounded(0.0, 0.5)}, params={"spring.d": 0.25}, progress=False,
+            params={"spring.d": 0.25}, progress=False,
+            modifiers={"spring.d": ac.Bounded(0.0, 0.5), "spring.c": 0.2},
         )  # fmt: skip
     assert 0.499 < fit.params["spring.d"] <= 0.5
     assert fit.confidence().words()[0].endswith("How well it is known cannot be said.")

@@ -101,7 +101,11 @@ def test_traced_samples_and_times():
         ([0.0, np.nan, 1.0], [1, 2, 3], "'u' has a time that is nan at sample 1."),
         ([0.0], [1.0], "'u' needs a time base of at least two samples, got shape (1,)."),
         ([0.0, 1.0], [1, 2, 3], "'u' has 3 samples for 2 times."),
-        ([0.0, 1.0], [1, np.inf], "'u' is inf at sample 1."),
+        (
+            [0.0, 1.0],
+            [1, np.inf],
+            "'u' is inf at sample 1; leave such samples out, or fill the gap.",
+        ),
         ([0.0, 1.0], ["a", "b"], "'u' holds <U1; numbers are needed."),
     ],
 )

@@ -276,6 +276,14 @@ def test_a_second_call_does_not_compile():
             ac.DataError,
             "Input 'push.f' is a function that returns shape (2,), no scalar.",
         ),
+        (
+            {"inputs": {"push.f": lambda t: np.sin(t) if t > 0.5 else 0.0}},
+            ac.DataError,
+            (
+                "Input 'push.f' is a function that JAX cannot trace; write it with jax.numpy "
+                "(jnp.sin, jnp.where), or give samples: (times, values)."
+            ),
+        ),
         ({"inputs": {"push.f": np.nan}}, ac.DataError, "Input 'push.f' is nan."),
         (
             {"inputs": NO_FORCE, "dt": 0.3},

@@ -42,8 +42,18 @@ class Function(eqx.Module):
     name: str = eqx.field(static=True)
 
     def __call__(self, t: ArrayLike) -> Array:
-        """The function's value as a scalar array."""
-        value = jnp.asarray(self.function(t), jnp.result_type(t))
+        """The function's value as a scalar array.
+
+        Raises:
+            DataError: for a function that JAX cannot trace, or that returns no scalar.
+        """
+        try:
+            value = jnp.asarray(self.function(t), jnp.result_type(t))
+        except jax.errors.JAXTypeError as error:
+            raise DataError(
+                f"Input '{self.name}' is a function that JAX cannot trace; write it with jax.numpy "
+                "(jnp.sin, jnp.where), or give samples: (times, values)."
+            ) from error
         if value.shape != ():
             raise DataError(
                 f"Input '{self.name}' is a function that returns shape {value.shape}, no scalar."

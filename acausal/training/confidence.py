@@ -3,7 +3,8 @@
 A law is given the freedom to change by small bumps over what it has seen; parameters may change, too, and so may the
 state at the start where it was trained. The sensitivity of the whole simulation to all of them gives the Fisher
 information, and its inverse their covariance: a Laplace approximation in the space of functions, independent of how
-many weights a network has. Samples whose residuals are alike count for less than one each.
+many weights a network has. What of a law is narrower than a bump, half a standard deviation of its input, does not
+show. Samples whose residuals are alike count for less than one each.
 """
 
 from __future__ import annotations

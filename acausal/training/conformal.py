@@ -112,7 +112,7 @@ def conformal(
                 f"The record is worth {count:.1f} independent samples of '{name}', too few for level={level:g}: "
                 "take a longer one, or a lower level."
             )
-        width[name] = float(np.quantile(column, raised, method="higher"))
+        width[name] = float(np.quantile(column, raised, method="inverted_cdf"))
         independent[name] = float(count)
     return Conformal(level, width, independent, problem, trained)
 

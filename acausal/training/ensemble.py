@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError, need_compiled
+from acausal.errors import TrainingError, nearest, need_compiled
 from acausal.networks.scaled import law_of
 from acausal.training.confidence import POINTS, REACH, Band
 from acausal.training.conformal import predicted
@@ -33,8 +33,9 @@ if TYPE_CHECKING:
 class Ensemble:
     """The results of trainings that differ in their seed alone.
 
-    Their spread shows what the record and the training leave open. What is wrong for all of them, such as a law that
-    follows the record's noise, it does not show: `Fit.confidence` tells of that.
+    Their spread shows what the record and the training leave open: standard deviations are those of trainings that one
+    might add, estimated from those that there are. What is wrong for all of them, such as a law that follows the
+    record's noise, it does not show: `Fit.confidence` tells of that.
 
     Attributes:
         fits: one for each member.
@@ -83,7 +84,7 @@ class Ensemble:
     def modifiers(self) -> dict[str, tuple[float, float]]:
         """By trained parameter, mean and standard deviation of its change."""
         found = {n: [fit.modifiers[n] for fit in self.fits] for n in self.fits[0].modifiers}
-        return {n: (float(np.mean(v)), float(np.std(v))) for n, v in found.items()}
+        return {n: (float(np.mean(v)), float(np.std(v, ddof=1))) for n, v in found.items()}
 
     @property
     def best(self) -> Fit:
@@ -129,10 +130,16 @@ def ensemble(
     Raises:
         DataError, TrainingError: as `acausal.fit` does; if there are fewer than two members, or their networks are
             not alike.
+        TypeError: for a wish that `acausal.fit` does not know.
     """
     need_compiled(system, "ensemble")
     if members < 2:
         raise TrainingError(f"members={members}; an ensemble has two at least.")
+    unknown = [name for name in wishes if name not in _defaults()]
+    if unknown:
+        raise TypeError(
+            f"ensemble has no argument '{unknown[0]}': {nearest(unknown[0], _defaults())}"
+        )
     arguments = {**_defaults(), **wishes}
     if arguments["devices"] is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
@@ -153,7 +160,7 @@ def _starts(
         return [{**own, **numbers} for own in made]
     if len(params) != len(seeds):
         raise TrainingError(f"There are {len(params)} params for {len(seeds)} members.")
-    return params
+    return [{**system.parameters(s), **own} for s, own in zip(seeds, params, strict=True)]
 
 
 def _defaults() -> dict[str, Any]:
@@ -167,4 +174,4 @@ def _defaults() -> dict[str, Any]:
 
 
 def _spread(x: np.ndarray, curves: Sequence[np.ndarray]) -> Band:
-    return Band(x, np.mean(curves, axis=0), np.std(curves, axis=0))
+    return Band(x, np.mean(curves, axis=0), np.std(curves, axis=0, ddof=1))

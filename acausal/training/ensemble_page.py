@@ -50,16 +50,19 @@ def write_ensemble_page(ensemble: Ensemble, path: Path, title: str) -> Path:
 
 def _predictions(page: Page, ensemble: Ensemble) -> None:
     page.section("Measured and simulated")
-    measured = np.asarray(ensemble.best.problem.record.y)
+    best = ensemble.best
+    measured = np.asarray(best.problem.record.y)
     for i, (name, band) in enumerate(ensemble.predicted.items()):
         rows = stretch(len(band.x))
         shown = Band(band.x[rows], band.law[rows], band.sigma[rows])
 
-        def draw(ax: Axes, y: np.ndarray = measured[rows, i], shown: Band = shown) -> None:
+        def draw(
+            ax: Axes, y: np.ndarray = measured[rows, i], shown: Band = shown, name: str = name
+        ) -> None:
             ax.plot(shown.x, y, color=MEASURED, lw=1.6, alpha=0.5, label="measured")
             plot.band(ax, shown, color=AFTER, label="mean of the members")
-            ax.set(xlabel="time [s]")
+            ax.set(xlabel="time [s]", ylabel=f"{name} [{best.system.unit(name)}]")
             ax.grid(alpha=0.25)
-            ax.legend(frameon=False, ncols=2)
+            ax.legend(frameon=False, ncols=2, loc="lower right", bbox_to_anchor=(1, 1))
 
         page.figure(figure(WIDE, draw), f"A stretch of '{name}', two standard deviations wide.")

@@ -71,7 +71,8 @@ def fit(
         system: a compiled model.
         data: a record with all inputs and targets of the model, and its states where sequences start from them.
         targets: the variables to fit, measured in the data.
-        params: where to start, as `system.parameters` gives them; by default with networks made from ``seed``.
+        params: where to start: those of the model's parameters that are other than `system.parameters` gives them for
+            ``seed``, from which networks are made.
         train: names of the networks to train; by default all.
         modifiers: parameters to train beside them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
             by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
@@ -131,7 +132,7 @@ def fit(
         data,
         targets,
         seeds=(seed,),
-        params=(system.parameters(seed) if params is None else params,),
+        params=({**system.parameters(seed), **(params or {})},),
         train=train,
         modifiers=modifiers,
         gamma=gamma,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import equinox as eqx
@@ -46,12 +47,15 @@ def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | 
     """
     if validation is None:
         return data, None
-    if not isinstance(validation, int | float):
+    if not isinstance(validation, float | int | Real):
         return data, (Data.of(validation), 0)
-    first = len(data) - round(validation * len(data))
+    share = float(validation)
+    if not np.isfinite(share):
+        raise DataError(f"validation={share} is no fraction; give a number between 0 and 1.")
+    first = len(data) - round(share * len(data))
     if not 2 <= first <= len(data) - 2:
         raise DataError(
-            f"validation={validation:g} of {len(data)} samples leaves {first} to train on; "
+            f"validation={share:g} of {len(data)} samples leaves {first} to train on; "
             "give a fraction between 0 and 1, or another record."
         )
     return data.between(data.time[0], data.time[first - 1]), (data, first)

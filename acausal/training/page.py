@@ -26,6 +26,9 @@ MEASURED, AFTER, BEFORE, GUIDE = "#22303c", "#1f77b4", "#d1603d", "#8795a1"
 STRETCH = 2000
 """Samples of the record that are shown closely."""
 
+SHOWN = 50
+"""Divergences that are listed."""
+
 
 def write_page(fit: Fit, path: Path, title: str) -> Path:
     """Write the page about a training; returns its path."""
@@ -48,7 +51,8 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
     _leftovers(page, fit.residuals())
     if fit.history.divergences:
         page.section("What diverged")
-        page.table(("epoch", "what"), [(d.epoch, str(d)) for d in fit.history.divergences[:50]])
+        page.text(f"{len(fit.history.divergences)} times; the first {SHOWN} at most:")
+        page.table(("epoch", "what"), [(d.epoch, str(d)) for d in fit.history.divergences[:SHOWN]])
     return page.write(path)
 
 
@@ -91,9 +95,9 @@ def _trajectories(page: Page, fit: Fit) -> None:
             }
             for label, (values, color, width, alpha) in curves.items():
                 ax.plot(t[rows], values[rows, i], color=color, lw=width, alpha=alpha, label=label)
-            ax.set(xlabel="time [s]", ylabel=name)
+            ax.set(xlabel="time [s]", ylabel=f"{name} [{fit.system.unit(name)}]")
             ax.grid(alpha=0.25)
-            ax.legend(frameon=False, ncols=3)
+            ax.legend(frameon=False, ncols=3, loc="lower right", bbox_to_anchor=(1, 1))
 
         page.figure(figure(WIDE, draw), f"A stretch of '{name}'.")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
 import jax.numpy as jnp
@@ -69,7 +70,8 @@ def pose(
     changed = parameter_modifiers.modifiers(modifiers, gamma, params)
     if not chosen and not changed.names:
         raise TrainingError(
-            "There is nothing to train: the model has no network. Give modifiers=[...] to train parameters."
+            "There is nothing to train: no network is in the model or chosen by train=[...]. "
+            "Give modifiers=[...] to train parameters."
         )
     if not targets:
         raise TrainingError("There are no targets: name the variables to fit.")
@@ -150,16 +152,21 @@ def first_state(system: System, data: Data, x0: Start | Mapping[str, float]) -> 
     """The state at a record's start as ``x0`` says, shape (number of states,); ``None`` as the model starts.
 
     Raises:
-        DataError: for a name that is no state, or a state that neither the data nor ``x0`` have.
+        DataError: for another word, a name that is no state, a value that is no number, or a state that neither the
+            data nor ``x0`` have.
     """
     if x0 == "model":
         return None
+    if isinstance(x0, str) and x0 != "data":
+        raise DataError(f"x0='{x0}' is no way to start here: {nearest(x0, ('data', 'model'))}")
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
-    for name in given:
+    for name, value in given.items():
         if name not in system.states:
             raise DataError(
                 f"x0: '{name}' is no state of the model: {nearest(name, system.states)}"
             )
+        if not isinstance(value, Real | np.ndarray | Array) or not np.isfinite(value).all():
+            raise DataError(f"x0: '{name}' is {value!r}; give a finite number.")
     unknown = [n for n in system.states if n not in data.signals and n not in given]
     if unknown:
         raise DataError(

@@ -174,11 +174,15 @@ def sequences(
     Raises:
         DataError: for a length, size or fraction that does not fit the record.
     """
+    if seconds is not None and not np.isfinite(seconds):
+        raise DataError(f"sequence_length={seconds} is no length; give seconds, or None for all.")
     n = len(data) if seconds is None else round(seconds / data.sample_time)
     if not 2 <= n <= len(data):
         raise DataError(
             f"sequence_length={seconds:g} s is {n} samples; the record has {len(data)} at {data.sample_time:g} s."
         )
+    if batch_size != int(batch_size):
+        raise DataError(f"batch_size={batch_size}; give a whole number of sequences.")
     if batch_size < 1 or (seconds is None and batch_size != 1):
         raise DataError(
             f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record."

@@ -134,7 +134,7 @@ class Fit:
 
     def samples(self, network: str, most: int = 400) -> np.ndarray:
         """Some of the values that a network's first argument had over the record, at most so many."""
-        values = self.arguments[network][:, 0]
+        values = self.arguments[self._known(network)][:, 0]
         return values[:: max(1, len(values) // most)]
 
     def distill(self, network: str, sigmas: float = 2.0, **wishes: Any) -> Distilled:
@@ -145,12 +145,16 @@ class Fit:
             sigmas: how far the formula reaches.
             wishes: further arguments of `acausal.distill`.
         """
+        low, high = self.seen[self._known(network)].interval(sigmas)
+        return distill(self.params[network], float(low[0]), float(high[0]), **wishes)
+
+    def _known(self, network: str) -> str:
+        """The name of a trained network, or a sentence about another one."""
         if network not in self.seen:
             raise TrainingError(
                 f"There is no trained network '{network}': {nearest(network, self.seen)}"
             )
-        low, high = self.seen[network].interval(sigmas)
-        return distill(self.params[network], float(low[0]), float(high[0]), **wishes)
+        return network
 
     def report(self, folder: str | Path, title: str = "Training") -> Path:
         """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""

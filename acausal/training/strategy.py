@@ -81,6 +81,12 @@ def legs(
             raise TrainingError(f"No strategy '{name}': {nearest(name, KINDS)}")
     if patience is not None and patience < 1:
         raise TrainingError(f"patience={patience}; at least one evaluation is needed.")
+    if evaluate_every is not None and evaluate_every < 1:
+        raise TrainingError(f"evaluate_every={evaluate_every}; give one update or more.")
+    if optimizer is not None and not hasattr(optimizer, "update"):
+        raise TrainingError(
+            f"optimizer={optimizer!r:.80} is none of optax; give one such as optax.adam(0.01)."
+        )
     return tuple(
         _leg(problem, name, count, evaluate_every, patience, optimizer, limit)
         for name, count in zip(names, _epochs(names, epochs), strict=True)
@@ -91,12 +97,14 @@ def _epochs(names: tuple[str, ...], given: int | Sequence[int] | None) -> tuple[
     if given is None:
         counts = tuple(KINDS[n].epochs for n in names)
     else:
-        counts = (given,) * len(names) if isinstance(given, int) else tuple(given)
+        counts = (given,) * len(names) if isinstance(given, int | float) else tuple(given)
     if not names or len(counts) != len(names):
         raise TrainingError(
             f"epochs={given} for the strategy {names}: give one number, or one for each leg."
         )
     for count in counts:
+        if count != int(count):
+            raise TrainingError(f"epochs={given}; give a whole number of updates.")
         if count < 1:
             raise TrainingError(f"epochs={given}; at least one is needed.")
     return counts

@@ -83,6 +83,10 @@ def together(
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
+    penalties = (regularizers,) if callable(regularizers) else tuple(regularizers)
+    for function in (*penalties, *observers):
+        if not callable(function):
+            raise TrainingError(f"{function!r:.80} is called in the training, and is no function.")
     training, kept = split(Data.of(data).for_system(system), validation)
     problem = pose(
         system,
@@ -94,7 +98,7 @@ def together(
         gamma=gamma,
         tolerances=tolerances,
         loss=loss,
-        regularizers=tuple(regularizers),
+        regularizers=penalties,
         sequence_length=sequence_length,
         batch_size=batch_size,
         subsample=subsample,
