@@ -19,8 +19,11 @@ from acausal.networks.scaled import law_of
 POINTS = 401
 """At which law and formula are compared."""
 
-FINEST, SCALES = 300.0, 24
-"""The smallest scale is the interval's half width over this; so many scales are tried."""
+FINEST, WIDEST, SCALES = 300.0, 2.0, 24
+"""Scales go from the largest |x| over the first to the second times it; so many are tried. Wider terms are powers."""
+
+SLACK = 1e-9
+"""By so much bounds are wider, as the point between them may lie on one."""
 
 ENOUGH = 0.7
 """A further term must make the error at least so much smaller."""
@@ -182,7 +185,7 @@ def _best_scale(
     if not TERMS[name].scaled:
         return None if any(name == n for n, _ in chosen) else 1.0
     reach = float(np.max(np.abs(x)))
-    scales = reach * np.geomspace(1 / FINEST, 2.0, SCALES)
+    scales = reach * np.geomspace(1 / FINEST, WIDEST, SCALES)
     tried = [*scales, *(-scales if name == "exponential" else ())]
     lefts = {s: _left(_columns(x, [*chosen, (name, s)]), y) for s in map(float, tried)}
     finite = {s: left for s, left in lefts.items() if np.isfinite(left)}
@@ -218,7 +221,10 @@ def _polished(x: np.ndarray, y: np.ndarray, chosen: list[tuple[str, float]]) -> 
 
     if free.any():
         spread = float(np.std(y)) or 1.0
-        found = least_squares(lambda z: miss(z) / spread, np.zeros(free.sum()), bounds=(-3, 3))
+        sizes = np.log(np.abs(scales[free]) / float(np.max(np.abs(x))))
+        low, high = -np.log(FINEST) - sizes, np.log(WIDEST) - sizes
+        bounds = (np.minimum(low, 0.0) - SLACK, np.maximum(high, 0.0) + SLACK)
+        found = least_squares(lambda z: miss(z) / spread, np.zeros(free.sum()), bounds=bounds)
         scales = all_scales(found.x)
     columns = _columns(x, list(zip(names, scales, strict=True)))
     return Formula(names, jnp.asarray(_solved(columns, y)), jnp.asarray(scales))

@@ -174,12 +174,12 @@ def test_residuals_are_judged():
     white, u = rng.standard_normal((2, 4000))
     slow = np.convolve(white, np.ones(5) / 5, mode="same")
     driven = white + 0.3 * np.roll(u, 7)
-    quiet = residuals("y", white, {"u": u})
+    quiet = residuals("y", white, {"u": u}, 1.0)
     assert quiet.is_white
     assert quiet.drivers == ()
     assert "looks like white noise" in quiet.words()
-    assert not residuals("y", slow, {"u": u}).is_white
-    follows = residuals("y", driven, {"u": u})
+    assert not residuals("y", slow, {"u": u}, 1.0).is_white
+    follows = residuals("y", driven, {"u": u}, 1.0)
     lag = int(np.argmax(np.abs(follows.inputs["u"]))) - len(follows.inputs["u"]) // 2
     assert lag == 7
     assert follows.inputs["u"].max() == pytest.approx(0.3 / np.sqrt(1.09), abs=0.05)
@@ -188,26 +188,33 @@ def test_residuals_are_judged():
 def test_two_lags_are_enough_to_betray_colour():
     white = np.random.default_rng(0).standard_normal(4000)
     short = white[2:] + 0.8 * white[1:-1] + 0.5 * white[:-2]
-    assert not residuals("y", short, {}).is_white
+    assert not residuals("y", short, {}, 1.0).is_white
 
 
 def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
     """Of 40 pairs that have nothing to do with each other; the bound of white noise would accuse most of them."""
     rng = np.random.default_rng(0)
     slow = lfilter([1.0], [1.0, -0.97], rng.standard_normal((2, 40, 4000)))
-    found = [residuals("y", y, {"u": u}) for y, u in zip(*slow, strict=True)]
+    found = [residuals("y", y, {"u": u}, 1.0) for y, u in zip(*slow, strict=True)]
     assert sum(bool(r.drivers) for r in found) <= 2
     assert sum(np.max(np.abs(r.inputs["u"])) > r.bound for r in found) > 20
-    driven = residuals("y", slow[0, 0] + 0.7 * slow[1, 0], {"u": slow[1, 0]})
+    driven = residuals("y", slow[0, 0] + 0.7 * slow[1, 0], {"u": slow[1, 0]}, 1.0)
     assert driven.drivers == ("u",)
 
 
 @pytest.mark.parametrize("count", [2, 3, 5, 12])
 def test_few_samples_tell_nothing(count: int):
-    found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0})
+    found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0}, 1.0)
     assert (
         found.words() == f"'y': {count} samples are too few to tell what is left over from noise."
     )
+
+
+def test_what_is_followed_exactly_leaves_nothing_to_learn():
+    u = np.sin(np.arange(1000) / 20)
+    found = residuals("y", 1e-9 * u, {"u": u}, 2.0)
+    assert found.drivers == ("u",)
+    assert found.words() == ("'y': what is left over is 4e-08 % of it; no more is to be learned.")
 
 
 def test_residuals_of_a_fit():
@@ -228,6 +235,19 @@ def test_the_page_holds_everything_itself(tmp_path: Any):
         assert word in text
     assert text.count("data:image/png;base64,") == 4
     assert not re.search(r'(src|href)="(?!data:)', text)
+
+
+def test_a_page_about_a_model_that_diverges(tmp_path: Any):
+    """It has no laws to show, and says so; the curves stay by the measured ones."""
+    with pytest.warns(UserWarning, match="diverge"):
+        fit = ac.fit(
+            learned(), noisy(0), "mass.a", x0="model", params={"extra.net": lambda x: -1e4 * x**3},
+            train=[], modifiers=["mass.m"], strategy="whole_record", epochs=2, progress=False,
+        )  # fmt: skip
+    assert not np.isfinite(fit.loss)
+    text = fit.report(tmp_path).read_text(encoding="utf-8")
+    assert "The trained model diverges over the record" in text
+    assert text.count("data:image/png;base64,") == 2
 
 
 def test_a_learned_law_is_distilled():

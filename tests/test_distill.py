@@ -54,6 +54,13 @@ def test_formula_expression_and_search_agree():
         assert np.isfinite(jax.grad(formula)(0.0)), name
 
 
+def test_a_bent_line_is_no_wide_exponential():
+    """``144 exp(0.02 x) - 144`` is a line and a square, and says less."""
+    found = ac.distill(lambda x: 3 * x + 0.03 * x**2 + 0.03 * jnp.sin(7 * x), -1.57, 1.51)
+    assert set(found.formula.terms) == {"linear", "square"}
+    assert found.relative_error < 0.01
+
+
 def test_noise_is_not_fitted():
     wiggles = np.random.default_rng(0).standard_normal(12)
 

@@ -454,6 +454,8 @@ def test_outputs_alone_suffice_for_the_whole_record():
           "Give modifiers=[...] to train parameters.")),
         ({"loss": "rmse"}, ac.TrainingError, "No loss 'rmse': did you mean 'nrmse'?"),
         ({"targets": ()}, ac.TrainingError, "There are no targets: name the variables to fit."),
+        ({"targets": ("mass.a", "mass.a")}, ac.TrainingError,
+         "A target is named twice in 'mass.a', 'mass.a'."),
         ({"targets": ("push.f",)}, ac.TrainingError,
          "'push.f': a target is what the model computes, not its input."),
     ],

@@ -42,6 +42,20 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
         "The loss, update by update: of the batches (thin) and over the whole record.",
     )
     _trajectories(page, fit)
+    if np.isfinite(fit.loss):
+        _findings(page, fit)
+    else:
+        page.text(
+            "The trained model diverges over the record; nothing can be said of what it has learned."
+        )
+    if fit.history.divergences:
+        page.section("What diverged")
+        page.text(f"{len(fit.history.divergences)} times; the first {SHOWN} at most:")
+        page.table(("epoch", "what"), [(d.epoch, str(d)) for d in fit.history.divergences[:SHOWN]])
+    return page.write(path)
+
+
+def _findings(page: Page, fit: Fit) -> None:
     sure = fit.confidence()
     laws(page, fit, sure.laws)
     if fit.modifiers:
@@ -49,11 +63,6 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
     for sentence in sure.words():
         page.text(sentence)
     _leftovers(page, fit.residuals())
-    if fit.history.divergences:
-        page.section("What diverged")
-        page.text(f"{len(fit.history.divergences)} times; the first {SHOWN} at most:")
-        page.table(("epoch", "what"), [(d.epoch, str(d)) for d in fit.history.divergences[:SHOWN]])
-    return page.write(path)
 
 
 def _summary(fit: Fit) -> str:
@@ -83,18 +92,22 @@ def stretch(samples: int) -> slice:
 def _trajectories(page: Page, fit: Fit) -> None:
     page.section("Measured and simulated")
     record = fit.problem.record
-    t, before = np.asarray(record.steps.t), fit.predicted_before
+    t, y, before = np.asarray(record.steps.t), np.asarray(record.y), fit.predicted_before
     rows = stretch(len(t))
+    low, high = y[rows].min(axis=0), y[rows].max(axis=0)
+    room = 0.5 * (high - low) + 1e-12
     for i, name in enumerate(fit.problem.targets):
 
         def draw(ax: Axes, i: int = i, name: str = name) -> None:
             curves = {
-                "measured": (np.asarray(record.y), MEASURED, 1.6, 0.5),
+                "measured": (y, MEASURED, 1.6, 0.5),
                 "before training": (before, BEFORE, 0.9, 0.9),
                 "after training": (fit.predicted, AFTER, 1.1, 1.0),
             }
             for label, (values, color, width, alpha) in curves.items():
-                ax.plot(t[rows], values[rows, i], color=color, lw=width, alpha=alpha, label=label)
+                near = np.clip(values[rows, i], low[i] - 2 * room[i], high[i] + 2 * room[i])
+                ax.plot(t[rows], near, color=color, lw=width, alpha=alpha, label=label)
+            ax.set_ylim(low[i] - room[i], high[i] + room[i])
             ax.set(xlabel="time [s]", ylabel=f"{name} [{fit.system.unit(name)}]")
             ax.grid(alpha=0.25)
             ax.legend(frameon=False, ncols=3, loc="lower right", bbox_to_anchor=(1, 1))

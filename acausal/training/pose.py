@@ -75,6 +75,8 @@ def pose(
         )
     if not targets:
         raise TrainingError("There are no targets: name the variables to fit.")
+    if len(set(targets)) < len(targets):
+        raise TrainingError(f"A target is named twice in {listing(targets)}.")
     if driven := [n for n in targets if n in system.inputs]:
         raise TrainingError(
             f"{listing(driven)}: a target is what the model computes, not its input."

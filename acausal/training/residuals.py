@@ -14,6 +14,10 @@ SURE = 4.0
 """Standard deviations of a correlation by chance; among the lags of white noise one in 300 records has a larger one."""
 
 
+EXACT = 1e-6
+"""Share of a target that no measurement resolves."""
+
+
 @dataclass(frozen=True, eq=False)
 class Residuals:
     """What is left over of one target, and what it is correlated with.
@@ -21,6 +25,7 @@ class Residuals:
     Attributes:
         target: its name.
         values: measured less predicted, shape (N,).
+        share: their standard deviation, relative to that of the target.
         own: autocorrelation at the lags 1 to `LAGS` (fewer where N < 4 `LAGS`), shape (lags,).
         inputs: by input that is not constant, the correlation with it at the lags −lags to lags, shape (2 lags + 1,).
         bound: the size of an autocorrelation up to which it is taken for chance.
@@ -29,6 +34,7 @@ class Residuals:
 
     target: str
     values: np.ndarray
+    share: float
     own: np.ndarray
     inputs: dict[str, np.ndarray]
     bound: float
@@ -48,6 +54,8 @@ class Residuals:
         """What this means, in a sentence."""
         if self.bound >= 1:
             return f"'{self.target}': {len(self.values)} samples are too few to tell what is left over from noise."
+        if self.share < EXACT:
+            return f"'{self.target}': what is left over is {100 * self.share:.1g} % of it; no more is to be learned."
         if self.drivers:
             largest = max(float(np.max(np.abs(self.inputs[n]))) for n in self.drivers)
             return (
@@ -62,8 +70,15 @@ class Residuals:
         )
 
 
-def residuals(target: str, values: np.ndarray, inputs: dict[str, np.ndarray]) -> Residuals:
+def residuals(
+    target: str, values: np.ndarray, inputs: dict[str, np.ndarray], sigma: float
+) -> Residuals:
     """Correlations of what is left over of a target, shape (N,), with itself and with inputs.
+
+    Arguments:
+        target: its name; ``sigma``: its standard deviation.
+        values: measured less predicted, shape (N,).
+        inputs: by name, of the same shape.
 
     An autocorrelation of N samples of white noise has the variance 1/N. The correlation with an input that has nothing
     to do with it has ``1/N Σ ρ_k ρ'_k`` over all lags of both autocorrelations (L. Ljung: System Identification,
@@ -80,6 +95,7 @@ def residuals(target: str, values: np.ndarray, inputs: dict[str, np.ndarray]) ->
     return Residuals(
         target,
         values,
+        float(np.std(values) / sigma),
         own[lags + 1 :],
         {n: _correlation(values, u, lags) for n, u in varying.items()},
         float(chance),

@@ -125,7 +125,9 @@ class Fit:
         left = np.asarray(record.y - self.predicted)
         u = np.asarray(record.steps.inputs.start)
         drivers = {n: u[:, i] for i, n in enumerate(inputs)}
-        return tuple(residuals(n, left[:, i], drivers) for i, n in enumerate(self.problem.targets))
+        sigmas = np.asarray(record.sigma).tolist()
+        rows = zip(self.problem.targets, left.T, sigmas, strict=True)
+        return tuple(residuals(n, column, drivers, sigma) for n, column, sigma in rows)
 
     @cached_property
     def predicted_before(self) -> np.ndarray:
