@@ -313,10 +313,10 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
         lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700])
     )
     good = jax.tree.map(lambda a: a[np.array([0, 2])], bad)
-    from acausal.training.trainer import _gradient  # the part under test is not public
+    from acausal.training.trainer import _slope  # the part under test is not public
 
-    _, mixed, mask = _gradient(posed, trainer, state.trainable, bad)
-    _, alone, _ = _gradient(posed, trainer, state.trainable, good)
+    _, mixed, mask = _slope(posed, trainer, state.trainable, bad)
+    _, alone, _ = _slope(posed, trainer, state.trainable, good)
     assert mask.tolist() == [False, True, False]
     jax.tree.map(
         lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-10, atol=1e-12),

@@ -39,7 +39,7 @@ def test_the_mean_is_over_the_model_and_both_sides_of_each_parameter() -> None:
     given = tolerances({"a": 0.5, "b": 2.0}, params)
     found = given.mean(lambda p: p["c"] + (p["a"] - 1) ** 2 + p["b"] ** 2, params)
     assert float(found) == pytest.approx(5 + (0.25 + 0.25) / 5 + (3 * 100 + 144 + 64) / 5)
-    assert tolerances(None, params).mean(lambda p: p["a"], params) is params["a"]
+    assert tolerances(None, params).mean(lambda p: p["a"], params) == params["a"]
 
 
 @pytest.mark.parametrize(

@@ -89,10 +89,11 @@ def fit(
         strategy: what to do, or several one after the other, each from where the one before was best:
             ``"sequences"`` as the arguments above say; ``"equation_error"``: targets computed from measured
             states without simulation, in a second or so, biased by noise; ``"whole_record"``: L-BFGS on the
-            simulation of the whole record. ``("equation_error", "whole_record")`` is the fastest way where all
-            states are measured, ``"whole_record"`` with ``x0="fit"`` where they are not.
+            simulation of the whole record; ``"gauss_newton"``: damped Gauss-Newton steps (Levenberg-Marquardt) on it,
+            for up to some 60 weights and parameters. ``("equation_error", "whole_record")`` is the fastest way where
+            all states are measured, ``"whole_record"`` with ``x0="fit"`` where they are not.
         epochs: number of updates, or one for each part of the strategy; by default 1000 for sequences, 300 for
-            the equation error and 200 for the whole record.
+            the equation error, 200 for the whole record and 50 for Gauss-Newton.
         optimizer: of sequences: any optax optimizer; by default Adam, its rate falling from 0.01 to 0.0001 as a
             cosine.
         dt: step of the integration in seconds, a whole part of the sample time (the default).

@@ -7,9 +7,10 @@ from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
-import optax
 from jax import Array, lax
 from jax.flatten_util import ravel_pytree
+
+from acausal.training.descent import STALLED, Descent, DescentMethod
 
 DECREASE, CURVATURE = 1e-4, 0.9
 """Wolfe's conditions: how much of the foreseen decrease, and how much less of the slope, ends a search."""
@@ -17,33 +18,21 @@ DECREASE, CURVATURE = 1e-4, 0.9
 TRIALS = 20
 """Points on a line after which the search starts anew from the gradient alone."""
 
-STALLED = 1e-12
-"""Relative decrease of the loss below which the search is at its end."""
-
 FIRST = 0.1
 """Length of the very first step."""
 
 
-class LineSearch(optax.GradientTransformationExtraArgs):
-    """An optimizer that compares losses of one and the same data, and takes back itself what is worse."""
-
-
-class Search(eqx.Module):
+class Search(Descent):
     """Where L-BFGS is: the best point up to now, and the line from it along which it searches.
 
     Attributes:
-        point, value, gradient: the best point, its loss (infinite before the first update) and gradient.
         direction, slope: of the line, and of the loss along it.
         step, low, high: the trial's place on the line, and between which two the minimum lies.
         trials: on this line.
         moves, turns: the last changes of the point and of the gradient, newest last, shape (memory, P).
         count: how many of them there are.
-        converged: whether nothing leads to a lower loss.
     """
 
-    point: Array
-    value: Array
-    gradient: Array
     direction: Array
     slope: Array
     step: Array
@@ -53,11 +42,10 @@ class Search(eqx.Module):
     moves: Array
     turns: Array
     count: Array
-    converged: Array
 
 
 @cache
-def lbfgs(memory: int = 60) -> LineSearch:
+def lbfgs(memory: int = 60) -> DescentMethod:
     """L-BFGS with a search for Wolfe's conditions by interpolation and bisection.
 
     An update takes the gradient and the loss (`value=...`) at one point. A point
@@ -78,7 +66,7 @@ def lbfgs(memory: int = 60) -> LineSearch:
         infinite, rows = jnp.full_like(zero, jnp.inf), jnp.zeros((memory, point.size), point.dtype)
         count, no = jnp.zeros((), int), jnp.zeros((), bool)
         return Search(
-            point, infinite, none, none, zero, zero, zero, infinite, count, rows, rows, count, no
+            point, infinite, none, no, none, zero, zero, zero, infinite, count, rows, rows, count
         )
 
     def update(updates: Any, state: Any, params: Any = None, **told: Any) -> Any:
@@ -87,7 +75,7 @@ def lbfgs(memory: int = 60) -> LineSearch:
         state = _judge(state, point, told["value"], gradient)
         return unravel(state.point + state.step * state.direction - point), state
 
-    return LineSearch(init, update)
+    return DescentMethod(init, update)
 
 
 def _judge(state: Search, point: Array, value: Array, gradient: Array) -> Search:

@@ -17,13 +17,12 @@ from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Kept, Snapshot, Stored
 from acausal.training.held_out import HeldOut
 from acausal.training.history import Divergence, History, Log
-from acausal.training.lbfgs import Search
 from acausal.training.member import Best, Member, joined, parted
 from acausal.training.problem import Problem, Trainable
 from acausal.training.progress import Observer, Progress
 from acausal.training.spread import agreed, local, shared
 from acausal.training.strategy import Leg
-from acausal.training.trainer import CHUNK, Entry, State, advance, begin
+from acausal.training.trainer import CHUNK, Entry, State, advance, begin, converged
 
 LOOK = 0.5
 """Seconds between two looks at the training, about."""
@@ -182,6 +181,7 @@ class _Run:
             until = shared(jnp.asarray(done + count, int), self.mesh)
             state, told = jax.block_until_ready(advance(objective, leg.trainer, state, until))
             ended = time.perf_counter()
+            count = int(jnp.max(state.epoch)) - done
             new = self._log(state, told, count, clock - self.began, ended - self.began)
             per_epoch = agreed((ended - clock) / count, self.mesh)
             self.updating += ended - clock
@@ -236,11 +236,11 @@ class _Run:
 
     def _is_over(self, leg: Leg, state: State) -> bool:
         """Whether a leg has nothing more to find, or found nothing better for too long, for any member."""
-        converged = parted(_converged(state), len(self.members))
+        ended = parted(converged(state), len(self.members))
         patience = math.inf if leg.patience is None else leg.patience
         return all(
-            bool(c) or m.vain(self.before) >= patience
-            for c, m in zip(converged, self.members, strict=True)
+            bool(e) or m.vain(self.before) >= patience
+            for e, m in zip(ended, self.members, strict=True)
         )
 
 
@@ -250,13 +250,6 @@ def _entry(leg: Leg, best: Trainable) -> Trainable:
     if needed is None or best.states is None:
         return best
     return replace(best, states=best.states[: len(needed)])
-
-
-def _converged(state: State) -> Array:
-    """Whether the optimizer says that it has nothing more to find, for each member."""
-    if isinstance(state.optimizer, Search):
-        return state.optimizer.converged
-    return jnp.zeros_like(state.epoch, bool)
 
 
 def _check_rejections(log: Log, rejected: int) -> None:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
@@ -35,6 +36,9 @@ REFERENCE_POINTS = 1000
 
 CONTINUITY = 10.0
 """Weight of the gaps between sequences whose initial states are trained."""
+
+SLOPES = 2**30
+"""Bytes that the slopes of predictions may take; all in all a few times as much is needed."""
 
 Start = Literal["data", "model", "fit"]
 
@@ -128,6 +132,23 @@ def over_whole_record(problem: Problem) -> Problem:
     if nodes is not None:
         nodes = Nodes(nodes.start[:1], nodes.scale, nodes.continuity, count)
     return replace(problem, sequences=whole, nodes=nodes, mesh=None)
+
+
+def gauss_newton(problem: Problem) -> Problem:
+    """The whole record, if the slopes of its predictions by all that is trained can be held in memory.
+
+    Raises:
+        TrainingError: if not.
+    """
+    whole = over_whole_record(problem)
+    trained = sum(leaf.size for leaf in jax.tree.leaves(whole.start()))
+    models = len(problem.tolerances.shifts)
+    if (size := 8 * trained * models * problem.record.y.size) > SLOPES:
+        raise TrainingError(
+            f"The slopes of all predictions by {trained} weights and parameters take {size / 2**30:.1f} GB: "
+            "take strategy='whole_record' in place of 'gauss_newton', smaller networks, or a coarser record."
+        )
+    return whole
 
 
 def _refuse_constant(record: Record, targets: tuple[str, ...]) -> None:

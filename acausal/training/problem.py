@@ -163,7 +163,7 @@ class Problem(eqx.Module):
 
         def loss(p: dict[str, Any]) -> Array:
             y = predicted if p is params else self._whole(p, trainable)[1]
-            return self.loss(y, self.record.y, self.record.sigma)
+            return self.compare(y)
 
         return Simulated(self.tolerances.mean(loss, params), x, predicted)
 
@@ -210,6 +210,15 @@ class Problem(eqx.Module):
         packed = self.system.pack(params)
         x0 = self.first_state(trainable, packed)
         return self._integrate(packed, x0, self.record.steps, direct=True)[1]
+
+    def predictions(self, trainable: Trainable) -> Array:
+        """The same of every model that tolerances ask for, shape (models, N, number of targets)."""
+        params = self.assemble(trainable)
+        return self.tolerances.each(lambda p: self.predict(trainable, p), params)
+
+    def compare(self, predicted: Array) -> Array:
+        """The loss of predictions of the whole record, shape (N, number of targets)."""
+        return self.loss(predicted, self.record.y, self.record.sigma)
 
     def first_state(self, trainable: Trainable, packed: Any) -> Array:
         """The state at the record's start, shape (number of states,)."""

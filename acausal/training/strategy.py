@@ -9,10 +9,13 @@ from typing import Any, NamedTuple
 import optax
 
 from acausal.errors import TrainingError, nearest
+from acausal.training.descent import DescentMethod
 from acausal.training.equation_error import equation_error
-from acausal.training.lbfgs import LineSearch, lbfgs
-from acausal.training.pose import over_whole_record
+from acausal.training.lbfgs import lbfgs
+from acausal.training.levenberg_marquardt import levenberg_marquardt
+from acausal.training.pose import gauss_newton, over_whole_record
 from acausal.training.problem import Problem, modified
+from acausal.training.slopes import Slopes, curvatures, gradients
 from acausal.training.trainer import Trainer
 
 EVALUATIONS = 10
@@ -46,17 +49,22 @@ class _Kind(NamedTuple):
         objective: from the problem.
         optimizer: for a number of updates, where it is not the user's to choose.
         epochs: by default.
+        slopes: what its optimizer is told of a point.
     """
 
     objective: Callable[[Problem], Any]
     optimizer: Callable[[int], optax.GradientTransformation] | None
     epochs: int
+    slopes: Slopes = gradients
 
 
 KINDS = {
     "sequences": _Kind(lambda problem: problem, None, 1000),
     "equation_error": _Kind(equation_error, lambda epochs: lbfgs(), 300),
     "whole_record": _Kind(over_whole_record, lambda epochs: lbfgs(), 200),
+    "gauss_newton": _Kind(
+        gauss_newton, lambda epochs: levenberg_marquardt(), 50, slopes=curvatures
+    ),
 }
 """What a training can be made of."""
 
@@ -124,12 +132,12 @@ def _leg(
         chosen = kind.optimizer(epochs)
     else:
         chosen = default_optimizer(epochs) if optimizer is None else optimizer
-        if isinstance(chosen, LineSearch) and not problem.sequences.always_alike:
+        if isinstance(chosen, DescentMethod) and not problem.sequences.always_alike:
             raise TrainingError(
                 "L-BFGS compares losses of the same data, and every batch holds others: take the whole "
                 "record (sequence_length=None), or strategy=('sequences', 'whole_record') with another optimizer."
             )
-    trainer = Trainer(optax.with_extra_args_support(chosen), limit, modified)
+    trainer = Trainer(optax.with_extra_args_support(chosen), limit, modified, kind.slopes)
     every = max(1, epochs // EVALUATIONS) if evaluate_every is None else evaluate_every
     return Leg(name, kind.objective(problem), trainer, epochs, every, patience)
 

@@ -29,15 +29,20 @@ class Tolerances(eqx.Module):
     names: tuple[str, ...] = eqx.field(static=True)
     shifts: Array
 
-    def mean(self, loss: Callable[[dict[str, Any]], Array], params: dict[str, Any]) -> Array:
-        """The mean loss of the models with the parameters about given ones."""
+    def each(self, function: Callable[[dict[str, Any]], Array], params: dict[str, Any]) -> Array:
+        """A function of every model with parameters about given ones; the models in the leading axis."""
         if not self.names:
-            return loss(params)
+            return function(params)[None]
 
         def shifted(shift: Array) -> Array:
-            return loss({**params, **{n: params[n] + shift[i] for i, n in enumerate(self.names)}})
+            moved = {n: params[n] + shift[i] for i, n in enumerate(self.names)}
+            return function({**params, **moved})
 
-        return jnp.mean(jax.vmap(shifted)(self.shifts), axis=0)
+        return jax.vmap(shifted)(self.shifts)
+
+    def mean(self, loss: Callable[[dict[str, Any]], Array], params: dict[str, Any]) -> Array:
+        """The mean loss of these models."""
+        return jnp.mean(self.each(loss, params), axis=0)
 
 
 def tolerances(given: Mapping[str, float] | None, params: Mapping[str, Any]) -> Tolerances:

@@ -16,7 +16,8 @@ import jax.numpy as jnp
 import optax
 from jax import Array
 
-from acausal.training.lbfgs import Search
+from acausal.training.descent import Descent
+from acausal.training.slopes import Slope, Slopes, gradients, total
 
 CHUNK = 128
 """At most so many updates between two looks at the training."""
@@ -100,11 +101,13 @@ class Trainer(NamedTuple):
         optimizer: any optax optimizer.
         limit: a sequence with a larger loss has diverged.
         log: what of the trainable to log at every update.
+        slopes: what the optimizer is told of a point.
     """
 
     optimizer: optax.GradientTransformationExtraArgs
     limit: float
     log: Callable[[Any, Any], Any]
+    slopes: Slopes = gradients
 
 
 def begin(trainer: Trainer, trainable: Any, key: Array) -> State:
@@ -113,9 +116,16 @@ def begin(trainer: Trainer, trainable: Any, key: Array) -> State:
     return State(trainable, trainer.optimizer.init(trainable), zero, zero, key)
 
 
+def converged(state: State) -> Array:
+    """Whether the optimizer says that it has nothing more to find; for several trainings, of each."""
+    if isinstance(state.optimizer, Descent):
+        return state.optimizer.converged
+    return jnp.zeros_like(state.epoch, bool)
+
+
 @eqx.filter_jit
 def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple[State, Entry]:
-    """Make updates until ``until`` of them are done, at most `CHUNK`.
+    """Make updates until ``until`` of them are done, at most `CHUNK`, or until the optimizer has nothing more to find.
 
     Arguments:
         problem: what to minimise.
@@ -145,7 +155,11 @@ def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple
         state, entry = update(state)
         return state, jax.tree.map(lambda rows, new: rows.at[row].set(new), log, entry)
 
-    return jax.lax.while_loop(lambda carry: jnp.max(carry[0].epoch) < until, body, (state, log))
+    def is_on(carry: tuple[State, Entry]) -> Array:
+        state, _ = carry
+        return (jnp.max(state.epoch) < until) & ~converged(state).all()
+
+    return jax.lax.while_loop(is_on, body, (state, log))
 
 
 def _each(update: Callable[[State], Any]) -> Callable[[State], Any]:
@@ -165,28 +179,20 @@ def _empty_entry(problem: Objective, trainer: Trainer, trainable: Any) -> Entry:
     return Entry(number, *said, count, count, jnp.zeros((), bool))
 
 
-class _Gradient(eqx.Module):
-    """Losses and the gradient for a batch."""
-
-    losses: Array
-    penalties: dict[str, Array]
-    total: Array
-    gradient: Any
-
-
 def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
     drawn = problem.draw(jax.random.fold_in(state.key, state.epoch))
-    batch, result, bad = _gradient(problem, trainer, state.trainable, drawn)
-    usable = _finite((result.total, result.gradient)) & ~_diverged(result.losses, trainer).any()
-    none = jax.tree.map(jnp.zeros_like, result.gradient)
-    gradient = _select(usable, result.gradient, none)
+    batch, result, bad = _slope(problem, trainer, state.trainable, drawn)
+    slopes = result.gradient, result.curvature
+    usable = _finite((result.total, slopes)) & ~_diverged(result.losses, trainer).any()
+    gradient, curvature = _select(usable, slopes, jax.tree.map(jnp.zeros_like, slopes))
     steps, optimizer = trainer.optimizer.update(
         gradient,
         state.optimizer,
         state.trainable,
         value=jnp.where(usable, result.total, jnp.inf),
         grad=gradient,
-        value_fn=lambda trainable: _total(problem, trainable, batch)[0],
+        value_fn=lambda trainable: total(problem, trainable, batch)[0],
+        **({} if curvature is None else {"curvature": curvature}),
     )
     moved = optax.apply_updates(state.trainable, steps)
     accepted = _finite(moved) & (usable | _takes_back(optimizer))
@@ -203,31 +209,28 @@ def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, 
     return State(trainable, optimizer, state.epoch + 1, rejected, state.key), entry
 
 
-def _gradient(
+def _slope(
     problem: Objective, trainer: Trainer, trainable: Any, batch: Any
-) -> tuple[Any, _Gradient, Array]:
-    """The gradient for the sequences of a batch that do not diverge, and a mask of those that do.
+) -> tuple[Any, Slope, Array]:
+    """The slope for the sequences of a batch that do not diverge, and a mask of those that do.
 
-    Where some diverge the gradient is computed a second time without them: in a loop, so that the
-    program holds it once and a healthy batch pays nothing.
+    Where some diverge it is computed a second time without them: in a loop, so that the program holds it once and a
+    healthy batch pays nothing.
     """
 
-    def evaluate(batch: Any) -> _Gradient:
-        (total, (losses, penalties)), gradient = jax.value_and_grad(
-            lambda tree: _total(problem, tree, batch), has_aux=True
-        )(trainable)
-        return _Gradient(losses, penalties, total, gradient)
+    def evaluate(batch: Any) -> Slope:
+        return trainer.slopes(problem, trainable, batch)
 
     if batch.start.shape[0] == 1:
         result = evaluate(batch)
         return batch, result, _diverged(result.losses, trainer)
 
-    def again(carry: tuple[Any, _Gradient, Array, Array]) -> Array:
+    def again(carry: tuple[Any, Slope, Array, Array]) -> Array:
         _, result, bad, count = carry
         new = _diverged(result.losses, trainer)
         return (count == 0) | ((count == 1) & new.any() & ~bad.all())
 
-    def body(carry: tuple[Any, _Gradient, Array, Array]) -> tuple[Any, _Gradient, Array, Array]:
+    def body(carry: tuple[Any, Slope, Array, Array]) -> tuple[Any, Slope, Array, Array]:
         batch, _, bad, count = carry
         batch = jax.tree.map(
             lambda new, old: jnp.where(bad.any(), new, old), batch.without(bad), batch
@@ -238,23 +241,15 @@ def _gradient(
 
     zeros = jnp.zeros(batch.start.shape)
     penalties = jax.tree.map(jnp.zeros_like, jax.eval_shape(problem.penalties, trainable))
-    empty = _Gradient(zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable))
+    empty = Slope(zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable))
     none = zeros > 0
     batch, result, bad, _ = jax.lax.while_loop(again, body, (batch, empty, none, jnp.asarray(0)))
     return batch, result, bad
 
 
-def _total(
-    problem: Objective, trainable: Any, batch: Any
-) -> tuple[Array, tuple[Array, dict[str, Array]]]:
-    losses = problem.losses(trainable, batch)
-    penalties = problem.penalties(trainable)
-    return jnp.average(losses, weights=batch.weight) + sum(penalties.values()), (losses, penalties)
-
-
 def _takes_back(optimizer: Any) -> Any:
     """Whether the optimizer itself goes back from a point that diverges, to a better one it knows."""
-    return jnp.isfinite(optimizer.value) if isinstance(optimizer, Search) else False
+    return jnp.isfinite(optimizer.value) if isinstance(optimizer, Descent) else False
 
 
 def _diverged(losses: Array, trainer: Trainer) -> Array:
