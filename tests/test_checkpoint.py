@@ -24,7 +24,7 @@ from acausal.training import checkpoint as checkpoints
 from acausal.training import loop
 from acausal.training.fingerprint import digest
 from tests.interrupted import EPOCHS, train
-from tests.oscillator import learned
+from tests.oscillator import learned, plain, record
 
 NAME = "checkpoint.safetensors"
 
@@ -172,6 +172,19 @@ def test_a_checkpoint_of_another_training_is_refused(
         f"Checkpoint '{interrupted}' is of another training: {names} differ. "
         "Resume with the arguments it was begun with, or name another file."
     )
+
+
+def test_states_that_are_no_targets_are_part_of_the_data(tmp_path: Path):
+    """Trained states begin where measured ones were, and move relative to that."""
+    data = record(end=2.0).select(["mass.a", "mass.s", "push.f"])
+    wishes: dict[str, Any] = {
+        "x0": "fit", "modifiers": ["mass.m"], "epochs": 2, "checkpoint": tmp_path, "resume": True,
+        "progress": False,
+    }  # fmt: skip
+    ac.fit(plain(), data, "mass.a", **wishes)
+    moved = ac.Data(data.time, {**data.signals, "mass.s": data["mass.s"] + 0.1})
+    with pytest.raises(ac.DataError, match=r"is of another training: 'data' differ\."):
+        ac.fit(plain(), moved, "mass.a", **wishes)
 
 
 def tampered(path: Path) -> bytes:

@@ -134,6 +134,18 @@ def test_a_limit_is_reached_or_not(kind: Any, value: float, change: float, limit
     assert kind.limit(value, change) == limit
 
 
+@pytest.mark.parametrize(
+    ("kind", "value", "size"),
+    [
+        (Factor(0.2), 5.0, 1.0), (ac.Shift(0.1), 7.0, 0.1), (ac.Bounded(1, 5), 4.9, 2.0),
+        (ac.Bounded(0, INF), 3.0, 3.0), (ac.Bounded(-INF, 2), -1.0, 3.0),
+    ],
+)  # fmt: skip
+def test_what_is_believed_of_a_change(kind: Any, value: float, size: float):
+    """Between two bounds all is possible, however near to one of them a parameter is."""
+    assert kind.believed(value) == pytest.approx(size)
+
+
 def test_one_name_is_no_list_of_letters():
     assert modifiers("mass", 0.2, {"mass": 1.0}).names == ("mass",)
 

@@ -35,6 +35,7 @@ def fingerprint(
     seeds: Sequence[int],
     others: Sequence[Trainable],
     held: HeldOut | None,
+    signals: Mapping[str, np.ndarray],
 ) -> dict[str, str]:
     """A digest of everything that decides how trainings go, by argument of `acausal.fit`.
 
@@ -44,10 +45,12 @@ def fingerprint(
         seeds: one for each.
         others: where all but the first start.
         held: what is held out, if anything is.
+        signals: all that is in the record: where trained states begin may follow from what is no target.
     """
     parts = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     posed = {ARGUMENTS.get(n, n): part for n, part in parts.items() if n not in ASIDE}
     planned = {
+        "data": (problem.record, signals),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.x0, problem.nodes is None),
         "strategy": [leg.name for leg in legs],

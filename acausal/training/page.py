@@ -107,7 +107,8 @@ def _trajectories(page: Page, fit: Fit) -> None:
             for label, (values, color, width, alpha) in curves.items():
                 near = np.clip(values[rows, i], low[i] - 2 * room[i], high[i] + 2 * room[i])
                 ax.plot(t[rows], near, color=color, lw=width, alpha=alpha, label=label)
-            ax.set_ylim(low[i] - room[i], high[i] + room[i])
+            bottom, top = ax.get_ylim()
+            ax.set_ylim(max(bottom, low[i] - room[i]), min(top, high[i] + room[i]))
             ax.set(xlabel="time [s]", ylabel=f"{name} [{fit.system.unit(name)}]")
             ax.grid(alpha=0.25)
             ax.legend(frameon=False, ncols=3, loc="lower right", bbox_to_anchor=(1, 1))
