@@ -327,6 +327,13 @@ def test_use_does_not_change_a_digest():
     assert digest([1, np.float64(2.0)]) == digest([1.0, 2])
 
 
+def test_a_schedule_with_variables_that_were_never_set_has_a_digest():
+    """The functions of some of optax's schedules close over such."""
+    one, other = (optax.exponential_decay(rate, 300, 0.01) for rate in (1e-2, 2e-2))
+    assert digest(one) == digest(one)
+    assert digest(one) != digest(other)
+
+
 def test_a_digest_of_something_that_holds_itself_ends():
     def recursive(x: Any) -> Any:
         return recursive(x)

@@ -162,8 +162,16 @@ def _(thing: types.MethodType) -> Sequence[Any]:
 
 @_parts.register
 def _(thing: types.FunctionType) -> Sequence[Any]:
-    held = [cell.cell_contents for cell in thing.__closure__ or ()]
+    held = [_content(cell) for cell in thing.__closure__ or ()]
     return (thing.__module__, thing.__qualname__, thing.__code__, thing.__defaults__, held)
+
+
+def _content(cell: types.CellType) -> Any:
+    """What a function has from the one around it; ``None`` for a variable that was never set."""
+    try:
+        return cell.cell_contents
+    except ValueError:
+        return None
 
 
 @_parts.register
