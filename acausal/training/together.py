@@ -115,7 +115,8 @@ def together(
     starts = [p.start() for p in problems]
     keys = [jax.random.key(seed) for seed in seeds]
     first = jax.process_index() == 0
-    identity = fingerprint(problem, plan, seeds, starts[1:], held, training.signals)
+    parts = (problem, plan, seeds, starts[1:], held, training.signals)
+    identity = {} if checkpoint is None else fingerprint(*parts)
     path, stored = _checkpoint(checkpoint, resume, identity)
     with (
         display(progress and first, sum(leg.epochs for leg in plan)) as show,
