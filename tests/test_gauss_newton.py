@@ -172,3 +172,21 @@ def test_what_does_not_fit_into_memory_is_refused(monkeypatch):
         "The slopes of all predictions by 5 weights and parameters take 0.0 GB: take strategy='whole_record' "
         "in place of 'gauss_newton', smaller networks, or a coarser record."
     )
+
+
+def test_a_saddle_is_no_end():
+    """From where the curvature is indefinite, as a penalty's may be, to the minimum at (0, 1)."""
+
+    def loss(p: Any) -> Any:
+        return 2 + p[0] ** 2 / 2 + p[1] ** 4 / 4 - p[1] ** 2 / 2
+
+    method, point = levenberg_marquardt(), jnp.array([0.05, 0.3])
+    state = method.init(point)
+    for _ in range(40):
+        told = {"value": loss(point), "curvature": jax.hessian(loss)(point)}
+        step, state = method.update(jax.grad(loss)(point), state, point, **told)
+        if state.converged:
+            break
+        point = point + step
+    np.testing.assert_allclose(state.point, [0.0, 1.0], atol=1e-4)
+    assert state.converged
