@@ -109,7 +109,15 @@ def test_a_covariance_keeps_its_digits():
     p, q, r = 2 * a * a + 1, a * b + a * d, b * b + d * d + 1
     det = p * r - q * q
     exact = np.array([[float(r / det), float(-q / det)], [float(-q / det), float(p / det)]])
-    np.testing.assert_allclose(_covariance(J), exact, rtol=1e-6)
+    np.testing.assert_allclose(_covariance(J, 1e20), exact, rtol=1e-6)
+
+
+def test_few_samples_make_less_sure_than_they_leave_over():
+    """A linear model of 4 numbers and 20 samples: the unbiased estimate divides by 16."""
+    J = 1e3 * np.random.default_rng(0).standard_normal((20, 4))
+    np.testing.assert_allclose(_covariance(J, 20.0), np.linalg.inv(J.T @ J) * 20 / 16, rtol=1e-4)
+    unseen = np.concatenate([J, np.zeros((20, 1))], axis=1)
+    assert _covariance(unseen, 20.0)[4, 4] == pytest.approx(1.0)
 
 
 class TwoSprings(ac.Component):

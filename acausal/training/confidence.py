@@ -168,7 +168,8 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
     alike = np.array([correlation_time(column) for column in left.T])
     least = np.maximum(noise, ROUNDING * np.asarray(problem.record.sigma)) * np.sqrt(alike)
     weighted = (slopes / least[:, None]).reshape(-1, len(believed))
-    covariance = _covariance(weighted) * np.outer(believed, believed)
+    samples = float(np.sum(len(left) / alike))
+    covariance = _covariance(weighted, samples) * np.outer(believed, believed)
     own = covariance[ends[0] : ends[1], ends[0] : ends[1]]
     sigma = np.sqrt(np.diag(own))
     bands = {
@@ -225,8 +226,22 @@ def _moved(trainable: Trainable, moves: Array) -> Trainable:
     return replace(trainable, states=trainable.states.at[0].add(moves))
 
 
-def _covariance(slopes: np.ndarray) -> np.ndarray:
-    """``(JᵀJ + 1)⁻¹`` for slopes J, shape (rows, n), by QR decomposition: JᵀJ would lose twice as many digits."""
+def _covariance(slopes: np.ndarray, samples: float) -> np.ndarray:
+    """The covariance of n numbers with a standard deviation of 1 before there were data, shape (n, n).
+
+    Residuals are smaller than the noise by what so many numbers have followed of it: as many as the data determine.
+
+    Arguments:
+        slopes: of all predictions, in standard deviations of what is left over, shape (rows, n).
+        samples: how many independent ones these are.
+    """
+    determined = slopes.shape[1] - float(np.trace(_inverse(slopes)))
+    grown = samples / max(samples - determined, 1.0)
+    return _inverse(slopes / np.sqrt(max(grown, 1.0)))
+
+
+def _inverse(slopes: np.ndarray) -> np.ndarray:
+    """``(JᵀJ + 1)⁻¹`` for slopes J, by QR decomposition: JᵀJ would lose twice as many digits."""
     count = slopes.shape[1]
     triangle = np.linalg.qr(np.concatenate([slopes, np.eye(count)]), mode="r")
     inverse = solve_triangular(triangle, np.eye(count))
