@@ -120,7 +120,7 @@ class Data:
         if unknown:
             raise DataError(
                 f"The data have {listing(unknown)}, which the model has not: "
-                f"{nearest(unknown[0], known)}"
+                f"{nearest(unknown[0], known)} Leave others out by data.select([...])."
             )
         if self.units is None:
             return self
@@ -235,6 +235,8 @@ def _check_interpolation(given: str | Mapping[str, str], signals: Mapping[str, A
 def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:
     names: list[str] = []
     units: dict[str, str] = {}
+    if len(header) == 1 and ";" in header[0]:
+        raise DataError(f"{where}: columns are separated by semicolons; commas are needed.")
     for cell in header:
         match = HEADER.fullmatch(cell)
         if match is None or not match["name"]:

@@ -135,6 +135,11 @@ class ParameterLayout:
                 jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
             )
             values = jnp.concatenate([values, computed])
+        laws = [n for n in self.module_names if not callable(params[n])]
+        if laws:
+            raise DataError(
+                f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}"
+            )
         modules = {
             i: params[name] for i, name in zip(self._own_modules, self.module_names, strict=True)
         }

@@ -87,7 +87,10 @@ def test_temperatures_have_an_offset():
         ),
         (
             lambda: ac.Data(TIME, {"mass.vv": TIME}).for_system(plain()),
-            "The data have 'mass.vv', which the model has not: did you mean 'mass.v'?",
+            (
+                "The data have 'mass.vv', which the model has not: did you mean 'mass.v'? "
+                "Leave others out by data.select([...])."
+            ),
         ),
         (
             lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "kg"}).for_system(plain()),
@@ -130,6 +133,7 @@ def test_csv(tmp_path):
             "time,x\n0,1\n1,nan\n",
             ": 'x' is nan at sample 1; leave such samples out, or fill the gap.",
         ),
+        ("time;x\n0;1\n", ", line 1: columns are separated by semicolons; commas are needed."),
         ("time,x,x\n0,1,1\n", ", line 1: two columns are called 'x'."),
         (
             "time,x [m\n0,1\n",

@@ -8,6 +8,7 @@ import pytest
 
 import acausal as ac
 from acausal.parameters import Packed
+from tests.oscillator import learned
 from tests.parts import Capacitor, Equations, Ground, Mass, Model, Resistor, model
 
 
@@ -170,3 +171,8 @@ def test_an_expression_that_divides_by_a_folded_parameter_is_told():
         ac.DeclarationError, match=r"'part.g': its expression divides by a parameter"
     ):
         ac.compile(Inverse())
+
+
+def test_a_number_is_no_network():
+    with pytest.raises(ac.DataError, match=r"^params: 'extra\.net' must be networks, got 3\.0$"):
+        learned().pack({"extra.net": 3.0})
