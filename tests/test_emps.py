@@ -85,6 +85,9 @@ def test_the_friction_is_learned() -> None:
     for name in ("position", "acceleration", "force"):
         assert ours[f"closed_loop_{name}"] < white[f"closed_loop_{name}"]
     assert ours["closed_loop_velocity"] < 1.05 * white["closed_loop_velocity"]
+    kind = model.KINDS["passive network, with a tolerance of the offset alone"]
+    along = study.closed_loop(kind, study.train(kind, training).params, test)
+    assert all(error < 1.02 * white[name] for name, error in along.items())
     v = np.linspace(-0.2, 0.2, 21)
     net = fit.params["friction.net"]
     for s in (0.0, 0.12, 0.25):

@@ -181,5 +181,9 @@ KINDS = {
     "network without promises": learning(passive=False),
     "passive network": learning(),
     "passive network, and a ripple of the motor": learning(ripple=True),
+    "passive network, with a tolerance of the offset alone": learning(offset=0.2),
     OURS: learning(friction=1.0, offset=0.2),
 }
+"""Kinds of models by name. The training record tells that the offset moves, but not that friction is another one in
+another run: that is knowledge of machines.
+"""

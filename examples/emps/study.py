@@ -36,6 +36,7 @@ CLOSED = ("position", "velocity", "acceleration", "force")
 
 COLUMNS = {
     "validation_mm": "validation [mm]",
+    "validation_velocity": "validation, speed [%]",
     "validation_force": "validation, force [%]",
     "open_loop_test_mm": "test [mm]",
     **{f"closed_loop_{name}": f"{name} [%]" for name in CLOSED},
@@ -157,13 +158,13 @@ def judge(
     return {**alone, **closed_loop(kind, params, measured, span)}
 
 
-def chosen(kind: Kind, measured: Measured) -> dict[str, float]:
+def chosen(kind: Kind, measured: Measured, seed: int = 0) -> dict[str, float]:
     """Errors over the end of the training record, after training on what comes before."""
-    params, _ = trained(kind, measured, TRAIN)
+    params, _ = trained(kind, measured, TRAIN, seed)
     found = judge(kind, params, measured, VALIDATION)
     return {
         "validation_mm": found["open_loop_test_mm"],
-        "validation_force": found["closed_loop_force"],
+        **{f"validation_{n}": found[f"closed_loop_{n}"] for n in ("velocity", "force")},
     }
 
 
@@ -181,14 +182,19 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     """The whole study; returns what the line of JSON says."""
     started = time.time()
     training, test = load(folder, "EMPS", ["DATA_EMPS.mat", "DATA_EMPS_PULSES.mat"])
-    validated = {name: chosen(kind, training) for name, kind in KINDS.items()}
     models = {
-        name: [trained(kind, training, seed=seed) for seed in range(seeds if name == OURS else 1)]
+        name: [trained(kind, training, seed=s) for s in range(seeds if kind.tolerances else 1)]
         for name, kind in KINDS.items()
     }
-    errors = {n: [judge(KINDS[n], params, test) for params, _ in m] for n, m in models.items()}
+    errors = {
+        name: [
+            {**chosen(KINDS[name], training, seed), **judge(KINDS[name], params, test)}
+            for seed, (params, _) in enumerate(found)
+        ]
+        for name, found in models.items()
+    }
     rows = [
-        Row(name, {**validated[name], **mean}, around if len(errors[name]) > 1 else None)
+        Row(name, mean, around if len(errors[name]) > 1 else None)
         for name, (mean, around) in ((n, spread(e)) for n, e in errors.items())
     ]
     fits = {name: m[0][1] for name, m in models.items() if m[0][1] is not None}
@@ -202,7 +208,6 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     mean, around = spread(errors[OURS])
     return {
         **mean,
-        **validated[OURS],
         "spread": around,
         "distilled": in_short,
         **{row.model: dict(row.errors) for row in rows if row.model != OURS},
