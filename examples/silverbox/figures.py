@@ -15,22 +15,26 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import acausal as ac
+from acausal import plot
 from acausal.report import Page
 from examples.measured.judge import simulate
 from examples.measured.present import Row
 from examples.silverbox import model, study
-from examples.silverbox.model import OUTPUT
+from examples.silverbox.model import KINDS, OURS, OUTPUT
 
 FAR = 0.32
 """What the arrow reaches [m]."""
 
 COLORS = {
-    "linear": "#9aa5b1",
     "white box (Duffing)": "#d9822b",
-    "networks without promises": "#2e7d43",
-    "networks with promises": "#7a4fa3",
-    "Duffing and networks": "#1f5c99",
+    "spring: a free network": "#9aa5b1",
+    "spring: odd": "#c2a33a",
+    "spring: odd, of a convex energy": "#b0463c",
+    "spring: odd, rising, linear beyond": "#7a4fa3",
+    "spring: odd, rising, cubic beyond": "#2e7d43",
+    OURS: "#1f5c99",
 }
+"""Of the kinds that are drawn: the linear one is off the scale of all others."""
 
 
 def page(
@@ -38,20 +42,20 @@ def page(
     measured: Mapping[str, np.ndarray],
     rows: Sequence[Row],
     fits: Mapping[str, ac.Fit],
+    everyone: ac.Ensemble,
     formulas: Mapping[str, ac.Distilled],
 ) -> None:
-    """Write the page."""
+    """Write the page; ``everyone`` are all trainings of the model whose middle one is among the fits."""
     shown = Page(
         "The Silverbox",
         "An electronic circuit that behaves as a mass on a progressive spring, "
         "measured by T. Wigren and J. Schoukens (2013).",
     )
-    system = fits["Duffing and networks"].system
     shown.section("The model")
-    diagram = ac.diagram(model.enhanced()[0]).figure
+    diagram = ac.diagram(KINDS[OURS].build()).figure
     assert isinstance(diagram, Figure)
     shown.figure(diagram, "The connected components; tinted ones hold a network.")
-    shown.equations(system.equations)
+    shown.equations(fits[OURS].system.equations)
     shown.section("The result")
     shown.table(["RMSE in mV", *study.COLUMNS.values()], [r.cells(study.COLUMNS) for r in rows])
     shown.text(
@@ -60,20 +64,29 @@ def page(
         "between its samples costs more than the error that is left. Published figures: arXiv 2405.10779."
     )
     shown.section("Beyond the data")
+    drawn = {name: fits[name] for name in COLORS}
     shown.figure(
-        laws(fits),
-        "What springs and dampers do beyond the linear ones of the white box. Between the dashed lines there "
-        "were data; the arrow goes on to 0.3 m.",
+        springs(drawn),
+        "Left: what springs do beyond the linear one of the white box. Right: how far they are from the white "
+        "box's cube. Between the dashed lines there were data; the arrow goes on to 0.3 m.",
     )
     shown.figure(
-        arrow(measured, fits), "Errors over the arrow, whose amplitude grows beyond all training."
+        arrow(measured, drawn), "Errors over the arrow, whose amplitude grows beyond all training."
     )
     shown.text(
-        "Networks that promise nothing do beyond the data what they like. Networks that promise to rise and to go "
-        "on linearly stay stable, but the true spring grows as a cube. The cubic spring is known physics, and so is "
-        "how it goes on; the networks have only to mend it, and to do no harm where they know nothing."
+        "Beyond the data a spring does what it promises. One that promises nothing, or is odd, goes on as it "
+        "happens to; the slope of a convex energy is stable, but flattens; a linear one rises, but too little; and "
+        "one that goes on along a cube comes closest to the true one. A cubic spring beside the network says the "
+        "same by physics, and all trainings agree."
     )
-    shown.section("Read as physics")
+    shown.section("Learned functions and their confidence")
+    shown.figure(
+        confidence(fits["white box (Duffing)"], fits[OURS], everyone, formulas),
+        "Above: the force of springs, or of dampers, less that of the white box, with two standard deviations "
+        "between trainings from different seeds. Below: the networks' part of it in the middle one of them, with two "
+        "standard deviations that the record leaves open: there parameters and networks may take from each other, and "
+        "only their sum is well known. Dotted: formulas.",
+    )
     for name, formula in formulas.items():
         shown.text(
             f"{name}(x) = {formula.expression}, {100 * formula.relative_error:.2g} % from the network."
@@ -81,28 +94,30 @@ def page(
     shown.write(path)
 
 
-def laws(fits: Mapping[str, ac.Fit]) -> Figure:
-    """Forces of spring and damper beside those of the white box's linear ones."""
-    base = fits["white box (Duffing)"].params
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
-    places = ((model.REACH, FAR, "mass.s"), (model.SPEED, 150.0, "mass.v"))
-    for ax, (known, far, state) in zip(axes, places, strict=True):
-        x = np.linspace(-far, far, 401)
-        slope = base["linear.c"] if state == "mass.s" else base["linear.d"]
-        for name, fit in fits.items():
-            force = pull(fit, state, x) - slope * x
-            ax.plot(x, 1e3 * (force - force[200]), COLORS[name], label=name, lw=1.3)
-        for edge in (-known, known):
+def springs(fits: Mapping[str, ac.Fit]) -> Figure:
+    """Forces of springs beside the linear one, and beside the cubic one, of the white box."""
+    x = np.linspace(-FAR, FAR, 401)
+    pulls = {name: pull(fit, "mass.s", x) for name, fit in fits.items()}
+    white = fits["white box (Duffing)"].params
+    figure, axes = plt.subplots(1, 2, figsize=(12, 4.6), layout="constrained")
+    for name, force in pulls.items():
+        straight, cube = force - white["linear.c"] * x, force - pulls["white box (Duffing)"]
+        axes[0].plot(x, 1e3 * straight, COLORS[name], label=name, lw=1.3)
+        axes[1].plot(x, 1e3 * cube, COLORS[name], lw=1.3)
+    for ax, beside, reach in zip(axes, ("linear", "cubic"), (140, 25), strict=True):
+        for edge in (-model.REACH, model.REACH):
             ax.axvline(edge, color="#7a8794", lw=0.8, ls="--")
-        ax.set_ylabel("force beside the linear one [mN]")
-    axes[0].set(xlabel="position [m]", title="spring", ylim=(-150, 150))
-    axes[1].set(xlabel="speed [m/s]", title="damper", ylim=(-2, 2))
-    axes[0].legend(frameon=False, fontsize=8)
+        ax.set(
+            xlabel="position [m]",
+            ylabel=f"force beside the {beside} spring [mN]",
+            ylim=(-reach, reach),
+        )
+    axes[0].legend(frameon=False, fontsize=7)
     return figure
 
 
 def pull(fit: ac.Fit, state: str, x: np.ndarray) -> np.ndarray:
-    """What pulls the mass back, where one state is varied and the other one zero, less what a force gives."""
+    """What pulls the mass back where one state is varied and the other zero, less what does so at zero [N]."""
     system, packed = fit.system, fit.system.pack(fit.params)
     place = system.states.index(state)
 
@@ -110,7 +125,8 @@ def pull(fit: ac.Fit, state: str, x: np.ndarray) -> np.ndarray:
         states = jax.numpy.zeros(len(system.states)).at[place].set(value)
         return system.observe("mass.a", 0.0, states, jax.numpy.zeros(1), packed)
 
-    return -float(fit.params["mass.m"]) * np.asarray(jax.vmap(at)(jax.numpy.asarray(x)))
+    force = -float(fit.params["mass.m"]) * np.asarray(jax.vmap(at)(jax.numpy.asarray(x)))
+    return force - np.interp(0.0, x, force)
 
 
 def arrow(measured: Mapping[str, np.ndarray], fits: Mapping[str, ac.Fit]) -> Figure:
@@ -120,8 +136,6 @@ def arrow(measured: Mapping[str, np.ndarray], fits: Mapping[str, ac.Fit]) -> Fig
     axes[0].plot(data.time, data[OUTPUT], lw=0.4, color="#1d2733")
     axes[0].set_ylabel("measured [V]")
     for name, fit in fits.items():
-        if name == "linear":
-            continue  # its errors are off the scale of all others
         solution = simulate(
             fit.system, fit.params, data, OUTPUT, known=study.KNOWN, solver=study.SOLVER
         )
@@ -132,5 +146,30 @@ def arrow(measured: Mapping[str, np.ndarray], fits: Mapping[str, ac.Fit]) -> Fig
             at, 1e3 * np.sqrt(np.mean(blocks**2, axis=1)), COLORS[name], label=name, lw=1.3
         )
     axes[1].set(ylabel="RMS error [mV]", xlabel="time [s]")
-    axes[1].legend(frameon=False, fontsize=8)
+    axes[1].legend(frameon=False, fontsize=7)
+    return figure
+
+
+def confidence(
+    white: ac.Fit, fit: ac.Fit, everyone: ac.Ensemble, formulas: Mapping[str, ac.Distilled]
+) -> Figure:
+    """What is learned beside the white box by all trainings, and the networks of one of them."""
+    told = fit.confidence().laws
+    states = {"mass.s": "position [m]", "mass.v": "speed [m/s]"}
+    figure, axes = plt.subplots(2, 2, figsize=(12, 7), sharex="col", layout="constrained")
+    for (above, below), state, (name, formula) in zip(
+        axes.T, states, formulas.items(), strict=True
+    ):
+        x = np.linspace(*formula.interval, 201)
+        beside = [pull(one, state, x) - pull(white, state, x) for one in everyone.fits]
+        mean, sigma = np.mean(beside, axis=0), np.std(beside, axis=0)
+        above.plot(x, mean, color=COLORS[OURS], label="mean of all trainings")
+        above.fill_between(x, mean - 2 * sigma, mean + 2 * sigma, color=COLORS[OURS], alpha=0.25)
+        above.set(ylabel="force beside the white box [N]")
+        plot.band(below, told[name], color=COLORS[OURS], label="network")
+        below.plot(x, jax.vmap(formula.formula)(x), ":", color="#1d2733", label="formula")
+        below.set(xlabel=states[state], ylabel=f"{name} [N]")
+        for ax in (above, below):
+            ax.ticklabel_format(axis="y", scilimits=(-3, -3))
+            ax.legend(frameon=False, fontsize=8)
     return figure

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from examples.measured.judge import rms, simulate, spread
 from examples.measured.load import load
 from examples.measured.present import Row, show
 from examples.silverbox import figures, model
-from examples.silverbox.model import INPUT, OUTPUT
+from examples.silverbox.model import INPUT, KINDS, OURS, OUTPUT, Kind
 
 SAMPLE_TIME = 2**14 / 1e7
 """[s]"""
@@ -63,33 +63,23 @@ def record(measured: Mapping[str, np.ndarray], span: tuple[int, int]) -> ac.Data
     return ac.Data(ts, signals, interpolation={INPUT: "band-limited"})
 
 
-def train(
-    measured: Mapping[str, np.ndarray],
-    make: Callable[[], tuple[ac.Component, tuple[str, ...]]],
-    *,
-    epochs: int,
-    seeds: int = 1,
-) -> list[Trained]:
-    """Train a model from several random starts, and judge each."""
-    box, parameters = make()
-    system, data = ac.compile(box), record(measured, TRAIN)
-    trained: list[Trained] = []
-    for seed in range(seeds):
-        fit = ac.fit(
-            system,
-            data,
-            [OUTPUT],
-            modifiers=parameters,
-            gamma=0.9,
-            strategy="whole_record",
-            x0="fit",
-            epochs=epochs,
-            solver=SOLVER,
-            seed=seed,
-            progress=False,
-        )
-        trained.append(Trained(fit, errors(measured, system, fit.params)))
-    return trained
+def train(measured: Mapping[str, np.ndarray], kind: Kind, *, seeds: int = 1) -> list[Trained]:
+    """Train a kind of model from several random starts, and judge each."""
+    system, data = ac.compile(kind.build()), record(measured, TRAIN)
+    wishes: dict[str, Any] = {
+        "modifiers": kind.trained,
+        "gamma": 0.9,
+        "strategy": "whole_record",
+        "x0": "fit",
+        "epochs": kind.epochs,
+        "solver": SOLVER,
+        "progress": False,
+    }
+    if seeds > 1:
+        fits = ac.ensemble(system, data, [OUTPUT], members=seeds, **wishes).fits
+    else:
+        fits = (ac.fit(system, data, [OUTPUT], **wishes),)
+    return [Trained(fit, errors(measured, system, fit.params)) for fit in fits]
 
 
 def errors(
@@ -112,6 +102,11 @@ def error(
     return 1e3 * rms(solution, data, OUTPUT, known=KNOWN)
 
 
+def middle(trained: Sequence[Trained]) -> ac.Fit:
+    """The one in the middle by its error over the validation part."""
+    return sorted(trained, key=lambda t: t.errors["validation"])[len(trained) // 2].fit
+
+
 def distilled(trained: ac.Fit) -> dict[str, ac.Distilled]:
     """Formulas for the networks, where they were trained."""
     reach = {"spring_nn.net": model.REACH, "damper_nn.net": model.SPEED}
@@ -123,36 +118,31 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     started = time.time()
     (measured,) = load(folder, "Silverbox", ["SNLS80mV.mat"])
     models = {
-        "linear": train(measured, model.linear, epochs=60),
-        "white box (Duffing)": train(measured, model.white_box, epochs=100),
-        "networks without promises": train(measured, model.free, epochs=400),
-        "networks with promises": train(measured, model.promising, epochs=400),
-        "Duffing and networks": train(measured, model.enhanced, epochs=200, seeds=seeds),
+        name: train(measured, kind, seeds=min(seeds, kind.seeds)) for name, kind in KINDS.items()
     }
     averages = {name: spread([t.errors for t in trained]) for name, trained in models.items()}
-    ours = models["Duffing and networks"]
-    middle = sorted(ours, key=lambda t: t.errors["validation"])[len(ours) // 2]
-    formulas = distilled(middle.fit)
+    fits = {name: middle(trained) for name, trained in models.items()}
+    formulas = distilled(fits[OURS])
     short = {n: d.formula for n, d in formulas.items()}
-    in_short = errors(measured, middle.fit.system, {**middle.fit.params, **short})
+    in_short = errors(measured, fits[OURS].system, {**fits[OURS].params, **short})
+    mean, around = averages[OURS]
     rows = [
-        *(Row(name, mean, around if seeds > 1 and name == "Duffing and networks" else None)
-          for name, (mean, around) in averages.items()),
+        *(
+            Row(name, found, deviation if len(models[name]) > 1 else None)
+            for name, (found, deviation) in averages.items()
+        ),
         Row("... its networks distilled", in_short),
         *PUBLISHED,
-    ]  # fmt: skip
+    ]
     show("Silverbox: root mean square error in mV", COLUMNS, rows)
-    mean, around = averages["Duffing and networks"]
-    report = {
-        **{f"{name}_mV": mean[name] for name in ("multisine", "arrow_full", "arrow_no_extrapolation")},
-        "validation_mV": mean["validation"],
+    everyone = ac.Ensemble(tuple(t.fit for t in models[OURS]))
+    figures.page(out / "index.html", measured, rows, fits, everyone, formulas)
+    return {
+        **{f"{name}_mV": mean[name] for name in COLUMNS},
         "spread_mV": around,
         "distilled_mV": in_short,
-        **{name: averages[name][0] for name in models if name != "Duffing and networks"},
+        **{name: averages[name][0] for name in models if name != OURS},
         "seeds": seeds,
-        "training_seconds": float(np.mean([t.fit.seconds for t in ours])),
-    }  # fmt: skip
-    figures.page(
-        out / "index.html", measured, rows, {n: t[0].fit for n, t in models.items()}, formulas
-    )
-    return {**report, "seconds": time.time() - started}
+        "training_seconds": models[OURS][0].fit.seconds,
+        "seconds": time.time() - started,
+    }
