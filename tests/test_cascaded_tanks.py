@@ -53,6 +53,7 @@ def test_water_is_held_back_by_no_rim_but_leaves_over_it() -> None:
 
 @REAL
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*has run into the limit of its modifier")  # of the white box
 def test_the_sensor_and_the_white_box_are_learned() -> None:
     (measured,) = load.load(DATA, "Cascaded_Tanks", ["dataBenchmark.mat"])
     (white,) = study.train(measured, model.white_box)
