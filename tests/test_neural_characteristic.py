@@ -36,6 +36,13 @@ def test_a_monotone_characteristic_rises_whatever_its_weights() -> None:
         np.testing.assert_allclose(np.diff(y[-15:], 2), 0, atol=1e-9)
 
 
+def test_a_fresh_characteristic_may_start_with_a_slope() -> None:
+    options = {"monotone": True, "activation": "tanh", "input_scale": 0.5, "output_scale": 2.0}
+    system = ac.compile(Sensor(neural.Characteristic(width=4, depth=1, start=3.0, **options)))
+    net = system.parameters(0)["curve.net"]
+    assert float(net(1e5) - net(0.0)) / 1e5 == pytest.approx(3.0 * 2.0 / 0.5, rel=1e-3)
+
+
 def test_a_map_has_secondary_inputs_and_goes_through_files(tmp_path: Path) -> None:
     model = Sensor(neural.Characteristic(secondary=("T",), zero_crossing="exact", width=4))
     system = ac.compile(model)

@@ -31,9 +31,13 @@ class Characteristic(PartialLaw):
     floor = ac.Option(
         0.0, doc="least slope of a monotone characteristic, relative to that of the scales"
     )
+    start = ac.Option(
+        0.0,
+        doc="slope that a fresh monotone characteristic has besides, likewise, and that is trained",
+    )
     u = ac.Input(doc="input signal")
     y = ac.Output(doc="output signal")
-    promises = (*PartialLaw.promises, "monotone", "zero_crossing", "floor")
+    promises = (*PartialLaw.promises, "monotone", "zero_crossing", "floor", "start")
 
     def __init__(self, *, secondary: int | Sequence[str] = (), **modifiers: Any) -> None:
         self.secondary = named(secondary)
@@ -45,6 +49,7 @@ class Characteristic(PartialLaw):
             monotone=self.monotone,
             zero_crossing=self.zero_crossing,
             floor=self.floor,
+            start=self.start,
             **self._sizes,
         )
 

@@ -21,11 +21,12 @@ def simulate(
     solver: str,
     dt: float | None = None,
     given: Mapping[str, float] | None = None,
+    guess: Mapping[str, float] | None = None,
 ) -> ac.Solution:
     """A simulation of a whole record that sees no more of its output than the first ``known`` samples.
 
-    From these comes the state at the start, by least squares, but for states that are ``given``. ``dt`` is the step, by
-    default the sample time.
+    From these comes the state at the start, by least squares from a ``guess``, but for states that are ``given``. By
+    default the guess is what is measured, or zero. ``dt`` is the step, by default the sample time.
     """
     h = record.sample_time
     known_states = dict(given or {})
@@ -39,8 +40,9 @@ def simulate(
     def errors(x0: np.ndarray) -> np.ndarray:
         return np.asarray(run(begin, x0)[target]) - begin[target]
 
-    guess = [record[n][0] if n in record.signals else 0.0 for n in free]
-    return run(record, least_squares(errors, guess, x_scale="jac").x)
+    measured = {n: float(record[n][0]) for n in free if n in record.signals}
+    begun = {**dict.fromkeys(free, 0.0), **measured, **(guess or {})}
+    return run(record, least_squares(errors, [begun[n] for n in free], x_scale="jac").x)
 
 
 def follow(
