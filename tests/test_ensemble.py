@@ -130,6 +130,7 @@ def test_the_page_shows_bands(tmp_path: Path):
     ("wishes", "sentence"),
     [
         ({"members": 1}, "members=1; an ensemble has two at least."),
+        ({"members": 2.5}, "members=2.5; an ensemble has two at least."),
         ({"devices": jax.devices()}, "An ensemble is trained on one device: leave out devices=."),
         ({"params": [{}]}, "There are 1 params for 3 members."),
         (
@@ -137,7 +138,7 @@ def test_the_page_shows_bands(tmp_path: Path):
             "The networks 'extra.net' that are trained together are not alike: give all of them one architecture.",
         ),
     ],
-    ids=["alone", "devices", "too few", "architectures"],
+    ids=["alone", "no number", "devices", "too few", "architectures"],
 )  # fmt: skip
 def test_mistakes_get_one_sentence(wishes: dict[str, Any], sentence: str):
     with pytest.raises(ac.TrainingError) as error:

@@ -269,6 +269,7 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
           "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out.")),
         ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('sequences',): give one number, or one for each leg."),
         ({"epochs": 0}, "epochs=0; at least one is needed."),
+        ({"dt": "0.01"}, "dt='0.01' is no step; give a positive time in seconds."),
         ({"epochs": 2.5}, "epochs=2.5; give a whole number of updates."),
         ({"evaluate_every": 0}, "evaluate_every=0; give one update or more."),
         ({"optimizer": "adam"}, "optimizer='adam' is none of optax; give one such as optax.adam(0.01)."),

@@ -133,8 +133,8 @@ def ensemble(
         TypeError: for a wish that `acausal.fit` does not know.
     """
     need_compiled(system, "ensemble")
-    if members < 2:
-        raise TrainingError(f"members={members}; an ensemble has two at least.")
+    if not isinstance(members, int | np.integer) or members < 2:
+        raise TrainingError(f"members={members!r}; an ensemble has two at least.")
     unknown = [name for name in wishes if name not in _defaults()]
     if unknown:
         raise TypeError(

@@ -226,8 +226,8 @@ def _substeps(data: Data, dt: float | None) -> int:
     if dt is None:
         return 1
     longest = data.sample_time if data.uniform else float(np.max(np.diff(data.time)))
-    if not (np.isfinite(dt) and dt > 0):
-        raise TrainingError(f"dt={dt} is no step; give a positive time in seconds.")
+    if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
+        raise TrainingError(f"dt={dt!r} is no step; give a positive time in seconds.")
     n = max(1, round(longest / dt)) if data.uniform else int(np.ceil(longest / dt - 1e-6))
     if data.uniform and abs(longest / dt - n) > 1e-6 * n:
         raise TrainingError(

@@ -96,7 +96,11 @@ class Fit:
         return self.loss if self.validation_loss is None else self.validation_loss
 
     def confidence(self) -> Confidence:
-        """How well the record determines the learned laws and the trained parameters."""
+        """How well the record determines the learned laws and the trained parameters; computed when first asked for."""
+        return self._confidence
+
+    @cached_property
+    def _confidence(self) -> Confidence:
         return confidence(self.problem, self.trained, self.arguments)
 
     def conformal(

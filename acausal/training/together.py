@@ -87,6 +87,9 @@ def together(
     for function in (*penalties, *observers):
         if not callable(function):
             raise TrainingError(f"{function!r:.80} is called in the training, and is no function.")
+    for seed in seeds:
+        if not isinstance(seed, int | np.integer):
+            raise TrainingError(f"seed={seed!r}; give a whole number.")
     training, kept = split(Data.of(data).for_system(system), validation)
     problem = pose(
         system,
