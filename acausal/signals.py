@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from acausal.bands import FRACTIONS, bends, between, bow
 from acausal.errors import DataError
-from acausal.tracing import traced
+from acausal.tracing import array, traced
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
@@ -68,8 +68,8 @@ class Signal(eqx.Module):
         if not traced(ts):
             check_time_base(np.asarray(ts), f"'{name}'")
         check_samples(values, np.shape(ts), f"'{name}'")
-        self.ts = jnp.asarray(ts, float)
-        self.values = jnp.asarray(values, float)
+        self.ts = array(ts)
+        self.values = array(values)
         self.interpolation = interpolation
         self.extrapolation = extrapolation
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
