@@ -178,7 +178,7 @@ def test_sampled_inputs_are_their_signals_within_steps(interpolation, parts):
 def test_times_that_are_known_stay_so_where_jax_traces():
     def values(samples):
         signal = ac.Signal([0.0, 1.0, 3.0], samples)
-        assert isinstance(signal.ts, jax.Array) and not isinstance(signal.ts, jax.core.Tracer)
+        assert not isinstance(signal.ts, jax.core.Tracer)
         assert isinstance(signal.values, jax.core.Tracer)
         return signal(2.0)
 
