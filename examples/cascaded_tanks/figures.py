@@ -19,10 +19,10 @@ from matplotlib.figure import Figure
 import acausal as ac
 from acausal.report import Page
 from examples.cascaded_tanks import model, study
-from examples.cascaded_tanks.model import CURVE, OURS, OUTPUT, PROMISING, WHITE
+from examples.cascaded_tanks.model import CURVE, LAW, LEARNED, OURS, OUTPUT, PROMISING, WHITE
 from examples.measured.present import Row
 
-SHOWN = {WHITE: "#d9822b", OURS: "#1f5c99", PROMISING: "#2e7d43"}
+SHOWN = {WHITE: "#d9822b", OURS: "#1f5c99", PROMISING: "#2e7d43", LEARNED: "#7a4fa3"}
 """Models in pictures, and their colours."""
 
 
@@ -74,6 +74,16 @@ def page(
     )
     for sentence in sure.words():
         shown.text(sentence)
+    shown.section("The outflow, if nothing is known of it but its promises")
+    shown.figure(
+        outflow(fits),
+        "One neural resistance in place of both holes, with a band of two standard deviations; pressures between the "
+        "dashed lines occur in training.",
+    )
+    shown.text(
+        "Where there are data, the learned flow rises as the pressure to the power of "
+        f"{exponent(fits[LEARNED]):.2f}; Torricelli's law has 0.5."
+    )
     shown.write(path)
 
 
@@ -115,6 +125,33 @@ def sensor(fits: Mapping[str, ac.Fit], sure: ac.Confidence, short: ac.Fit) -> Fi
     ax.set(xlabel="level [cm]", ylabel="sensor [V]", ylim=(0, 14))
     ax.legend(frameon=False)
     return figure
+
+
+def outflow(fits: Mapping[str, ac.Fit]) -> Figure:
+    """What runs out of a tank over the pressure at its bottom: learned, and by Torricelli."""
+    learned, known = fits[LEARNED], fits[OURS].params
+    x = np.linspace(-300.0, 2000.0, 251)
+    band, flow = learned.confidence().laws[LAW], np.asarray(jax.vmap(learned.params[LAW])(x))
+    sigma = np.interp(x, band.x, band.sigma, left=np.nan, right=np.nan)
+    C_d, area, rho = (float(known[f"upper_hole.{n}"]) for n in ("C_d", "area", "rho"))
+    hole = C_d * area * np.sqrt(2 * rho * np.abs(x)) * np.sign(x)
+    figure, ax = plt.subplots(figsize=(7.5, 4.2), layout="constrained")
+    low, high = (1e3 * (flow + k * sigma) for k in (-2, 2))
+    ax.fill_between(x, low, high, color=SHOWN[LEARNED], alpha=0.25, lw=0)
+    ax.plot(x, 1e3 * flow, SHOWN[LEARNED], lw=1.6, label="learned")
+    ax.plot(x, 1e3 * hole, SHOWN[OURS], lw=1.2, label="Torricelli's law of the model above")
+    _edges(ax, learned.arguments[LAW][:, 0])
+    ax.axhline(0, color="#7a8794", lw=0.8)
+    ax.set(xlabel="pressure [Pa]", ylabel="outflow [g/s]", ylim=(-15, 45))
+    ax.legend(frameon=False)
+    return figure
+
+
+def exponent(fit: ac.Fit) -> float:
+    """The power of the pressure as which the learned outflow rises where there are data."""
+    low, high = np.quantile(fit.arguments[LAW][:, 0], [0.05, 0.95])
+    x = np.linspace(low, high, 101)
+    return float(np.polyfit(np.log(x), np.log(jax.vmap(fit.params[LAW])(x)), 1)[0])
 
 
 def _edges(ax: Axes, seen: np.ndarray) -> None:

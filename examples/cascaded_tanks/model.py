@@ -20,6 +20,13 @@ RIM = 0.15
 """How high the rims are [m]."""
 LEVELS = (0.055, 0.16)
 """Lower levels that the training record tells of [m]."""
+OUTFLOW: dict[str, Any] = {
+    "passive": True,
+    "monotone": True,
+    "extrapolation": "linear",
+    "limits": (0.0, 1600.0),
+}
+"""Promises of an outflow: no water runs upwards, more under more pressure [Pa], and linearly so beyond the data."""
 
 Model = tuple[ac.Component, dict[str, Any]]
 """A model, and how far its parameters may be trained: modifiers of `acausal.fit`."""
@@ -122,6 +129,14 @@ def rising() -> Model:
     return curved(**RISING)
 
 
+def learned() -> Model:
+    """The same as `curved`, but a learned outflow, one for both tanks, in place of Torricelli's law."""
+    sizes: dict[str, Any] = {"width": 6, "depth": 1, "input_scale": 500.0, "output_scale": 0.02}
+    upper = neural.Resistance(hy.FluidPort, activation="tanh", **sizes, **OUTFLOW)
+    holes = upper, neural.Resistance(hy.FluidPort, net=upper.net)
+    return CascadedTanks(holes, _curve(), sticks=True), {**FLOWS, **STICKING}
+
+
 def _holes() -> tuple[ac.Component, ac.Component]:
     upper = hy.Orifice(area=2.3e-5)
     return upper, hy.Orifice(area=upper.area)
@@ -134,10 +149,12 @@ def _curve(**promises: Any) -> neural.Characteristic:
 
 LINEAR, WHITE = "linear", "white box (Torricelli, rims)"
 OURS, PROMISING = "sensor's curve and friction", "the same, a curve that rises, tame"
+LEARNED, LAW = "the same, the outflow learned, too", "upper_hole.net"
 MODELS: dict[str, Callable[[], Model]] = {
     LINEAR: linear,
     WHITE: white_box,
     OURS: curved,
     PROMISING: rising,
+    LEARNED: learned,
 }
 """By their names in tables."""

@@ -15,7 +15,7 @@ from jax import Array
 import acausal as ac
 from acausal.networks import Continued
 from examples.cascaded_tanks import figures, model
-from examples.cascaded_tanks.model import CURVE, INPUT, MODELS, OURS, OUTPUT
+from examples.cascaded_tanks.model import INPUT, LAW, MODELS, OURS, OUTPUT
 from examples.measured.judge import rms, simulate, spread
 from examples.measured.load import load
 from examples.measured.present import Row, show
@@ -156,22 +156,24 @@ def test_error(measured: Mapping[str, np.ndarray], fit: ac.Fit) -> float:
     return rms(tested(measured, fit), data, OUTPUT, known=KNOWN)
 
 
-def formula(fit: ac.Fit) -> Continued:
-    """A formula in place of the sensor's network, which goes on along its tangent beyond the data."""
-    low, high = map(float, np.quantile(fit.arguments[CURVE], [0.0, 1.0]))
-    return Continued(
-        ac.distill(fit.params[CURVE], low, high).formula, low, high, "linear", rising=True
-    )
+def formulas(fit: ac.Fit) -> dict[str, Continued]:
+    """Formulas in place of networks; beyond the data they go on along their tangents. An outflow starts at zero."""
+    found: dict[str, Continued] = {}
+    for name, seen in fit.arguments.items():
+        low, high = 0.0 if name == LAW else float(seen.min()), float(seen.max())
+        short = ac.distill(fit.params[name], low, high).formula
+        found[name] = Continued(short, low, high, "linear", rising=True)
+    return found
 
 
 def in_short(
     measured: Mapping[str, np.ndarray], make: Callable[[], model.Model], learned: Trained
 ) -> Trained:
-    """The sensor's network replaced by a formula in each training, which goes on."""
+    """The networks replaced by formulas in each training, which goes on."""
     system, moves = learned.fit.system, make()[1]
     again: list[ac.Fit] = []
     for fit, loss in zip((*learned.parts, learned.fit), LOSSES, strict=True):
-        start = {**fit.params, CURVE: formula(fit)}
+        start = {**fit.params, **formulas(fit)}
         again += fits(measured, system, moves, [start], loss)
     return Trained.judged(measured, again)
 
@@ -192,7 +194,7 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     for name, (mean, around) in averages.items():
         rows.append(Row(name, mean, around if len(models[name]) > 1 else None))
         if name == OURS:
-            rows.append(Row("... the curve a formula, trained on", short.errors))
+            rows.append(Row("... its networks formulas, trained on", short.errors))
     rows += PUBLISHED
     show("Cascaded Tanks: root mean square error in V", COLUMNS, rows)
     shown = {name: middle(found).fit for name, found in models.items()}
@@ -204,7 +206,7 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
         "spread_V": around,
         "each_seed": [t.errors for t in models[OURS]],
         "distilled_V": short.errors,
-        "formula": str(short.fit.params[CURVE].net.expression()),
+        "formulas": {n: str(short.fit.params[n].net.expression()) for n in short.fit.seen},
         "seeds": seeds,
         "seconds": time.time() - started,
     }
