@@ -34,8 +34,8 @@ BEAM = 8
 PLAIN = 1.1
 """So much larger the error of a formula may be for each scale that it does without."""
 
-HUGE = 1e9
-"""Larger values of a term tell nothing."""
+LEAST, HUGE = 1e-100, 1e9
+"""Smaller and larger values of a term tell nothing."""
 
 DIGITS = range(2, 8)
 WORSE, EXACT = 1.05, 1e-5
@@ -193,13 +193,14 @@ def _best_scale(
 
 
 def _left(columns: np.ndarray, y: np.ndarray) -> float:
-    if not np.max(np.abs(columns)) < HUGE:
+    largest = np.max(np.abs(columns), axis=0)
+    if not np.all((largest > LEAST) & (largest < HUGE)):
         return np.inf
     return float(np.sum((columns @ _solved(columns, y) - y) ** 2))
 
 
 def _solved(columns: np.ndarray, y: np.ndarray) -> np.ndarray:
-    size = np.sqrt(np.sum(columns**2, axis=0)) + np.finfo(float).tiny
+    size = np.maximum(np.sqrt(np.sum(columns**2, axis=0)), LEAST)
     return np.linalg.lstsq(columns / size, y, rcond=1e-10)[0] / size
 
 

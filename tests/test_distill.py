@@ -122,3 +122,11 @@ def test_mistakes_get_one_sentence(wishes, sentence):
         ac.distill(**given)
     assert str(error.value).startswith(sentence)
     assert "\n" not in str(error.value)
+
+
+def test_small_units_are_no_obstacle():
+    """What is above all no warning, which is an error in tests."""
+    short = ac.distill(lambda x: 2e6 * x**3, 1e-6, 1e-5)
+    assert str(short.formula.expression()) == "2000000.0*x**3"
+    falling = ac.distill(lambda x: jnp.exp(-x / 50), 10_000.0, 20_000.0)
+    assert np.isfinite(falling.error)
