@@ -41,12 +41,16 @@ class Row:
         return f"{self.errors[name]:.3g}{around}"
 
 
+WIDE = 160
+"""Columns of a table that is written to a file."""
+
+
 def show(title: str, columns: Mapping[str, str], rows: Sequence[Row]) -> None:
     """Print a table; ``columns`` are headers by name of the error."""
     table = Table("", *columns.values(), title=title)
     for row in rows:
         table.add_row(*row.cells(columns))
-    Console().print(table)
+    Console(width=None if sys.stdout.isatty() else WIDE).print(table)
 
 
 def command(
