@@ -26,6 +26,7 @@ from acausal.networks.scaled import Potential, law_of
 from acausal.neural import output_scale
 from acausal.training.problem import Problem, Trainable, modified
 from acausal.training.residuals import correlation_time
+from acausal.training.slopes import by_each
 
 BUMPS, REACH = 12, 3.0
 """Bumps of each law, evenly over so many sigmas of its inputs to either side."""
@@ -266,8 +267,8 @@ def _sensitivity(
         def predicted(z: Array) -> Array:
             return problem.predict(*changed(z))
 
-        at, push = jax.linearize(predicted, jnp.zeros(count))
-        return problem.record.y - at, jax.vmap(push, out_axes=-1)(jnp.eye(count))
+        at, slopes = by_each(predicted, jnp.zeros(count), axis=-1)
+        return problem.record.y - at, slopes
 
     left, slopes = run(problem)
     return np.asarray(left), np.asarray(slopes)

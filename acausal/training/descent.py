@@ -6,9 +6,6 @@ import equinox as eqx
 import optax
 from jax import Array
 
-STALLED = 1e-12
-"""Relative decrease of the loss below which a descent is at its end."""
-
 
 class DescentMethod(optax.GradientTransformationExtraArgs):
     """An optimizer that compares losses of one and the same data, and takes back itself what is worse.

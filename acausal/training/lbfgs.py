@@ -10,13 +10,16 @@ import jax.numpy as jnp
 from jax import Array, lax
 from jax.flatten_util import ravel_pytree
 
-from acausal.training.descent import STALLED, Descent, DescentMethod
+from acausal.training.descent import Descent, DescentMethod
 
 DECREASE, CURVATURE = 1e-4, 0.9
 """Wolfe's conditions: how much of the foreseen decrease, and how much less of the slope, ends a search."""
 
 TRIALS = 20
 """Points on a line after which the search starts anew from the gradient alone."""
+
+STALLED = 1e-12
+"""Relative decrease of the loss below which the search is at its end."""
 
 FIRST = 0.1
 """Length of the very first step."""

@@ -48,6 +48,15 @@ def gradients(problem: Any, trainable: Any, batch: Any) -> Slope:
     return Slope(losses, penalties, value, gradient)
 
 
+def by_each(function: Callable[[Array], Array], at: Array, axis: int) -> tuple[Array, Array]:
+    """A function's value, and its slopes by each of the numbers that it is of, in forward mode; ``axis`` is theirs."""
+
+    def push(direction: Array) -> tuple[Array, Array]:
+        return jax.jvp(function, (at,), (direction,))
+
+    return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at)))
+
+
 def curvatures(problem: Any, trainable: Any, batch: Any) -> Slope:
     """The gradient, and the curvature that the loss has by the slopes of the predictions alone, in forward mode.
 
@@ -60,13 +69,10 @@ def curvatures(problem: Any, trainable: Any, batch: Any) -> Slope:
     def penalty(z: Array) -> Array:
         return _sum(problem.penalties(unravel(z)))
 
-    def push(direction: Array) -> tuple[Array, Array]:
-        return jax.jvp(lambda z: problem.predictions(unravel(z)), (flat,), (direction,))
-
-    predicted, by_each = jax.vmap(push, out_axes=(None, 1))(jnp.eye(len(flat)))
+    predicted, rows = by_each(lambda z: problem.predictions(unravel(z)), flat, axis=1)
     loss, gradient, curvature = jax.tree.map(
         lambda each: jnp.mean(each, axis=0),
-        jax.vmap(lambda y, slopes: _of_loss(problem.compare, y, slopes))(predicted, by_each),
+        jax.vmap(lambda y, slopes: _of_loss(problem.compare, y, slopes))(predicted, rows),
     )
     penalties = problem.penalties(trainable)
     if penalties:
