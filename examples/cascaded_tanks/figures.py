@@ -17,10 +17,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import acausal as ac
-from acausal.report import Page
 from examples.cascaded_tanks import model, study
 from examples.cascaded_tanks.model import CURVE, LAW, LEARNED, OURS, OUTPUT, PROMISING, WHITE
-from examples.measured.present import Row
+from examples.measured.present import Row, opening
 
 SHOWN = {WHITE: "#d9822b", OURS: "#1f5c99", PROMISING: "#2e7d43", LEARNED: "#7a4fa3"}
 """Models in pictures, and their colours."""
@@ -36,18 +35,14 @@ def page(
     """Write the page."""
     ours = fits[OURS]
     sure = ours.confidence()
-    shown = Page(
+    shown = opening(
         "Cascaded Tanks",
         "A pump, two tanks that overflow, and a level sensor that saturates, "
         "measured by M. Schoukens and J. P. Noël (2017).",
+        model.curved()[0],
+        ours.system.equations,
+        ("RMSE in V", study.COLUMNS, rows),
     )
-    shown.section("The model")
-    diagram = ac.diagram(model.curved()[0]).figure
-    assert isinstance(diagram, Figure)
-    shown.figure(diagram, "The connected components; the tinted one holds a network.")
-    shown.equations(ours.system.equations)
-    shown.section("The result")
-    shown.table(["RMSE in V", *study.COLUMNS.values()], [r.cells(study.COLUMNS) for r in rows])
     shown.text(
         "Models are chosen by what they predict of the training record where a third of it was held out, each third in "
         "turn, and trained on all of it for the test. The upper level at the start of the test is that of the training "

@@ -15,10 +15,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import acausal as ac
-from acausal.report import Page
 from examples.emps import model, study
 from examples.emps.model import KINDS, OURS
-from examples.measured.present import Row
+from examples.measured.present import Row, opening
 
 PHYSICS = "passive network"
 """The model whose laws are read as physics."""
@@ -40,20 +39,14 @@ def page(
     law: ac.Distilled,
 ) -> None:
     """Write the page."""
-    shown = Page(
+    shown = opening(
         "EMPS",
         "An electro-mechanical positioning system, a motor that moves a carriage by a screw, "
         "measured by A. Janot, M. Gautier and M. Brunot (2019).",
+        model.Axis(model.network(), dry=model.Coulomb(Fv=0.0), cable=model.cable()),
+        fits[OURS].system.equations,
+        ("", study.COLUMNS, rows),
     )
-    shown.section("The model")
-    diagram = ac.diagram(
-        model.Axis(model.network(), dry=model.Coulomb(Fv=0.0), cable=model.cable())
-    ).figure
-    assert isinstance(diagram, Figure)
-    shown.figure(diagram, "The connected components; tinted ones hold a network.")
-    shown.equations(fits[OURS].system.equations)
-    shown.section("The result")
-    shown.table(["", *study.COLUMNS.values()], [r.cells(study.COLUMNS) for r in rows])
     shown.text(
         "Open loop: the measured voltage alone drives the axis for 24.8 s, from a state that 20 samples tell. Closed "
         "loop: the reference drives the axis in its controller, which the model has, too; errors relative to what was "

@@ -10,10 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from matplotlib.figure import Figure
 from rich.console import Console
 from rich.table import Table
 
 import acausal as ac
+from acausal.report import Page
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,31 @@ def show(title: str, columns: Mapping[str, str], rows: Sequence[Row]) -> None:
     Console(width=None if sys.stdout.isatty() else WIDE).print(table)
 
 
+def opening(
+    title: str,
+    lead: str,
+    built: ac.Component,
+    equations: Any,
+    errors: tuple[str, Mapping[str, str], Sequence[Row]],
+) -> Page:
+    """A page that begins with a model and its errors.
+
+    Arguments:
+        title, lead: of the page.
+        built: what is drawn; ``equations``: those of its system.
+        errors: what a table of them is headed, its ``columns`` as those of `show`, and its rows.
+    """
+    page, (corner, columns, rows) = Page(title, lead), errors
+    page.section("The model")
+    diagram = ac.diagram(built).figure
+    assert isinstance(diagram, Figure)
+    page.figure(diagram, "The connected components; those that are tinted hold a network.")
+    page.equations(equations)
+    page.section("The result")
+    page.table([corner, *columns.values()], [row.cells(columns) for row in rows])
+    return page
+
+
 def command(
     name: str, about: str, run: Callable[[Path | None, int, Path], Mapping[str, Any]]
 ) -> None:
@@ -62,6 +89,8 @@ def command(
     parser.add_argument("--seeds", type=int, default=5, help="trainings, each with other weights")
     parser.add_argument("--out", type=Path, default=Path("out") / name, help="where the page goes")
     given = parser.parse_args()
+    if given.seeds < 1:
+        parser.error(f"--seeds {given.seeds}: give one training or more")
     try:
         figures = run(given.data, given.seeds, given.out)
     except ac.DataError as error:

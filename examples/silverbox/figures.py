@@ -16,9 +16,8 @@ from matplotlib.figure import Figure
 
 import acausal as ac
 from acausal import plot
-from acausal.report import Page
 from examples.measured.judge import simulate
-from examples.measured.present import Row
+from examples.measured.present import Row, opening
 from examples.silverbox import model, study
 from examples.silverbox.model import KINDS, OURS, OUTPUT
 
@@ -46,18 +45,14 @@ def page(
     formulas: Mapping[str, ac.Distilled],
 ) -> None:
     """Write the page; ``everyone`` are all trainings of the model whose middle one is among the fits."""
-    shown = Page(
+    shown = opening(
         "The Silverbox",
         "An electronic circuit that behaves as a mass on a progressive spring, "
         "measured by T. Wigren and J. Schoukens (2013).",
+        KINDS[OURS].build(),
+        fits[OURS].system.equations,
+        ("RMSE in mV", study.COLUMNS, rows),
     )
-    shown.section("The model")
-    diagram = ac.diagram(KINDS[OURS].build()).figure
-    assert isinstance(diagram, Figure)
-    shown.figure(diagram, "The connected components; tinted ones hold a network.")
-    shown.equations(fits[OURS].system.equations)
-    shown.section("The result")
-    shown.table(["RMSE in mV", *study.COLUMNS.values()], [r.cells(study.COLUMNS) for r in rows])
     shown.text(
         "Trained on 16,000 samples of the training record, chosen on others of it, tested by free simulation from a "
         "state that the first 50 samples tell. The input is read as a band-limited signal: linear interpolation "
