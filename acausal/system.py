@@ -11,18 +11,14 @@ import jax
 import jax.numpy as jnp
 import sympy as sp
 
-from acausal.aliases import parameter_aliases
-from acausal.check import check_dimensions
-from acausal.component import Component
+from acausal._jax import floating
+from acausal.codegen import Packed, ParameterLayout, Program, generate, lay_out_parameters
 from acausal.errors import DataError, ModelError, nearest
-from acausal.explicit import explicit_equations
-from acausal.flatten import FlatModel, flatten
-from acausal.generate import generate
-from acausal.initialize import Initialization, Initializer, initializer
-from acausal.parameters import Packed, ParameterLayout, lay_out_parameters
-from acausal.precision import floating
-from acausal.program import Program
-from acausal.reduce import ReducedModel, reduce
+from acausal.flattening import FlatModel, flatten
+from acausal.initialization import Initialization, Initializer, initializer
+from acausal.modeling import Component
+from acausal.structure import ReducedModel, explicit_equations, parameter_aliases, reduce
+from acausal.units import check_dimensions
 
 Params = Mapping[str, Any] | Packed
 

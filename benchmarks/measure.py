@@ -20,12 +20,12 @@ import numpy as np
 import sympy
 
 import acausal as ac
-from acausal import derive
-from acausal.flatten import flatten
-from acausal.generate import generate
-from acausal.initialize import initializer
-from acausal.parameters import lay_out_parameters
-from acausal.reduce import reduce
+from acausal.codegen.generator import generate
+from acausal.codegen.parameters import lay_out_parameters
+from acausal.flattening.flat_model import flatten
+from acausal.initialization.initialize import initializer
+from acausal.structure import symbolic as derive
+from acausal.structure.reduced_model import reduce
 from benchmarks.case import Case
 
 ROUNDS, TURN = 31, 0.02
@@ -52,7 +52,7 @@ class Stopwatch:
 
 @contextmanager
 def watched(watch: Stopwatch):
-    """While this lasts, what `acausal.derive` does counts as ``derive``."""
+    """While this lasts, what `acausal.structure.symbolic` does counts as ``derive``."""
     plain = {name: getattr(derive, name) for name in DERIVE}
     for name, function in plain.items():
         setattr(derive, name, functools.partial(watch, "derive", function))

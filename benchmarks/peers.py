@@ -252,8 +252,7 @@ def rumoca(task: Task) -> Ready:
 def jaxonomy(task: Task) -> Ready:
     import jax.numpy as jnp
     import jaxonomy
-    from jaxonomy.acausal import AcausalCompiler, AcausalDiagram, EqnEnv
-    from jaxonomy.acausal import translational as tr
+    from jaxonomy.acausal import AcausalCompiler, AcausalDiagram, EqnEnv, translational as tr
     from jaxonomy.library import SourceBlock
 
     env, diagram = EqnEnv(), AcausalDiagram()

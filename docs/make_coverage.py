@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from acausal import components
-from acausal.library import Library
+from acausal.netlist import Library
 
 PAGE = Path(__file__).with_name("modelica-coverage.md")
 HEAD = """\

@@ -21,7 +21,8 @@ from typing import Any
 import matplotlib.pyplot as plt
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from tests.support.paths import ROOT
+
 PAGES = [*ROOT.glob("README.md"), *sorted((ROOT / "docs").rglob("*.md"))]
 BLOCK = re.compile(r"^([ \t]*)```python[ \t]*\n(.*?)^\1```[ \t]*$", re.MULTILINE | re.DOTALL)
 OUTPUT = re.compile(r"\s*^([ \t]*)```output[ \t]*\n(.*?)^\1```[ \t]*$", re.MULTILINE | re.DOTALL)

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from tests.support.paths import SHARED
 
-FOLDER = Path(__file__).resolve().parent.parent.parent / "shared" / "oracles" / "msl"
+FOLDER = SHARED / "oracles" / "msl"
 DISCRETE = {"HeatTransfer_ControlledTemperature"}
 NETLISTS = sorted(p.stem for p in FOLDER.glob("*.json") if p.stem not in DISCRETE)
 TOLERANCE = 1e-3

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.paths import ROOT
 from tests.test_docs import blocks
 
-ROOT = Path(__file__).resolve().parent.parent
 FOLDERS = {"acausal": ROOT / "acausal", "acausal/components": ROOT / "components"}
 BUILT = {"build", "dist", "site"}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -86,7 +86,12 @@ def test_wheel_holds_each_module_once_and_nothing_else(wheel: Path) -> None:
     expected = sorted(
         f"{package}/{path.relative_to(folder).as_posix()}"
         for package, folder in FOLDERS.items()
-        for path in (*python_files(folder), folder / "py.typed", *folder.glob("*.schema.json"))
+        for path in (
+            *python_files(folder),
+            folder / "py.typed",
+            *folder.rglob("*.schema.json"),
+            *folder.rglob("*.pyi"),
+        )
     )
     assert modules(wheel) == expected
 

@@ -17,16 +17,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 import acausal as ac
-from acausal.flatten import flatten
-from acausal.reduce import Loop
-from tests import pencil
-from tests.interpret import in_numpy
-from tests.networks import FLOW, KINDS, Element, Network, networks
-from tests.oracle import flat_residuals, trajectory
+from acausal.flattening.flat_model import flatten
+from acausal.structure.reduced_model import Loop
+from tests.support import pencil
+from tests.support.interpret import in_numpy
+from tests.support.networks import FLOW, KINDS, Element, Network, networks
+from tests.support.oracle import flat_residuals, trajectory
 
 TOLERANCE = 1e-8
 ILL_CONDITIONED = 1e6

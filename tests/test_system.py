@@ -7,10 +7,9 @@ import pytest
 import sympy as sp
 
 import acausal as ac
-from acausal.components import neural
-from acausal.components import translational as tl
-from tests.oracle import worst
-from tests.parts import Diode, Equations, Ground, Model, Resistor, SignalVoltage, model
+from acausal.components import neural, translational as tl
+from tests.support.oracle import worst
+from tests.support.parts import Diode, Equations, Ground, Model, Resistor, SignalVoltage, model
 
 
 class QuarterVehicle(ac.Component):
@@ -274,7 +273,7 @@ def test_time_and_shared_networks_in_the_equations():
 class Inductive(ac.Component):
     """An inductor with a current as state."""
 
-    from tests.parts import Pin
+    from tests.support.parts import Pin
 
     p, n = Pin(), Pin()
     L = ac.Parameter(2.0)

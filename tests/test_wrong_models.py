@@ -12,10 +12,17 @@ import pytest
 import sympy as sp
 
 import acausal as ac
-from acausal.components import blocks, fluid, magnetic, neural, rotational, thermal
-from acausal.components import electrical as el
-from acausal.components import translational as tl
-from tests.parts import Equations, Model, endpoint, model
+from acausal.components import (
+    blocks,
+    electrical as el,
+    fluid,
+    magnetic,
+    neural,
+    rotational,
+    thermal,
+    translational as tl,
+)
+from tests.support.parts import Equations, Model, endpoint, model
 
 Wrong = tuple[Callable[[], Any], type[Exception], tuple[str, ...]]
 

@@ -8,13 +8,13 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import RISING, checked
-from acausal.networks.beyond import Continued
+from acausal.networks.extrapolation import Continued
 from acausal.networks.mlp import MLP, Key
 from acausal.networks.monotone import Monotone
 from acausal.networks.passive import Passive, SameSign
-from acausal.networks.recipe import Net, Recipe, ZeroCrossing
 from acausal.networks.scaled import Scaled
 from acausal.networks.slope import Steeper, start_at
+from acausal.networks.spec import Net, Recipe, ZeroCrossing
 from acausal.networks.symmetry import Even, Odd
 from acausal.networks.zero import OffsetCorrected, ThroughZero
 

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.networks.passage import Passage
+from acausal.networks.dry_friction_factor import Passage
 
 START = -2.0
 """What is added to a network inside a softplus, so that a law begins small: softplus(-2) = 0.13."""

@@ -8,13 +8,13 @@ from typing import Any
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX, checked
-from acausal.networks.beyond import ContinuedEnergy
 from acausal.networks.convex import Convex
 from acausal.networks.energy import Bowl, FromRest, Levelled
+from acausal.networks.extrapolation import ContinuedEnergy
 from acausal.networks.mlp import MLP, Key
-from acausal.networks.recipe import Net, Recipe
 from acausal.networks.scaled import Potential
 from acausal.networks.slope import Rounder, start_at
+from acausal.networks.spec import Net, Recipe
 from acausal.networks.symmetry import Even
 
 Shape = Callable[[Net, int], Net]

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.networks.passage import Passage
+from acausal.networks.dry_friction_factor import Passage
 
 
 class OffsetCorrected(eqx.Module):

@@ -1,1 +1,15 @@
-"""`acausal.simulate` and what it is made of: inputs, solvers, fixed and adaptive steps, and the solution."""
+"""Simulate: a compiled model is integrated over time.
+
+In: a `System`, inputs, parameters. Out: a `Solution`, any variable of it by name.
+It knows nothing of training; it calls `acausal.reporting` to draw.
+"""
+
+from acausal.simulation.fixed_steps import Steps as Steps, integrate as integrate
+from acausal.simulation.inputs import Samples as Samples, over_steps as over_steps
+from acausal.simulation.simulate import simulate as simulate
+from acausal.simulation.solution import Solution as Solution
+from acausal.simulation.solvers import (
+    Solver as Solver,
+    for_fixed_steps as for_fixed_steps,
+    solver_named as solver_named,
+)

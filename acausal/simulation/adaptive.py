@@ -10,12 +10,11 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
+from acausal._jax import cast, traced
 from acausal.errors import SimulationError, StepLimitError
-from acausal.precision import cast
 from acausal.simulation import inputs, solvers
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
-from acausal.tracing import traced
 
 Tolerance = float | Array
 
@@ -45,7 +44,7 @@ def simulate_adaptive(
     Raises:
         SimulationError: if the end is not reached.
     """
-    solver = solvers.adaptive(solver)
+    solver = solvers.for_adaptive_steps(solver)
     jumps = jnp.asarray(inputs.jumps(run.drive, run.start, run.end))
     run, t, jumps = cast((run, jnp.asarray(saved), jumps), dtype)
     chosen = dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint

@@ -9,13 +9,12 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
+from acausal._jax import cast, traced
 from acausal.errors import DataError, SimulationError
-from acausal.precision import cast
 from acausal.simulation import inputs, solvers
-from acausal.simulation.integrate import Steps, integrate
+from acausal.simulation.fixed_steps import Steps, integrate
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
-from acausal.tracing import traced
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -73,7 +72,7 @@ def simulate_fixed(
     samples = inputs.over_steps(run.drive, ends)
     steps = Steps(jnp.asarray(ends[:-1]), jnp.asarray(h), samples)
     packed, x0, steps = cast((run.packed, run.x0, steps), dtype)
-    x = _scan(run.system, packed, x0, steps, solvers.fixed(solver, dtype), direct)
+    x = _scan(run.system, packed, x0, steps, solvers.for_fixed_steps(solver, dtype), direct)
     if not traced(x):
         _check(run, ends, np.asarray(x))
     t = jnp.asarray(ends)[rows]

@@ -12,11 +12,9 @@ import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.bands import FRACTIONS, bends
-from acausal.data import Data
+from acausal._jax import traced
+from acausal.data import FRACTIONS, Data, Signal, bends
 from acausal.errors import DataError, listing, nearest
-from acausal.signals import Signal
-from acausal.tracing import traced
 
 Drive = Callable[[ArrayLike], Array]
 """One input as a function of time: time in seconds -> scalar."""
@@ -68,7 +66,7 @@ class Samples(eqx.Module):
         start: values at the steps' starts, shape (n, number of inputs).
         end: values at their ends.
         functions: per input, what is evaluated at stage times instead of the samples, or ``None``.
-        bends: how inputs deviate from the line between, the coefficients of `acausal.bands.bow`, shape
+        bends: how inputs deviate from the line between, the coefficients of `acausal.data.band_limited.bow`, shape
             (n, coefficients, number of inputs); ``None`` where all are linear.
     """
 

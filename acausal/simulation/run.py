@@ -11,10 +11,10 @@ import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.breakdown import explain_breakdown
+from acausal._jax import traced
+from acausal.codegen import explain_breakdown
 from acausal.errors import SimulationError
 from acausal.simulation import inputs
-from acausal.tracing import traced
 
 if TYPE_CHECKING:
     from acausal.system import System

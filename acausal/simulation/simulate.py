@@ -11,11 +11,10 @@ import numpy as np
 from jax.typing import DTypeLike
 from numpy.typing import ArrayLike
 
+from acausal._jax import precision
 from acausal.data import Data
 from acausal.errors import DataError, StepLimitError, need_compiled
-from acausal.precision import precision
-from acausal.simulation import inputs as drives
-from acausal.simulation import solvers
+from acausal.simulation import inputs as drives, solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
 from acausal.simulation.fixed import grid, simulate_fixed
 from acausal.simulation.run import EIGENVALUES, Run
@@ -92,11 +91,11 @@ def simulate(
     run = Run(system, packed, x_start, drive, start, end)
     run.check_start()
     if ends is not None:
-        scheme = solvers.named("tsit5" if solver == "auto" else solver)
+        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver)
         direct = isinstance(adjoint, dfx.ForwardMode | dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
-    candidates = _automatic(run) if solver == "auto" else (solvers.named(solver),)
+    candidates = _automatic(run) if solver == "auto" else (solvers.solver_named(solver),)
     for chosen in candidates[:-1]:
         try:
             return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, adjoint, kind)
@@ -112,10 +111,10 @@ def _in_model_units(system: System, record: Data) -> Data:
 
 def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
     """Tsit5 and, should it need too many steps, Kvaerno5; this at once for a model that is stiff at the start."""
-    implicit = solvers.named("kvaerno5")
+    implicit = solvers.solver_named("kvaerno5")
     if solvers.stiff(run.modes(), run.end - run.start):
         return (implicit,)
-    explicit = solvers.named("tsit5")
+    explicit = solvers.solver_named("tsit5")
     return (explicit, implicit) if len(run.x0) <= EIGENVALUES else (explicit,)
 
 

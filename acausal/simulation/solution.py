@@ -14,8 +14,8 @@ import jax
 import numpy as np
 from jax import Array
 
+from acausal._jax import traced
 from acausal.errors import DataError, nearest
-from acausal.tracing import traced
 
 if TYPE_CHECKING:
     from acausal.system import System

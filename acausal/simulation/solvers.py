@@ -62,7 +62,7 @@ SOLVERS: dict[str, Callable[[], Solver]] = {
 """Solvers by name; any other diffrax solver for ordinary differential equations may be given itself."""
 
 
-def named(solver: str | Solver) -> Solver:
+def solver_named(solver: str | Solver) -> Solver:
     """A solver from its name, or as it is.
 
     Raises:
@@ -75,7 +75,7 @@ def named(solver: str | Solver) -> Solver:
     return SOLVERS[solver]()
 
 
-def adaptive(solver: Solver) -> Solver:
+def for_adaptive_steps(solver: Solver) -> Solver:
     """The solver, if it can choose its steps.
 
     Raises:
@@ -89,7 +89,7 @@ def adaptive(solver: Solver) -> Solver:
     return solver
 
 
-def fixed(solver: Solver, dtype: Any = np.float64) -> Solver:
+def for_fixed_steps(solver: Solver, dtype: Any = np.float64) -> Solver:
     """The solver for fixed steps: an implicit one gets tolerances, which no step-size controller sets.
 
     Arguments:

@@ -1,1 +1,23 @@
-"""`acausal.fit` and what it is made of: a problem (what to minimise), a trainer (how to step), a loop, a history."""
+"""Train: the networks and parameters of a model learn from a record.
+
+In: a `System`, `Data`, options. Out: a `Fit` or an `Ensemble`, which answer further questions.
+It may know every room below; none of them knows it.
+"""
+
+from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
+from acausal.training.fit import fit as fit
+from acausal.training.history import History as History
+from acausal.training.logs import CsvLog as CsvLog, TensorBoardLog as TensorBoardLog
+from acausal.training.objective.modal import (
+    DampingRatio as DampingRatio,
+    FrequencyRange as FrequencyRange,
+    Stability as Stability,
+)
+from acausal.training.objective.modifiers import Bounded as Bounded, Shift as Shift
+from acausal.training.objective.regularizers import (
+    SmallCorrection as SmallCorrection,
+    ZeroCrossing as ZeroCrossing,
+)
+from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
+from acausal.training.result import Fit as Fit, Seen as Seen
+from acausal.training.uncertainty.confidence import Band as Band

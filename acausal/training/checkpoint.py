@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from acausal import tensors
+from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, TrainingError, listing, reason
 from acausal.training.history import Rows
 
@@ -79,7 +79,7 @@ class Stored(NamedTuple):
         Raises:
             DataError: if that has other parts.
         """
-        return tensors.filled(like, self.arrays, f"Checkpoint '{self.path}'")
+        return filled_like(like, self.arrays, f"Checkpoint '{self.path}'")
 
 
 def place(path: str | Path) -> Path:
@@ -101,7 +101,7 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
     Raises:
         DataError: if it cannot be read, is damaged, or belongs to another training.
     """
-    arrays, about = tensors.read(path)
+    arrays, about = read_arrays(path)
     if about.get("kind") != KIND:
         raise DataError(f"'{path}' is no {KIND}, but: {about.get('kind', 'it does not say what')}.")
     theirs = about["fingerprint"]
@@ -189,7 +189,7 @@ class _Keeper:
             "kind": KIND, "leg": snapshot.leg, "members": len(logs), "fingerprint": self.fingerprint
         }  # fmt: skip
         try:
-            tensors.write(self.path, {**tensors.named(snapshot), **log}, about)
+            write_arrays(self.path, {**named_arrays(snapshot), **log}, about)
         except OSError as error:
             return error
         finally:

@@ -16,14 +16,14 @@ from numpy.typing import ArrayLike
 
 from acausal.data import Data
 from acausal.errors import TrainingError, nearest, need_compiled
-from acausal.networks.scaled import law_of
-from acausal.training.confidence import POINTS, REACH, Band
-from acausal.training.conformal import predicted
+from acausal.networks import law_of
 from acausal.training.ensemble_page import write_ensemble_page
 from acausal.training.fit import fit
-from acausal.training.pose import Start
+from acausal.training.objective.build_problem import Start
 from acausal.training.result import Fit
-from acausal.training.together import together
+from acausal.training.train_from_starts import together
+from acausal.training.uncertainty.confidence import POINTS, REACH, Band
+from acausal.training.uncertainty.conformal import predicted
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from acausal import plot
-from acausal.report import Page
-from acausal.training.confidence import Band
+from acausal.reporting import Page, plot_band, plot_losses
 from acausal.training.page import AFTER, MEASURED, WIDE, figure, laws, stretch
+from acausal.training.uncertainty.confidence import Band
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +33,7 @@ def write_ensemble_page(ensemble: Ensemble, path: Path, title: str) -> Path:
     page.table(("member", "loss before", "after", "of what decides"), rows)
     histories = {f"member {k}": fit.history for k, fit in enumerate(fits)}
     page.figure(
-        figure(WIDE, plot.losses, histories),
+        figure(WIDE, plot_losses, histories),
         "The losses, update by update: of the batches (thin) and over the whole record.",
     )
     _predictions(page, ensemble)
@@ -60,7 +59,7 @@ def _predictions(page: Page, ensemble: Ensemble) -> None:
             ax: Axes, y: np.ndarray = measured[rows, i], shown: Band = shown, name: str = name
         ) -> None:
             ax.plot(shown.x, y, color=MEASURED, lw=1.6, alpha=0.5, label="measured")
-            plot.band(ax, shown, color=AFTER, label="mean of the members")
+            plot_band(ax, shown, color=AFTER, label="mean of the members")
             ax.set(xlabel="time [s]", ylabel=f"{name} [{best.system.unit(name)}]")
             ax.grid(alpha=0.25)
             ax.legend(frameon=False, ncols=2, loc="lower right", bbox_to_anchor=(1, 1))

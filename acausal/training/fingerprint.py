@@ -13,10 +13,10 @@ import jax
 import numpy as np
 import sympy as sp
 
+from acausal.data import named_arrays
 from acausal.system import System
-from acausal.tensors import named
-from acausal.training.held_out import HeldOut
-from acausal.training.problem import Problem, Trainable
+from acausal.training.objective.held_out import HeldOut
+from acausal.training.objective.problem import Problem, Trainable
 from acausal.training.strategy import Leg
 
 ASIDE = ("context", "nodes", "mesh")
@@ -83,7 +83,7 @@ def _pieces(thing: Any, above: tuple[int, ...]) -> Iterator[bytes]:
     if id(thing) in above:  # a function that calls itself holds itself
         return
     if isinstance(thing, np.ndarray | jax.Array):
-        (array,) = named(thing).values()
+        (array,) = named_arrays(thing).values()
         yield f"{array.dtype}{array.shape}".encode()
         yield array.tobytes()
         return

@@ -13,16 +13,16 @@ from numpy.typing import ArrayLike
 
 from acausal.data import Data
 from acausal.errors import need_compiled
-from acausal.simulation.solvers import Solver
-from acausal.training.held_out import Validation
-from acausal.training.losses import Loss
-from acausal.training.modifiers import Modifier
-from acausal.training.pose import Start
+from acausal.simulation import Solver
+from acausal.training.objective.build_problem import Start
+from acausal.training.objective.held_out import Validation
+from acausal.training.objective.losses import Loss
+from acausal.training.objective.modifiers import Modifier
+from acausal.training.objective.regularizers import Regularizer
+from acausal.training.objective.sharding import Device
 from acausal.training.progress import Observer
-from acausal.training.regularizers import Regularizer
 from acausal.training.result import Fit
-from acausal.training.spread import Device
-from acausal.training.together import together
+from acausal.training.train_from_starts import together
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -82,7 +82,7 @@ def fit(
             followed, too.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
             (M, k), (M, k), (k,); averaged over a batch's sequences.
-        regularizers: penalties, see `acausal.training.regularizers`; any function (params, context) -> scalar.
+        regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
         sequence_length: in seconds; ``None`` takes the whole record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from acausal import tensors
+from acausal.data import replace_file
 from acausal.errors import DataError, TrainingError, reason
 from acausal.training.progress import Progress
 
@@ -77,7 +77,7 @@ class CsvLog:
             return
         whole = [row for row in _lines(self.path)[1:] if len(row) == 1 + len(SCALARS)]
         kept = [row for row in whole if int(row[0]) < epoch]
-        tensors.replace(self.path, _text([["epoch", *SCALARS], *kept]).encode())
+        replace_file(self.path, _text([["epoch", *SCALARS], *kept]).encode())
         self._begun = True
 
 

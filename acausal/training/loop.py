@@ -15,14 +15,14 @@ from jax import Array
 
 from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Kept, Snapshot, Stored
-from acausal.training.held_out import HeldOut
 from acausal.training.history import Divergence, History, Log
 from acausal.training.member import Best, Member, joined, parted
-from acausal.training.problem import Problem, Trainable
+from acausal.training.objective.held_out import HeldOut
+from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.sharding import agreed, local, shared
+from acausal.training.optimizers.trainer import CHUNK, Entry, State, advance, begin, converged
 from acausal.training.progress import Observer, Progress
-from acausal.training.spread import agreed, local, shared
 from acausal.training.strategy import Leg
-from acausal.training.trainer import CHUNK, Entry, State, advance, begin, converged
 
 LOOK = 0.5
 """Seconds between two looks at the training, about."""

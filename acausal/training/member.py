@@ -11,9 +11,9 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 
-from acausal.training.held_out import HeldOut
 from acausal.training.history import Log
-from acausal.training.problem import Problem, Simulated, Trainable
+from acausal.training.objective.held_out import HeldOut
+from acausal.training.objective.problem import Problem, Simulated, Trainable
 
 
 class Best(NamedTuple):

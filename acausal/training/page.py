@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from acausal import plot
-from acausal.report import Page
-from acausal.training.confidence import Band, Confidence
-from acausal.training.residuals import Residuals
+from acausal.reporting import Page, plot_band, plot_guides, plot_losses
+from acausal.training.uncertainty.confidence import Band, Confidence
+from acausal.training.uncertainty.residuals import Residuals
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +37,7 @@ def write_page(fit: Fit, path: Path, title: str) -> Path:
     held = [("loss over what is held out", f"{b:.4g}", f"{fit.validation_loss:.4g}") for b in kept]
     page.table(("figure", "before", "after"), [losses, *held])
     page.figure(
-        figure(WIDE, plot.losses, {"whole record": fit.history}),
+        figure(WIDE, plot_losses, {"whole record": fit.history}),
         "The loss, update by update: of the batches (thin) and over the whole record.",
     )
     _trajectories(page, fit)
@@ -128,11 +127,11 @@ def laws(page: Page, fit: Fit, bands: Mapping[str, Band]) -> None:
     for name, band in bands.items():
 
         def draw(ax: Axes, name: str = name, band: Band = band) -> None:
-            plot.band(ax, band, color=AFTER)
+            plot_band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
             room = 0.25 * (high - low) + 1e-12
             ax.set_ylim(low - room, high + room)
-            plot.guides(ax, fit.seen[name], band.x[0], band.x[-1])
+            plot_guides(ax, fit.seen[name], band.x[0], band.x[-1])
             samples = fit.samples(name)
             ax.plot(samples, np.full(len(samples), low - room), "|", color=MEASURED, alpha=0.25)
             ax.set(xlabel="argument", ylabel=name)

@@ -46,8 +46,13 @@ def display(wanted: bool, epochs: int) -> Generator[Observer]:
     if not (wanted and (console.is_terminal or console.is_jupyter)):
         yield lambda progress: None
         return
-    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
+    from rich.progress import (
+        BarColumn,
+        Progress as Bar,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
     columns = (
         TextColumn("epoch {task.completed:>5.0f}/{task.total:.0f}"),

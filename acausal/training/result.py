@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from acausal.analysis import Distilled, distill
 from acausal.data import Data
-from acausal.distilled import Distilled, distill
 from acausal.errors import TrainingError, nearest
-from acausal.neural import remove_offset
-from acausal.training.confidence import Confidence, confidence
-from acausal.training.conformal import Conformal, conformal
+from acausal.networks import remove_offset
 from acausal.training.history import History
 from acausal.training.loop import Trained
+from acausal.training.objective.build_problem import Start
+from acausal.training.objective.problem import Problem, Trainable, modified
+from acausal.training.objective.sharding import local
 from acausal.training.page import write_page
-from acausal.training.pose import Start
-from acausal.training.problem import Problem, Trainable, modified
-from acausal.training.residuals import Residuals, residuals
-from acausal.training.spread import local
+from acausal.training.uncertainty.confidence import Confidence, confidence
+from acausal.training.uncertainty.conformal import Conformal, conformal
+from acausal.training.uncertainty.residuals import Residuals, residuals
 
 if TYPE_CHECKING:
     from acausal.system import System

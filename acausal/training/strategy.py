@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 import optax
 
 from acausal.errors import TrainingError, nearest
-from acausal.training.descent import DescentMethod
-from acausal.training.equation_error import equation_error
-from acausal.training.lbfgs import lbfgs
-from acausal.training.levenberg_marquardt import levenberg_marquardt
-from acausal.training.pose import gauss_newton, over_whole_record
-from acausal.training.problem import Problem, modified
-from acausal.training.slopes import Slopes, curvatures, gradients
-from acausal.training.trainer import Trainer
+from acausal.training.objective.build_problem import gauss_newton, over_whole_record
+from acausal.training.objective.equation_error import equation_error
+from acausal.training.objective.problem import Problem, modified
+from acausal.training.optimizers.descent import DescentMethod
+from acausal.training.optimizers.gradients import Slopes, curvatures, gradients
+from acausal.training.optimizers.lbfgs import lbfgs
+from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
+from acausal.training.optimizers.trainer import Trainer
 
 EVALUATIONS = 10
 """Evaluations over the whole record in each leg, where the user does not say how often."""

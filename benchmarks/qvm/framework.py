@@ -9,10 +9,10 @@ import jax
 import jax.numpy as jnp
 
 import acausal as ac
-from acausal.training.pose import pose
-from acausal.training.problem import Problem
-from acausal.training.record import Batch
-from acausal.training.spread import shared
+from acausal.training.objective.build_problem import pose
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.record import Batch
+from acausal.training.objective.sharding import shared
 from benchmarks.qvm.task import NETWORKS, Gradient, Task, flat
 from examples.qvm.model import with_networks
 from examples.qvm.record import OUTPUTS, SAMPLE_TIME

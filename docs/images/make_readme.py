@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 import acausal as ac  # noqa: E402
-from acausal import plot  # noqa: E402
+from acausal.reporting import GUIDE, LEARNED, TRUTH  # noqa: E402
 from tests.test_docs import blocks  # noqa: E402
 
 
@@ -33,11 +33,9 @@ def main() -> None:
         1, 2, figsize=(10, 3.4), width_ratios=(3, 2), layout="constrained"
     )
     before, after = system.parameters(0), fit.params
-    left.plot(t, true["mass.a"], color=plot.TRUTH, lw=4, alpha=0.4, label="record")
-    left.plot(
-        t, run(before)["mass.a"], color=plot.LEARNED[1], lw=1.2, ls="--", label="before training"
-    )
-    left.plot(t, run(after)["mass.a"], color=plot.LEARNED[0], lw=1.4, label="after training")
+    left.plot(t, true["mass.a"], color=TRUTH, lw=4, alpha=0.4, label="record")
+    left.plot(t, run(before)["mass.a"], color=LEARNED[1], lw=1.2, ls="--", label="before training")
+    left.plot(t, run(after)["mass.a"], color=LEARNED[0], lw=1.4, label="after training")
     left.set(
         xlim=(0, 8), ylim=(-16, 16), xlabel="time in s", ylabel="acceleration of the mass in m/s²"
     )
@@ -47,28 +45,28 @@ def main() -> None:
     seen = fit.seen["damper.net"]
     low, high = (float(bound[0]) for bound in seen.interval(2.0))
     v = np.linspace(1.5 * low, 1.5 * high, 601)
-    right.plot(v, 3 * np.tanh(v / 0.1) + 2 * v, color=plot.TRUTH, lw=4, alpha=0.4, label="truth")
+    right.plot(v, 3 * np.tanh(v / 0.1) + 2 * v, color=TRUTH, lw=4, alpha=0.4, label="truth")
     right.plot(
         v,
         jax.vmap(before["damper.net"])(v),
-        color=plot.LEARNED[1],
+        color=LEARNED[1],
         lw=1.2,
         ls="--",
         label="before training",
     )
     right.plot(
-        v, jax.vmap(after["damper.net"])(v), color=plot.LEARNED[0], lw=1.4, label="after training"
+        v, jax.vmap(after["damper.net"])(v), color=LEARNED[0], lw=1.4, label="after training"
     )
     for side in (slice(None, 2), slice(2, None)):
         edges = np.asarray([v[0], low, high, v[-1]])[side]
-        right.axvspan(*edges, color=plot.GUIDE, alpha=0.12, lw=0)
+        right.axvspan(*edges, color=GUIDE, alpha=0.12, lw=0)
     right.annotate(
         "shaded: beyond 2σ of the\nspeeds in the record",
         (0.97, 0.05),
         xycoords="axes fraction",
         ha="right",
         fontsize=8,
-        color=plot.GUIDE,
+        color=GUIDE,
     )
     right.set(xlim=(v[0], v[-1]), xlabel="speed in m/s", ylabel="force in N")
     right.set_title("the force of the damper", fontsize=10)

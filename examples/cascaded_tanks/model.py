@@ -12,8 +12,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import blocks, neural
-from acausal.components import hydraulic as hy
+from acausal.components import blocks, hydraulic as hy, neural
 
 INPUT, OUTPUT, CURVE = "drive.u", "saturation.y", "sensor.net"
 RIM = 0.15

@@ -11,9 +11,7 @@ from dataclasses import dataclass, replace
 from math import pi
 
 import acausal as ac
-from acausal.components import blocks, neural
-from acausal.components import rotational as rot
-from acausal.components import translational as tl
+from acausal.components import blocks, neural, rotational as rot, translational as tl
 
 INPUT, OUTPUT = "voltage.u", "carriage.s"
 REFERENCE, PULSES = "position.u1", "pulses.u2"

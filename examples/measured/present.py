@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 import acausal as ac
-from acausal.report import Page
+from acausal.reporting import Page
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import acausal as ac
-from acausal import plot
+from acausal.reporting import LEARNED, TRUTH, plot_learned, plot_losses, plot_modifiers
 from examples.qvm.judge import DAMPER, SPRING, true_forces
 from examples.qvm.model import UNCERTAIN, linear, with_networks
 from examples.qvm.record import INPUT, Ride
@@ -51,7 +51,7 @@ def forces(fits: Mapping[str, ac.Fit]) -> Figure:
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
     for ax, name, symbol in ((axes[0], SPRING, "z_s [m]"), (axes[1], DAMPER, "v_s [m/s]")):
         functions = {label: fit.remove_offset()[name] for label, fit in fits.items()}
-        plot.learned(
+        plot_learned(
             ax, functions, last.seen[name], truth=true[name], xlabel=symbol, ylabel="force [N]"
         )
     axes[0].set_title("spring: what the linear spring lacks")
@@ -63,7 +63,7 @@ def forces(fits: Mapping[str, ac.Fit]) -> Figure:
 def losses(fits: Mapping[str, ac.Fit], levels: Mapping[str, float]) -> Figure:
     """Losses over epochs (figure 3b)."""
     figure, ax = plt.subplots(figsize=(8, 4.2))
-    plot.losses(ax, {label: fit.history for label, fit in fits.items()}, levels=levels)
+    plot_losses(ax, {label: fit.history for label, fit in fits.items()}, levels=levels)
     figure.tight_layout()
     return figure
 
@@ -82,13 +82,13 @@ def trajectories(fit: ac.Fit, ride: Ride, window: tuple[float, float] = (4.0, 8.
         ax.plot(
             time[shown],
             ride.clean[name][shown],
-            color=plot.TRUTH,
+            color=TRUTH,
             lw=2.4,
             alpha=0.5,
             label="reference",
         )
         for (run, solution), style, color in zip(
-            runs.items(), ("--", "-"), plot.LEARNED[1::-1], strict=True
+            runs.items(), ("--", "-"), LEARNED[1::-1], strict=True
         ):
             ax.plot(
                 time[shown],
@@ -109,7 +109,7 @@ def trajectories(fit: ac.Fit, ride: Ride, window: tuple[float, float] = (4.0, 8.
 def modifiers(fit: ac.Fit) -> Figure:
     """Modifiers of the parameters over epochs (figure 5)."""
     figure, ax = plt.subplots(figsize=(8, 4.2))
-    plot.modifiers(ax, fit, targets=UNCERTAIN)
+    plot_modifiers(ax, fit, targets=UNCERTAIN)
     figure.tight_layout()
     return figure
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components import neural
-from acausal.components import translational as tl
+from acausal.components import neural, translational as tl
 
 BODY, WHEEL = 350.0, 90.0
 """Masses [kg]."""

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 import acausal as ac
-from acausal.report import Page, write_json
+from acausal.reporting import Page, write_json
 from examples.qvm import figures
 from examples.qvm.demo import GAUGE
 from examples.qvm.experiments import PAPER, Experiment, fit

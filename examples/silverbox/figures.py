@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import acausal as ac
-from acausal import plot
+from acausal.reporting import plot_band
 from examples.measured.judge import simulate
 from examples.measured.present import Row, opening
 from examples.silverbox import model, study
@@ -161,7 +161,7 @@ def confidence(
         above.plot(x, mean, color=COLORS[OURS], label="mean of all trainings")
         above.fill_between(x, mean - 2 * sigma, mean + 2 * sigma, color=COLORS[OURS], alpha=0.25)
         above.set(ylabel="force beside the white box [N]")
-        plot.band(below, told[name], color=COLORS[OURS], label="network")
+        plot_band(below, told[name], color=COLORS[OURS], label="network")
         below.plot(x, jax.vmap(formula.formula)(x), ":", color="#1d2733", label="formula")
         below.set(xlabel=states[state], ylabel=f"{name} [N]")
         for ax in (above, below):

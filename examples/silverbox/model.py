@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import acausal as ac
-from acausal.components import neural
-from acausal.components import translational as tl
+from acausal.components import neural, translational as tl
 
 INPUT, OUTPUT = "drive.f", "mass.s"
 REACH, SPEED = 0.22, 80.0

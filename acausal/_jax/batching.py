@@ -1,0 +1,135 @@
+"""Batch: compute a few instances of a loop side by side, one such group after the other.
+
+`jax.vmap` widens every operation of a loop to the whole batch, whose arrays then go through memory. A loop over
+`WIDTH` instances in `lanes` fits into a processor's nearest memory and is compiled as a whole (`acausal._jax.xla`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jax import Array, lax
+from jax.custom_batching import custom_vmap
+from jax.extend.core import jaxpr_as_fun, jaxprs_in_params
+
+from acausal._jax.lanes import CALLS, ELEMENTWISE, RULES, Flat, lanes
+from acausal._jax.xla import compiles_small_loops
+
+WIDTH = 8
+"""Instances side by side: as many numbers as a vector register holds, or a few."""
+
+LARGEST = 16_384
+"""Elements of an array in a loop up to which instances are put side by side; larger ones keep libraries busy."""
+
+MOST = 4_000
+"""Operations in a loop up to which it is compiled as a whole; it takes the longer, the more there are."""
+
+SIMPLE = (
+    ELEMENTWISE
+    | RULES.keys()
+    | CALLS
+    | {"custom_linear_solve", "dynamic_slice", "gather", "iota", "while"}
+)
+"""Operations that XLA compiles itself; for others, and for products of two matrices, it calls libraries."""
+
+
+def batched(function: Flat) -> Flat:
+    """The same function; mapped by `jax.vmap`, it is computed for a few instances at a time where that pays.
+
+    It can be differentiated, and its derivatives are mapped as usual.
+
+    Arguments:
+        function: of arrays; returns a list of arrays. It must not close over values that JAX traces.
+    """
+
+    @custom_vmap
+    def call(*args: Array) -> list[Array]:
+        return list(function(*args))
+
+    @call.def_vmap
+    def mapped(size: int, in_batched: list[bool], *args: Array) -> tuple[list[Array], list[bool]]:
+        results = _in_groups(function, size, in_batched, args)
+        if results is None:
+            axes = [0 if has else None for has in in_batched]
+            results = list(jax.vmap(function, axes, axis_size=size)(*args))
+        return results, [True] * len(results)
+
+    @jax.custom_jvp
+    def differentiable(*args: Array) -> list[Array]:
+        return call(*args)
+
+    @differentiable.defjvp
+    def derivative(args: Any, tangents: Any) -> Any:
+        return jax.jvp(lambda *a: list(function(*a)), args, tangents)
+
+    return differentiable
+
+
+def _in_groups(
+    function: Flat, size: int, in_batched: Sequence[bool], args: Sequence[Array]
+) -> list[Array] | None:
+    """The results of a batch, `WIDTH` instances at a time; nothing where that does not pay."""
+    width = min(size, WIDTH)
+    groups = -(-size // width)
+
+    def cut(array: Array) -> Array:
+        """(size, ...) -> (groups, ..., width); the last instance is repeated to fill the last group."""
+        rest = jnp.broadcast_to(array[-1:], (groups * width - size, *array.shape[1:]))
+        rows = jnp.concatenate([array, rest]).reshape(groups, width, *array.shape[1:])
+        return jnp.moveaxis(rows, 1, -1)
+
+    def join(array: Array) -> Array:
+        rows = jnp.moveaxis(array, -1, 1)
+        return rows.reshape(groups * width, *rows.shape[2:])[:size]
+
+    def filled(group: Sequence[Array]) -> list[Array]:
+        own = iter(group)
+        return [next(own) if has else a for a, has in zip(args, in_batched, strict=True)]
+
+    side_by_side = lanes(function, in_batched, width)
+    rows = [cut(a) for a, has in zip(args, in_batched, strict=True) if has]
+    traced = jax.make_jaxpr(side_by_side)(*filled([r[0] for r in rows]))
+    if not is_small(traced.jaxpr):
+        return None
+    one_group = jaxpr_as_fun(traced)
+    return [join(r) for r in lax.map(lambda group: one_group(*filled(group)), rows)]
+
+
+def is_small(jaxpr: Any, in_loop: bool = False) -> bool:
+    """Whether XLA is going to compile the loops of a jaxpr as a whole.
+
+    Arguments:
+        jaxpr: what to look at.
+        in_loop: whether all of it is part of a loop.
+    """
+    equations = list(_equations(jaxpr, in_loop))
+    return (
+        len(equations) <= MOST
+        and all(_is_small(*found) for found in equations)
+        and compiles_small_loops()
+    )
+
+
+def operations(jaxpr: Any) -> int:
+    """How many operations a jaxpr has, those in its inner ones included."""
+    return sum(1 for _ in _equations(jaxpr, in_loop=False))
+
+
+def _equations(jaxpr: Any, in_loop: bool) -> Iterator[tuple[Any, bool]]:
+    """All equations, and whether they are part of a loop."""
+    for equation in jaxpr.eqns:
+        yield equation, in_loop
+        for inner in jaxprs_in_params(equation.params):
+            yield from _equations(inner, in_loop or equation.primitive.name in ("scan", "while"))
+
+
+def _is_small(equation: Any, in_loop: bool) -> bool:
+    name, shapes = equation.primitive.name, [v.aval.shape for v in equation.invars]
+    if name not in SIMPLE or (name == "dot_general" and min(map(len, shapes)) > 1):
+        return False
+    results = [v.aval.shape for v in equation.outvars]
+    return not in_loop or all(math.prod(s) <= LARGEST for s in (*shapes, *results))

@@ -1,0 +1,9 @@
+"""Analyse: what a compiled model or a learned law is like.
+
+In: a `System` or a network. Out: a linearization, a formula.
+It knows nothing of simulation or training.
+"""
+
+from acausal.analysis.distillation import Distilled as Distilled, distill as distill
+from acausal.analysis.formula import Formula as Formula
+from acausal.analysis.linearization import Linearization as Linearization, linearize as linearize

@@ -1,0 +1,253 @@
+"""`distill`: a short formula for a law that a network has learned."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import sympy as sp
+from scipy.optimize import least_squares
+
+from acausal.analysis.formula import TERMS, Formula
+from acausal.errors import TrainingError, listing, nearest
+from acausal.networks import law_of
+
+POINTS = 401
+"""At which law and formula are compared."""
+
+FINEST, WIDEST, SCALES = 300.0, 2.0, 24
+"""Scales go from the largest |x| over the first to the second times it; so many are tried. Wider terms are powers."""
+
+SLACK = 1e-9
+"""By so much bounds are wider, as the point between them may lie on one."""
+
+ENOUGH = 0.7
+"""A further term must make the error at least so much smaller."""
+
+BEAM = 8
+"""Formulas of each length that are followed up."""
+
+PLAIN = 1.1
+"""So much larger the error of a formula may be for each scale that it does without."""
+
+LEAST, HUGE = 1e-100, 1e9
+"""Smaller and larger values of a term tell nothing."""
+
+DIGITS = range(2, 8)
+WORSE, EXACT = 1.05, 1e-5
+"""Significant digits of numbers; so much larger rounding may make the error, or so large relative to the law."""
+
+
+@dataclass(frozen=True, eq=False)
+class Distilled:
+    """A formula and how good it is.
+
+    Attributes:
+        formula: the law, ready to be the network of a neural element (``neural.Resistance(net=...)``).
+        expression: the same in sympy, of ``x``, in the units of the law.
+        error: RMS difference from the network over the interval, in the units of the law.
+        relative_error: the same relative to the RMS of the law about its mean.
+        interval: where they were compared.
+    """
+
+    formula: Formula
+    expression: sp.Expr
+    error: float
+    relative_error: float
+    interval: tuple[float, float]
+
+    def __repr__(self) -> str:
+        low, high = self.interval
+        return (
+            f"{self.expression}   (error {self.error:.3g}, {100 * self.relative_error:.2g} %, "
+            f"for x from {low:.3g} to {high:.3g})"
+        )
+
+
+def distill(
+    network: Callable[..., Any],
+    low: float,
+    high: float,
+    *,
+    terms: int = 4,
+    tolerance: float = 0.01,
+    among: Sequence[str] = tuple(TERMS),
+) -> Distilled:
+    """A short formula for a learned law of one variable.
+
+    Of the formulas of each length the best few are kept and made longer, all scales and coefficients fitted
+    together, until the best is good enough or a further term hardly helps. Outside of the interval the formula
+    extrapolates as its terms do.
+
+    Arguments:
+        network: a network of a trained model, ``fit.params["damper.net"]``, or any function of a scalar; of an
+            energy its slope is taken.
+        low, high: the interval in which it is known, such as ``fit.seen["damper.net"].interval()``.
+        terms: how many the formula may have at most.
+        tolerance: error, relative to the law's RMS about its mean, at which it is good enough.
+        among: names of terms to choose from, out of `acausal.analysis.formula.TERMS`.
+
+    Raises:
+        TrainingError: for an interval, a term or a network that does not serve.
+    """
+    names = _checked(low, high, terms, among)
+    x = np.linspace(low, high, POINTS)
+    y = _values(network, x)
+    size = float(np.std(y)) or 1.0
+    beam: list[_Candidate] = [_Candidate(Formula((), jnp.zeros(0), jnp.zeros(0)), np.inf)]
+    best: _Candidate | None = None
+    for _ in range(terms):
+        beam = _longer(x, y, beam, names)
+        if best is not None and beam[0].error > ENOUGH * best.error:
+            break
+        best = beam[0]
+        if best.error <= tolerance * size:
+            break
+    assert best is not None
+    formula = _rounded(best.formula, best.error, x, y)
+    error = _rms(formula, x, y)
+    return Distilled(formula, formula.expression(), error, error / size, (float(low), float(high)))
+
+
+def _checked(low: float, high: float, terms: int, among: Sequence[str]) -> tuple[str, ...]:
+    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+        raise TrainingError(f"distill: {low:g} to {high:g} is no interval; give low < high.")
+    if terms < 1:
+        raise TrainingError(f"distill: terms={terms}; a formula has at least one.")
+    for name in among:
+        if name not in TERMS:
+            raise TrainingError(f"distill: there is no term '{name}': {nearest(name, TERMS)}")
+    if not among:
+        raise TrainingError(f"distill: no terms to choose from; there are {listing(TERMS)}.")
+    return tuple(among)
+
+
+def _values(network: Any, x: np.ndarray) -> np.ndarray:
+    try:
+        y = np.asarray(jax.jit(jax.vmap(law_of(network)))(jnp.asarray(x)))
+    except TypeError:
+        y = None
+    if y is None or y.shape != x.shape:
+        raise TrainingError(
+            "distill: the network is no law of one variable; hold its other arguments: "
+            "distill(lambda x: network(x, 293.15), low, high)."
+        )
+    if not np.isfinite(y).all():
+        raise TrainingError("distill: the network is not finite everywhere in the interval.")
+    return y
+
+
+def _columns(x: np.ndarray, chosen: Sequence[tuple[str, float]]) -> np.ndarray:
+    """Values of terms at all points, one column each."""
+    with np.errstate(over="ignore"):
+        return np.stack([TERMS[name].value(np, x / scale) for name, scale in chosen], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class _Candidate:
+    formula: Formula
+    error: float
+
+    @property
+    def rank(self) -> float:
+        """The error, with a handicap for every scale."""
+        return self.error * PLAIN ** sum(TERMS[n].scaled for n in self.formula.terms)
+
+
+def _longer(
+    x: np.ndarray, y: np.ndarray, beam: list[_Candidate], names: tuple[str, ...]
+) -> list[_Candidate]:
+    """The best formulas with a term more than those of a beam."""
+    found: dict[tuple[str, ...], _Candidate] = {}
+    for candidate in beam:
+        known = candidate.formula
+        chosen = list(zip(known.terms, known.scales.tolist(), strict=True))
+        for name in names:
+            scale = _best_scale(x, y, chosen, name)
+            if scale is None:
+                continue
+            formula = _polished(x, y, [*chosen, (name, scale)])
+            new = _Candidate(formula, _rms(formula, x, y))
+            key = tuple(sorted(formula.terms))
+            if key not in found or new.error < found[key].error:
+                found[key] = new
+    return sorted(found.values(), key=lambda c: c.rank)[:BEAM]
+
+
+def _best_scale(
+    x: np.ndarray, y: np.ndarray, chosen: list[tuple[str, float]], name: str
+) -> float | None:
+    """The scale of a further term that leaves the least error; ``None`` where it adds nothing."""
+    if not TERMS[name].scaled:
+        return None if any(name == n for n, _ in chosen) else 1.0
+    reach = float(np.max(np.abs(x)))
+    scales = reach * np.geomspace(1 / FINEST, WIDEST, SCALES)
+    tried = [*scales, *(-scales if name == "exponential" else ())]
+    lefts = {s: _left(_columns(x, [*chosen, (name, s)]), y) for s in map(float, tried)}
+    finite = {s: left for s, left in lefts.items() if np.isfinite(left)}
+    return min(finite, key=lambda s: finite[s]) if finite else None
+
+
+def _left(columns: np.ndarray, y: np.ndarray) -> float:
+    largest = np.max(np.abs(columns), axis=0)
+    if not np.all((largest > LEAST) & (largest < HUGE)):
+        return np.inf
+    return float(np.sum((columns @ _solved(columns, y) - y) ** 2))
+
+
+def _solved(columns: np.ndarray, y: np.ndarray) -> np.ndarray:
+    size = np.maximum(np.sqrt(np.sum(columns**2, axis=0)), LEAST)
+    return np.linalg.lstsq(columns / size, y, rcond=1e-10)[0] / size
+
+
+def _polished(x: np.ndarray, y: np.ndarray, chosen: list[tuple[str, float]]) -> Formula:
+    """All scales fitted together; for given scales the coefficients follow."""
+    names = tuple(n for n, _ in chosen)
+    scales = np.array([s for _, s in chosen])
+    free = np.array([TERMS[n].scaled for n in names])
+
+    def all_scales(logs: np.ndarray) -> np.ndarray:
+        moved = scales.copy()
+        moved[free] *= np.exp(logs)
+        return moved
+
+    def miss(logs: np.ndarray) -> np.ndarray:
+        columns = _columns(x, list(zip(names, all_scales(logs), strict=True)))
+        columns = np.nan_to_num(columns, posinf=HUGE, neginf=-HUGE)
+        return columns @ _solved(columns, y) - y
+
+    if free.any():
+        spread = float(np.std(y)) or 1.0
+        sizes = np.log(np.abs(scales[free]) / float(np.max(np.abs(x))))
+        low, high = -np.log(FINEST) - sizes, np.log(WIDEST) - sizes
+        bounds = (np.minimum(low, 0.0) - SLACK, np.maximum(high, 0.0) + SLACK)
+        found = least_squares(lambda z: miss(z) / spread, np.zeros(free.sum()), bounds=bounds)
+        scales = all_scales(found.x)
+    columns = _columns(x, list(zip(names, scales, strict=True)))
+    return Formula(names, jnp.asarray(_solved(columns, y)), jnp.asarray(scales))
+
+
+def _rms(formula: Formula, x: np.ndarray, y: np.ndarray) -> float:
+    columns = _columns(x, list(zip(formula.terms, formula.scales.tolist(), strict=True)))
+    return float(np.sqrt(np.mean((columns @ np.asarray(formula.coefficients) - y) ** 2)))
+
+
+def _rounded(formula: Formula, error: float, x: np.ndarray, y: np.ndarray) -> Formula:
+    """The formula with as few digits as serve: scales are rounded first, coefficients fitted to them."""
+    allowed = max(WORSE * error, EXACT * (float(np.std(y)) or 1.0))
+    for digits in DIGITS:
+        scales = _to_digits(np.asarray(formula.scales), digits)
+        columns = _columns(x, list(zip(formula.terms, scales, strict=True)))
+        coefficients = _to_digits(_solved(columns, y), digits)
+        rounded = Formula(formula.terms, jnp.asarray(coefficients), jnp.asarray(scales))
+        if _rms(rounded, x, y) <= allowed:
+            return rounded
+    return formula
+
+
+def _to_digits(values: np.ndarray, digits: int) -> np.ndarray:
+    return np.array([float(f"{v:.{digits - 1}e}") for v in values])

@@ -1,0 +1,61 @@
+"""Solve torn algebraic blocks: linear ones directly, nonlinear ones by Newton with implicit gradients."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from acausal.codegen.newton import Dense, Residual, root
+
+Block = Callable[[Any], tuple[Any, Any]]
+"""From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
+
+
+def solve_linear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+    """Unknowns of a block that is affine in its tearing variables, of which ``guess`` gives the number."""
+    del scale
+    origin = jnp.zeros_like(guess)
+    constant = block(origin)[1]
+    matrix = jax.jacfwd(lambda tears: block(tears)[1])(origin)
+    return block(-_solve(matrix, constant))[0]
+
+
+def solve_nonlinear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+    """Unknowns of a nonlinear block near a guess; NaN where Newton's method does not converge.
+
+    Gradients follow from the implicit function theorem.
+    """
+
+    def residual(tears: Any) -> Any:
+        return block(tears)[1]
+
+    def solve(function: Residual, start: Any) -> Any:
+        found, converged = root(Dense(function, _solve), start, scale)
+        return jnp.where(converged, found, jnp.nan)
+
+    def tangent(linear: Residual, y: Any) -> Any:
+        return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
+
+    return block(jax.lax.custom_root(residual, guess, solve, tangent))[0]
+
+
+def nearest(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+    """Tearing variables where the search for a root of a nonlinear block ends, whether it is one or not."""
+    return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
+
+
+def _solve(a: Any, b: Any) -> Any:
+    """``a^-1 b``; spelled out for the small sizes where a library call costs more than the arithmetic."""
+    match a.shape[0]:
+        case 1:
+            return b / a[0]
+        case 2:
+            determinant = a[0, 0] * a[1, 1] - a[0, 1] * a[1, 0]
+            first = a[1, 1] * b[0] - a[0, 1] * b[1]
+            second = a[0, 0] * b[1] - a[1, 0] * b[0]
+            return jnp.stack([first, second]) / determinant
+        case _:
+            return jnp.linalg.solve(a, b)

@@ -1,0 +1,267 @@
+"""Lower: sympy expressions become JAX operations, node by node, from a table of rules.
+
+Nothing is printed or executed as text; an expression is walked while JAX traces, with common
+subexpressions evaluated once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import sympy as sp
+from sympy.core.relational import Relational
+
+from acausal.errors import ModelError
+from acausal.modeling import ModuleCall, Prescribed
+
+
+@dataclass(frozen=True)
+class ModuleValue:
+    """A callable parameter at run time.
+
+    Attributes:
+        module: one module for all instances; or, if ``stacked``, one whose arrays carry a leading axis of
+            instances; or a tuple of modules that are unlike each other, one for each instance.
+    """
+
+    module: Any
+    stacked: bool = False
+
+    def __call__(self, orders: tuple[int, ...], *args: Any) -> Any:
+        """The module, or a partial derivative of it, for scalars or for arrays over instances."""
+        if isinstance(self.module, tuple):
+            n = len(self.module)
+            each = zip(self.module, *(jnp.broadcast_to(a, (n,)) for a in args), strict=True)
+            return jnp.stack([_derivative(_scalar(m), orders)(*a) for m, *a in each])
+        if self.stacked:
+            arrays, rest = eqx.partition(self.module, eqx.is_array)
+            n = jax.tree.leaves(arrays)[0].shape[0]
+            batched = [jnp.broadcast_to(a, (n,)) for a in args]
+            call = lambda m, *a: _derivative(_scalar(eqx.combine(m, rest)), orders)(*a)  # noqa: E731
+            return jax.vmap(call)(arrays, *batched)
+        function = _derivative(_scalar(self.module), orders)
+        shape = jnp.broadcast_shapes(*(jnp.shape(a) for a in args))
+        if not shape:
+            return function(*args)
+        return jax.vmap(function)(*(jnp.broadcast_to(a, shape) for a in args))
+
+
+def collect(modules: Sequence[Any]) -> ModuleValue:
+    """The modules of several instances: stacked if they differ in the values of their arrays only."""
+    parts = [eqx.partition(m, eqx.is_array) for m in modules]
+    (first, rest), *others = parts
+    alike = bool(jax.tree.leaves(first)) and all(
+        jax.tree.structure(arrays) == jax.tree.structure(first)
+        and jax.tree.map(jnp.shape, arrays) == jax.tree.map(jnp.shape, first)
+        and eqx.tree_equal(static, rest) is True
+        for arrays, static in others
+    )
+    if not alike:
+        return ModuleValue(tuple(modules))
+    stacked = jax.tree.map(lambda *leaves: jnp.stack(leaves), *(arrays for arrays, _ in parts))
+    return ModuleValue(eqx.combine(stacked, rest), stacked=True)
+
+
+def _scalar(module: Any) -> Callable[..., Any]:
+    def call(*args: Any) -> Any:
+        return jnp.reshape(module(*args), ())
+
+    return call
+
+
+def _derivative(function: Callable[..., Any], orders: tuple[int, ...]) -> Callable[..., Any]:
+    for position, times in enumerate(orders):
+        for _ in range(times):
+            function = jax.grad(function, argnums=position)
+    return function
+
+
+Values = Mapping[sp.Symbol, Any]
+
+
+def evaluate(expression: sp.Expr, values: Values) -> Any:
+    """Value of an expression for the values of its symbols (scalars or arrays of one length)."""
+    memo: dict[sp.Basic, Any] = {**values}
+
+    def visit(node: sp.Basic) -> Any:
+        if node not in memo:
+            memo[node] = _rule(node)(node, visit)
+        return memo[node]
+
+    return visit(expression)
+
+
+Visit = Callable[[sp.Basic], Any]
+Rule = Callable[[Any, Visit], Any]
+
+
+def _rule(node: sp.Basic) -> Rule:
+    for cls in type(node).__mro__:
+        if cls in RULES:
+            return RULES[cls]
+    raise ModelError(
+        f"'{type(node).__name__}' cannot be computed; use the functions that acausal exports"
+    )
+
+
+def _number(node: Any, visit: Visit) -> Any:
+    return float(node)
+
+
+def _sum(node: sp.Add, visit: Visit) -> Any:
+    total: Any = None
+    for term in _positive_first(node.args):
+        negative = term.could_extract_minus_sign() and (term.is_Number or term.is_Mul)
+        value = visit(-term if negative else term)
+        if total is None:
+            total = -value if negative else value
+            continue
+        total = total - value if negative else total + value
+    return total
+
+
+def _positive_first(terms: tuple[sp.Basic, ...]) -> list[Any]:
+    return sorted(terms, key=lambda t: bool(t.could_extract_minus_sign()))
+
+
+def _product(node: Any, visit: Visit) -> Any:
+    above: Any = None
+    below: Any = None
+    sign = 1.0
+    for factor in node.args:
+        if factor is sp.S.NegativeOne:
+            sign = -sign
+        elif factor.is_Pow and factor.exp.is_Number and factor.exp.is_negative:
+            value = visit(sp.Pow(factor.base, -factor.exp))
+            below = value if below is None else below * value
+        else:
+            value = visit(factor)
+            above = value if above is None else above * value
+    above = 1.0 if above is None else above
+    result = above if below is None else above / below
+    return -result if sign < 0 else result
+
+
+def _power(node: sp.Pow, visit: Visit) -> Any:
+    base, exponent = visit(node.base), node.exp
+    if exponent == sp.S.Half:
+        return jnp.sqrt(base)
+    if exponent.is_Integer:
+        n = int(exponent)
+        power = (
+            base ** abs(n)
+            if isinstance(base, float)
+            else jax.lax.integer_pow(jnp.asarray(base), abs(n))
+        )
+        return 1.0 / power if n < 0 else power
+    if exponent.is_negative and exponent.is_Number:
+        return 1.0 / visit(sp.Pow(node.base, -exponent))
+    return jnp.power(base, visit(exponent))
+
+
+def _piecewise(node: Any, visit: Visit) -> Any:
+    cases: list[tuple[Any, Any]] = []
+    earlier: Any = False
+    for value, condition in node.args:
+        holds = visit(condition)
+        cases.append((holds, _case(value, jnp.logical_and(holds, jnp.logical_not(earlier)), visit)))
+        earlier = jnp.logical_or(holds, earlier)
+    result: Any = jnp.nan
+    for holds, value in reversed(cases):
+        result = value if holds is True else jnp.where(holds, value, result)
+    return result
+
+
+def _case(value: Any, holds: Any, visit: Visit) -> Any:
+    """A case that gradients pass only where it holds, as elsewhere its slope may be infinite."""
+    if not _is_steep(value):
+        return visit(value)
+    read = {s: visit(s) for s in sorted(value.free_symbols, key=str)}
+    return evaluate(value, {s: _only_where(holds, v) for s, v in read.items()})
+
+
+@cache
+def _is_steep(value: sp.Expr) -> bool:
+    return not value.is_polynomial(*value.free_symbols)
+
+
+def _only_where(holds: Any, value: Any) -> Any:
+    if isinstance(value, ModuleValue):
+        return value
+    return jnp.where(holds, value, jax.lax.stop_gradient(value))
+
+
+def _call(function: Callable[..., Any]) -> Rule:
+    return lambda node, visit: function(*(visit(a) for a in node.args))
+
+
+def _fold(function: Callable[[Any, Any], Any]) -> Rule:
+    def fold(node: Any, visit: Visit) -> Any:
+        first, *others = (visit(a) for a in node.args)
+        for other in others:
+            first = function(first, other)
+        return first
+
+    return fold
+
+
+def _relation(function: Callable[[Any, Any], Any]) -> Rule:
+    def relate(node: Relational, visit: Visit) -> Any:
+        return function(visit(node.lhs), visit(node.rhs))
+
+    return relate
+
+
+def _module(node: Any, visit: Visit) -> Any:
+    module, orders, *args = node.args
+    return visit(module)(tuple(int(n) for n in orders), *(jnp.asarray(visit(a)) for a in args))
+
+
+RULES: dict[type, Rule] = {
+    sp.Number: _number,
+    sp.NumberSymbol: _number,
+    sp.Add: _sum,
+    sp.Mul: _product,
+    sp.Pow: _power,
+    sp.exp: _call(jnp.exp),
+    sp.log: _call(jnp.log),
+    sp.sin: _call(jnp.sin),
+    sp.cos: _call(jnp.cos),
+    sp.tan: _call(jnp.tan),
+    sp.asin: _call(jnp.arcsin),
+    sp.acos: _call(jnp.arccos),
+    sp.atan: _call(jnp.arctan),
+    sp.atan2: _call(jnp.arctan2),
+    sp.sinh: _call(jnp.sinh),
+    sp.cosh: _call(jnp.cosh),
+    sp.tanh: _call(jnp.tanh),
+    sp.Abs: _call(jnp.abs),
+    sp.sign: _call(jnp.sign),
+    sp.floor: _call(jnp.floor),
+    sp.ceiling: _call(jnp.ceil),
+    sp.Mod: _call(jnp.mod),
+    sp.Heaviside: _call(lambda x, *_: jnp.where(jnp.asarray(x) >= 0, 1.0, 0.0)),
+    sp.DiracDelta: _call(lambda x, *_: jnp.zeros_like(jnp.asarray(x))),
+    sp.Max: _fold(jnp.maximum),
+    sp.Min: _fold(jnp.minimum),
+    sp.Piecewise: _piecewise,
+    sp.Gt: _relation(lambda a, b: jnp.asarray(a) > b),
+    sp.Ge: _relation(lambda a, b: jnp.asarray(a) >= b),
+    sp.Lt: _relation(lambda a, b: jnp.asarray(a) < b),
+    sp.Le: _relation(lambda a, b: jnp.asarray(a) <= b),
+    sp.Eq: _relation(lambda a, b: jnp.asarray(a) == b),
+    sp.Ne: _relation(lambda a, b: jnp.asarray(a) != b),
+    sp.And: _fold(jnp.logical_and),
+    sp.Or: _fold(jnp.logical_or),
+    sp.Not: _call(jnp.logical_not),
+    sp.logic.boolalg.BooleanTrue: lambda node, visit: True,
+    sp.logic.boolalg.BooleanFalse: lambda node, visit: False,
+    ModuleCall: _module,
+    Prescribed: lambda node, visit: visit(node.args[2 + int(node.args[0])]),
+}

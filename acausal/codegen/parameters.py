@@ -1,0 +1,284 @@
+"""Parameters at run time: a flat dict for the user, a few arrays for the program.
+
+`ParameterLayout.pack` turns ``{"body.m": 350.0, ..., "spring_nn.net": module}`` into a `Packed`, in which
+equal parameters of equal components lie side by side and bound parameters are computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import sympy as sp
+
+from acausal.codegen.gather import Gather, gather
+from acausal.codegen.lower import evaluate
+from acausal.errors import DataError, DeclarationError, listing, nearest
+from acausal.flattening import Binding, FlatModel, Integers
+from acausal.structure import parameter_aliases
+
+
+class Packed(eqx.Module):
+    """All parameters of a model, bound ones computed: a pytree with few leaves.
+
+    Attributes:
+        values: (n,) numbers, in the program's order.
+        modules: the callable parameters.
+    """
+
+    values: Any
+    modules: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class _BoundGroup:
+    """Bound parameters with one expression: computed side by side from earlier ones."""
+
+    expression: sp.Expr
+    arguments: tuple[tuple[sp.Symbol, Gather], ...]
+    size: int
+
+
+@dataclass(frozen=True)
+class ParameterLayout:
+    """Where every parameter lies in `Packed`.
+
+    Attributes:
+        free: parameters that the user may change, in order of declaration.
+        order: position of every free parameter in the vector, so that equal ones are neighbours.
+        position: (n_parameters,) of a parameter in ``Packed.values`` (-1: folded).
+        bound: groups of bound parameters, in order of computation.
+        modules: module -> the module that it refers to, or itself.
+    """
+
+    model: FlatModel
+    free: Integers
+    order: Integers
+    position: Integers
+    bound: tuple[_BoundGroup, ...]
+    module_of: Integers
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the free parameters."""
+        return tuple(self.model.layout.parameter(int(i)) for i in self.free)
+
+    @cached_property
+    def module_names(self) -> tuple[str, ...]:
+        """Names of the modules that are not references to others."""
+        return tuple(self.model.layout.module(int(i)) for i in self._own_modules)
+
+    @cached_property
+    def _own_modules(self) -> list[int]:
+        return [i for i, m in enumerate(self.module_of) if m == i]
+
+    def defaults(self, key: Any) -> dict[str, Any]:
+        """The model's own parameter values; modules are made with keys split from ``key``."""
+        values: dict[str, Any] = dict(zip(self.names, self.model.value[self.free], strict=True))
+        own = self._own_modules
+        keys = jax.random.split(key, max(len(own), 1))
+        for name, index, k in zip(self.module_names, own, keys, strict=False):
+            values[name] = self._make(name, self.model.module_values[index], k)
+        return values
+
+    def _make(self, name: str, value: Any, key: Any) -> Any:
+        if isinstance(value, eqx.Module):
+            return value
+        try:
+            module = value(key)
+        except TypeError as error:
+            raise DeclarationError(
+                f"'{name}': a function is called with a key and gives a module, but this one fails "
+                f"({str(error).splitlines()[0]}); give a law of your own as an equinox module"
+            ) from error
+        if not callable(module):
+            raise DeclarationError(
+                f"'{name}': the function gave {type(module).__name__}, not a callable module"
+            )
+        return module
+
+    def pack(self, params: Mapping[str, Any] | Packed) -> Packed:
+        """Collect a parameter dict into arrays; numbers that it lacks keep the model's values.
+
+        Raises:
+            DataError: for an unknown name, a missing module or what is not a number.
+        """
+        if isinstance(params, Packed):
+            return params
+        if not isinstance(params, Mapping):
+            raise DataError(f"params are numbers and networks by name, not {params!r:.80}")
+        self._check_names(params)
+        own = self.model.value[self.free]
+        given = [params.get(name, value) for name, value in zip(self.names, own, strict=True)]
+        wrong = [n for n, v in zip(self.names, given, strict=True) if not _is_number(v)]
+        if wrong:
+            raise DataError(f"params: {listing(wrong)} must be numbers, got {params[wrong[0]]!r}")
+        if any(isinstance(v, jax.Array) for v in given):
+            free = (
+                jnp.stack([jnp.asarray(given[i], dtype=float) for i in self.order])
+                if given
+                else jnp.zeros(0)
+            )
+        else:
+            free = jnp.asarray(np.asarray(given, dtype=float)[self.order])
+        values = free
+        for group in self.bound:
+            arguments = {symbol: g.read([values]) for symbol, g in group.arguments}
+            computed = jnp.broadcast_to(
+                jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
+            )
+            values = jnp.concatenate([values, computed])
+        laws = [n for n in self.module_names if not callable(params[n])]
+        if laws:
+            raise DataError(
+                f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}"
+            )
+        modules = {
+            i: params[name] for i, name in zip(self._own_modules, self.module_names, strict=True)
+        }
+        return Packed(values, tuple(modules[int(m)] for m in self.module_of))
+
+    def _check_names(self, params: Mapping[str, Any]) -> None:
+        missing = [name for name in self.module_names if name not in params]
+        if missing:
+            raise DataError(f"params lacks {listing(missing)}; start from system.parameters(key)")
+        if len(params) == len(self.names) + len(self.module_names) and all(
+            n in params for n in self.names
+        ):
+            return
+        known = {*self.names, *self.module_names}
+        for name in params:
+            if name not in known:
+                raise DataError(f"params: {self._why_unknown(name)}")
+
+    def _why_unknown(self, name: str) -> str:
+        index = self._find(name)
+        if index is None:
+            return f"the model has no parameter '{name}'; {nearest(name, [*self.names, *self.module_names])}"
+        if self.model.folded[index]:
+            return (
+                f"'{name}' was left at its default of zero and is folded out of the equations; "
+                "give it where the component is made (0.0 will do) to keep it adjustable"
+            )
+        return f"'{name}' is bound to an expression of other parameters; change these"
+
+    def _find(self, name: str) -> int | None:
+        layout = self.model.layout
+        for cut in [*[i for i, c in enumerate(name) if c == "."][::-1], -1]:
+            component = layout.number.get(name[: max(cut, 0)])
+            if component is not None:
+                local = layout.form(component).parameter_index.get(name[cut + 1 :])
+                if local is not None:
+                    return int(layout.parameter_base[component]) + local
+        return None
+
+    def gather(self, parameters: Integers) -> Gather:
+        """How to read some parameters out of ``Packed.values``."""
+        position = self.position[parameters]
+        return gather(np.zeros_like(position), position, [int(self.position.max(initial=-1)) + 1])
+
+    def chosen(self, modules: Integers) -> tuple[int, ...]:
+        """The modules that a column of module slots refers to."""
+        return tuple(int(m) for m in self.module_of[modules])
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, float | int):
+        return True
+    return isinstance(value, np.ndarray | np.number | jax.Array) and np.ndim(value) == 0
+
+
+def lay_out_parameters(model: FlatModel) -> ParameterLayout:
+    """Decide which parameters are free and in which order all lie.
+
+    Raises:
+        DeclarationError: if parameters are bound in a circle.
+    """
+    target = parameter_aliases(model)
+    n = len(model.value)
+    bound = np.zeros(n, dtype=bool)
+    bound[[b.target for b in model.bindings]] = True
+    free = np.flatnonzero(~bound & ~model.folded)
+    rank = np.lexsort((free, *_kind(model, free)))
+    position = np.full(n, -1, dtype=np.int64)
+    position[free[rank]] = np.arange(len(free))
+    groups: list[_BoundGroup] = []
+    filled = len(free)
+    waiting = [
+        b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]
+    ]
+    while waiting:
+        ready = [
+            b for b in waiting if all(_is_placed(a, target, position, model) for a in b.arguments)
+        ]
+        if not ready:
+            names = [model.layout.parameter(b.target) for b in waiting]
+            raise DeclarationError(
+                f"parameters are bound in a circle: {listing(names)}; give one a number"
+            )
+        for expression, members in _by_expression(ready, model, target):
+            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).reshape(
+                len(members), -1
+            )
+            arguments = tuple(
+                (
+                    s,
+                    gather(
+                        np.zeros(len(members), dtype=np.int64), position[columns[:, i]], [filled]
+                    ),
+                )
+                for i, s in enumerate(members[0].symbols)
+                if s in expression.free_symbols
+            )
+            groups.append(_BoundGroup(expression, arguments, len(members)))
+            position[[b.target for b in members]] = filled + np.arange(len(members))
+            filled += len(members)
+        done = {b.target for b in ready}
+        waiting = [b for b in waiting if b.target not in done]
+    position = position[target]
+    return ParameterLayout(model, free, rank, position, tuple(groups), _module_targets(model))
+
+
+def _is_placed(argument: int, target: Integers, position: Integers, model: FlatModel) -> bool:
+    return bool(position[target[argument]] >= 0 or model.folded[target[argument]])
+
+
+def _kind(model: FlatModel, free: Integers) -> tuple[Integers, Integers]:
+    """Sort keys (minor, major): local parameter, form of the component."""
+    layout = model.layout
+    component = np.searchsorted(layout.parameter_base, free, side="right") - 1
+    return free - layout.parameter_base[component], layout.form_of[component]
+
+
+def _by_expression(
+    bindings: list[Binding], model: FlatModel, target: Integers
+) -> list[tuple[sp.Expr, list[Binding]]]:
+    found: dict[sp.Expr, list[Binding]] = {}
+    for binding in bindings:
+        zeros = {
+            s: sp.S.Zero
+            for s, a in zip(binding.symbols, binding.arguments, strict=True)
+            if model.folded[target[a]]
+        }
+        expression: Any = binding.expression.xreplace(zeros)
+        if expression.has(sp.zoo, sp.nan, sp.oo):
+            name = model.layout.parameter(binding.target)
+            raise DeclarationError(f"'{name}': its expression divides by a parameter that is zero")
+        found.setdefault(expression, []).append(binding)
+    return list(found.items())
+
+
+def _module_targets(model: FlatModel) -> Integers:
+    target: list[int] = []
+    for i, value in enumerate(model.module_values):
+        index = i
+        while isinstance(value, int):
+            index, value = value, model.module_values[value]
+        target.append(index)
+    return np.asarray(target, dtype=np.int64)

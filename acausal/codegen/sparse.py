@@ -1,0 +1,138 @@
+"""Solve large sparse systems of linear equations inside JAX programs: SuperLU on the host, a fixed order of pivots.
+
+The pattern is analysed once, when a model is compiled. A factorization is kept as long as the entries
+stay the same, so that a matrix of parameters alone is factorized once for a whole simulation, and the
+transposed system of a gradient is solved with the factors of the system itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import jax
+import numpy as np
+from jax.experimental.buffer_callback import buffer_callback
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import splu
+
+from acausal.flattening import Integers
+from acausal.structure import SETTINGS, THRESHOLD, Pattern
+
+
+@dataclass(frozen=True, eq=False)
+class SparseMatrix:
+    """A square matrix of which only the pattern is fixed."""
+
+    pattern: Pattern
+
+    def times(self, entries: Any, x: Any) -> Any:
+        """``A x``, shape (n,)."""
+        p = self.pattern
+        return jax.ops.segment_sum(entries * x[p.columns], p.rows, len(p.row_order))
+
+    def solve(self, entries: Any, b: Any) -> Any:
+        """``x`` with ``A x = b``, differentiable by both; NaN where the matrix is singular.
+
+        Arguments:
+            entries: values of the entries, shape (nnz,). b: right side, shape (n,).
+        """
+
+        def solve(transposed: bool) -> Callable[[Any, Any], Any]:
+            return lambda _, b: self._on_host(transposed, entries, b)
+
+        return jax.lax.custom_linear_solve(
+            lambda x: self.times(entries, x), b, solve(False), solve(True)
+        )
+
+    def _on_host(self, transposed: bool, entries: Any, b: Any) -> Any:
+        """Solve by a call of the host. On the CPU it reads and writes the program's own memory."""
+        shape = jax.ShapeDtypeStruct(b.shape, b.dtype)
+
+        def returned(entries: Any, b: Any) -> Any:
+            return self._solved(transposed, np.asarray(entries), np.asarray(b)).astype(b.dtype)
+
+        def written(_: Any, out: Any, entries: Any, b: Any) -> None:
+            np.asarray(out)[...] = self._solved(transposed, np.asarray(entries), np.asarray(b))
+
+        return jax.lax.platform_dependent(
+            entries,
+            b,
+            cpu=buffer_callback(written, shape, vmap_method="expand_dims"),
+            default=lambda *args: jax.pure_callback(
+                returned, shape, *args, vmap_method="expand_dims"
+            ),
+        )
+
+    def _solved(self, transposed: bool, entries: np.ndarray, b: np.ndarray) -> np.ndarray:
+        """Solutions for stacks of entries and right sides; one factorization where the entries are shared."""
+        n, batch = b.shape[-1], np.broadcast_shapes(entries.shape[:-1], b.shape[:-1])
+        if entries.size == entries.shape[-1]:
+            rows = np.broadcast_to(b, (*batch, n)).reshape(-1, n)
+            return self._factorized(entries.ravel(), transposed)(rows).reshape(*batch, n)
+        matrices = np.broadcast_to(entries, (*batch, entries.shape[-1]))
+        sides = np.broadcast_to(b, (*batch, n))
+        solved = np.empty((*batch, n))
+        for i in np.ndindex(*batch):
+            solved[i] = self._factorized(matrices[i], transposed)(sides[i][None])[0]
+        return solved
+
+    def _factorized(
+        self, entries: np.ndarray, transposed: bool
+    ) -> Callable[[np.ndarray], np.ndarray]:
+        """From right sides (k, n) to solutions (k, n)."""
+        factors = self._memory.factors(entries)
+        if factors is None:
+            return lambda b: np.full(b.shape, np.nan)
+        into, out_of = self.pattern.row_order, self.pattern.column_order
+        if transposed:
+            into, out_of = out_of, into
+        mode = "T" if transposed else "N"
+
+        def solve(b: np.ndarray) -> np.ndarray:
+            solved = np.empty(b.shape)
+            solved[:, out_of] = factors.solve(b[:, into].T.astype(float), mode).T
+            return solved
+
+        return solve
+
+    @cached_property
+    def _memory(self) -> _Memory:
+        p, n = self.pattern, len(self.pattern.row_order)
+        rows, columns = np.argsort(p.row_order)[p.rows], np.argsort(p.column_order)[p.columns]
+        order = np.lexsort((rows, columns))
+        starts = np.searchsorted(columns[order], np.arange(n + 1))
+        return _Memory(order, csc_array((np.zeros(len(order)), rows[order], starts), (n, n)))
+
+
+class _Memory:
+    """The latest factorization and the entries that it belongs to."""
+
+    def __init__(self, order: Integers, pattern: Any) -> None:
+        self._order = order
+        self._pattern = pattern
+        self._latest: tuple[np.ndarray, Any] | None = None
+
+    def factors(self, entries: np.ndarray) -> Any:
+        """LU factors of the matrix with these entries, or None if it is singular or not finite."""
+        latest = self._latest
+        if latest is None or not np.array_equal(latest[0], entries):
+            self._latest = latest = np.array(entries), self._factorize(entries)
+        return latest[1]
+
+    def _factorize(self, entries: np.ndarray) -> Any:
+        if not np.isfinite(entries).all():
+            return None
+        p = self._pattern
+        values = entries[self._order].astype(float)
+        try:
+            return splu(
+                csc_array((values, p.indices, p.indptr), shape=p.shape),
+                permc_spec="NATURAL",
+                diag_pivot_thresh=THRESHOLD,
+                options=SETTINGS,
+            )
+        except RuntimeError:  # exactly singular
+            return None

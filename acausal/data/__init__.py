@@ -1,0 +1,17 @@
+"""Measured data: records, signals over time, files of parameters.
+
+In: arrays, CSV files, parameters. Out: `Data`, `Signal`, arrays in a model's units.
+It knows what a compiled model is called and measured in; nothing of simulation or training.
+"""
+
+from acausal.data.band_limited import FRACTIONS as FRACTIONS, bends as bends, bow as bow
+from acausal.data.params_file import load_params as load_params, save_params as save_params
+from acausal.data.record import Data as Data
+from acausal.data.signal import Signal as Signal
+from acausal.data.tensors import (
+    filled_like as filled_like,
+    named_arrays as named_arrays,
+    read_arrays as read_arrays,
+    replace_file as replace_file,
+    write_arrays as write_arrays,
+)

@@ -1,0 +1,91 @@
+"""Parameters in files: numbers and trained networks, to be loaded into the model they belong to."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import equinox as eqx
+
+from acausal.data.tensors import filled_like, named_arrays, read_arrays, write_arrays
+from acausal.errors import DataError, reason
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+KIND = "parameters of a model, version 1"
+
+
+def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
+    """Save parameters, as `System.parameters` or a `Fit` gives them, in a safetensors file.
+
+    The file is written wholly or not at all: what was there before stays if that fails.
+
+    Arguments:
+        params: numbers and networks by name.
+        path: the file; by custom ``….safetensors``.
+
+    Raises:
+        DataError: if the file cannot be written.
+    """
+    about = {"kind": KIND, "settings": dict(_settings(dict(params), ""))}
+    try:
+        write_arrays(Path(path), named_arrays(dict(params)), about)
+    except OSError as error:
+        raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
+
+
+def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any]) -> dict[str, Any]:
+    """Load parameters that `save_params` wrote.
+
+    Arguments:
+        path: the file.
+        model: the model they belong to; or parameters like those that were saved, where networks were
+            exchanged for others than the model's own.
+
+    Raises:
+        DataError: if the file cannot be read, is damaged, or belongs to another model.
+    """
+    like: dict[str, Any] = dict(model) if isinstance(model, Mapping) else model.parameters()
+    arrays, about = read_arrays(Path(path))
+    if about.get("kind") != KIND:
+        raise DataError(
+            f"'{path}' has no {KIND}, but: {about.get('kind', 'it does not say what')}."
+        )
+    params = filled_like(like, arrays, f"'{path}'")
+    for place, here in _settings(like, ""):
+        there = about["settings"].get(place, here)
+        if there != here:
+            raise DataError(
+                f"'{path}' has '{place}' as {there}, but here it is {here}: it belongs to another network."
+            )
+    return {name: params[name] for name in like}  # JAX sorts them
+
+
+def _settings(thing: Any, place: str) -> Iterator[tuple[str, str]]:
+    """What shapes a network beside its arrays, such as its activation, by place."""
+    if isinstance(thing, eqx.Module):
+        for field in dataclasses.fields(thing):
+            inner, value = f"{place}.{field.name}", getattr(thing, field.name)
+            if field.metadata.get("static", False):
+                yield inner, _described(value)
+            else:
+                yield from _settings(value, inner)
+    elif isinstance(thing, Mapping):
+        for name, value in thing.items():
+            yield from _settings(value, f"{place}['{name}']" if place else name)
+    elif isinstance(thing, Sequence) and not isinstance(thing, str):
+        for i, value in enumerate(thing):
+            yield from _settings(value, f"{place}[{i}]")
+    elif callable(thing):
+        yield place, _described(thing)
+
+
+def _described(value: Any) -> str:
+    """A text that is the same in every process."""
+    if callable(value):
+        return getattr(value, "__name__", type(value).__name__)
+    return repr(value)

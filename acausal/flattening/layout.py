@@ -1,0 +1,257 @@
+"""Lay out: where the variables, parameters and modules of a component tree lie in a flat numbering."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+
+from acausal.errors import DeclarationError, nearest
+from acausal.flattening.template import Integers
+from acausal.modeling import (
+    Component,
+    Connector,
+    Declaration,
+    Module,
+    Option,
+    Parameter,
+    Variable,
+    element_names,
+)
+
+
+@dataclass(frozen=True)
+class Form:
+    """What all instances of one class with the same structural choices share: their local names.
+
+    Attributes:
+        variables, parameters, modules: local path and declaration, in order of declaration.
+        connectors: local name -> (class, index of its first variable).
+        prototype: the first instance met; its equations stand for all.
+    """
+
+    prototype: Component
+    variables: tuple[tuple[str, Variable], ...]
+    parameters: tuple[tuple[str, Parameter], ...]
+    modules: tuple[tuple[str, Module], ...]
+    connectors: dict[str, tuple[type[Connector], int]]
+
+    @cached_property
+    def variable_index(self) -> dict[str, int]:
+        """Local path of a variable -> its local index."""
+        return {path: i for i, (path, _) in enumerate(self.variables)}
+
+    @cached_property
+    def parameter_index(self) -> dict[str, int]:
+        """Local path of a parameter -> its local index."""
+        return {path: i for i, (path, _) in enumerate(self.parameters)}
+
+    @cached_property
+    def module_index(self) -> dict[str, int]:
+        """Local path of a module -> its local index."""
+        return {path: i for i, (path, _) in enumerate(self.modules)}
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where every component's variables, parameters and modules lie in the flat numbering.
+
+    ``variable_base[i]`` is the index of component i's first variable; the arrays have one more entry, the total.
+    """
+
+    components: tuple[Component, ...]
+    paths: tuple[str, ...]
+    forms: tuple[Form, ...]
+    form_of: Integers
+    variable_base: Integers
+    parameter_base: Integers
+    module_base: Integers
+
+    @cached_property
+    def position(self) -> dict[int, int]:
+        """``id(component)`` -> its number."""
+        return {id(c): i for i, c in enumerate(self.components)}
+
+    @cached_property
+    def number(self) -> dict[str, int]:
+        """Dotted path of a component -> its number."""
+        return {path: i for i, path in enumerate(self.paths)}
+
+    def form(self, component: int) -> Form:
+        """Form of a component."""
+        return self.forms[self.form_of[component]]
+
+    def variable(self, index: int) -> str:
+        """Dotted name of a variable."""
+        return self._name(index, self.variable_base, "variables")
+
+    def parameter(self, index: int) -> str:
+        """Dotted name of a parameter."""
+        return self._name(index, self.parameter_base, "parameters")
+
+    def module(self, index: int) -> str:
+        """Dotted name of a module."""
+        return self._name(index, self.module_base, "modules")
+
+    def variable_declaration(self, index: int) -> Variable:
+        """Declaration of a variable."""
+        component = int(np.searchsorted(self.variable_base, index, side="right")) - 1
+        return self.form(component).variables[index - int(self.variable_base[component])][1]
+
+    def parameter_declaration(self, index: int) -> Parameter:
+        """Declaration of a parameter."""
+        component = int(np.searchsorted(self.parameter_base, index, side="right")) - 1
+        return self.form(component).parameters[index - int(self.parameter_base[component])][1]
+
+    def find_variable(self, name: str) -> int | None:
+        """Index of the variable of that dotted name, or None."""
+        for cut in [*[i for i, c in enumerate(name) if c == "."][::-1], -1]:
+            component = self.number.get(name[: max(cut, 0)])
+            if component is not None:
+                local = self.form(component).variable_index.get(name[cut + 1 :])
+                if local is not None:
+                    return int(self.variable_base[component]) + local
+        return None
+
+    def _name(self, index: int, base: Integers, kind: str) -> str:
+        component = int(np.searchsorted(base, index, side="right")) - 1
+        local = getattr(self.form(component), kind)[index - int(base[component])][0]
+        path = self.paths[component]
+        return f"{path}.{local}" if path else local
+
+
+def lay_out(model: Component) -> Layout:
+    """Number the components of a tree and everything that they declare."""
+    components: list[Component] = []
+    paths: list[str] = []
+    stack: list[tuple[Component, str]] = [(model, "")]
+    while stack:
+        component, path = stack.pop()
+        components.append(component)
+        paths.append(path)
+        if component._pending:
+            part = next(iter(component._pending))
+            raise DeclarationError(
+                f"{component._label()} has no '{part}': {nearest(part, [*component._declared, *component._children])}"
+            )
+        prefix = f"{path}." if path else ""
+        stack.extend(
+            (child, prefix + name) for name, child in reversed(component._children.items())
+        )
+
+    forms: list[Form] = []
+    known: dict[Hashable, int] = {}
+    form_of = np.empty(len(components), dtype=np.int64)
+    number: dict[int, int] = {}
+    for i in range(len(components) - 1, -1, -1):  # children before parents
+        component = components[i]
+        children = tuple((n, number[id(c)]) for n, c in component._children.items())
+        key = _structure(component), children
+        if key not in known:
+            known[key] = len(forms)
+            forms.append(_form(component))
+        form_of[i] = number[id(component)] = known[key]
+
+    def base(sizes: list[int]) -> Integers:
+        return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64)[form_of])])
+
+    return Layout(
+        components=tuple(components),
+        paths=tuple(paths),
+        forms=tuple(forms),
+        form_of=form_of,
+        variable_base=base([len(f.variables) for f in forms]),
+        parameter_base=base([len(f.parameters) for f in forms]),
+        module_base=base([len(f.modules) for f in forms]),
+    )
+
+
+def members_of_forms(layout: Layout) -> list[Integers]:
+    """For every form, the components that have it."""
+    order = np.argsort(layout.form_of, kind="stable")
+    bounds = np.searchsorted(layout.form_of[order], np.arange(len(layout.forms) + 1))
+    return [order[a:b] for a, b in itertools.pairwise(bounds)]
+
+
+def _structure(component: Component) -> Hashable:
+    """What decides a component's declarations and equations, besides its parts."""
+    cls = type(component)
+    for name, value in component._constants.items():
+        if _holds_parts(value):
+            raise DeclarationError(
+                f"{component._label()}.{name} holds components that are not part of the model; "
+                "assign them as attributes, or as one list that is complete"
+            )
+    options = tuple((k, _frozen(v)) for k, v in sorted(component._options.items()))
+    constants = tuple((k, _frozen(v)) for k, v in sorted(component._constants.items()))
+    dynamic = tuple((k, type(v), *_attributes(v)) for k, v in component._dynamic.items())
+    sizes = tuple(
+        (k, np.shape(v)) for k, v in component._modifiers.items() if isinstance(v, np.ndarray)
+    )
+    bindings = tuple(id(equation) for equation in component._bindings)
+    return cls, options, constants, dynamic, sizes, bindings
+
+
+def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:
+    """What a declaration says, whichever instance made it."""
+    if isinstance(declared, Connector):
+        return (declared._when,)
+    return tuple((k, _frozen(v)) for k, v in sorted(vars(declared).items()))
+
+
+def _holds_parts(value: Any) -> bool:
+    if isinstance(value, Mapping):
+        return _holds_parts(list(value.values()))
+    if isinstance(value, list | tuple | set | frozenset):
+        return any(
+            (isinstance(v, Component) and v._parent is None) or _holds_parts(v) for v in value
+        )
+    return False
+
+
+def _frozen(value: Any) -> Hashable:
+    if value is None or isinstance(value, bool | int | float | str):
+        return type(value).__name__, value
+    if isinstance(value, np.ndarray):
+        return value.shape, value.dtype.str, value.tobytes()
+    if isinstance(value, list | tuple):
+        return tuple(_frozen(v) for v in cast(Sequence[Any], value))
+    if is_dataclass(value) and not isinstance(value, type):
+        return type(value), *(_frozen(getattr(value, f.name)) for f in fields(value))
+    return id(value)
+
+
+def _form(component: Component) -> Form:
+    variables: list[tuple[str, Variable]] = []
+    parameters: list[tuple[str, Parameter]] = []
+    modules: list[tuple[str, Module]] = []
+    connectors: dict[str, tuple[type[Connector], int]] = {}
+    for name, declared in component._declarations():
+        match declared:
+            case Connector():
+                connectors[name] = (type(declared), len(variables))
+                variables += [(f"{name}.{key}", d) for key, d in declared.declarations.items()]
+            case Variable():
+                variables += [(path, declared) for path in element_paths(component, name, declared)]
+            case Parameter():
+                parameters += [
+                    (path, declared) for path in element_paths(component, name, declared)
+                ]
+            case Module():
+                modules.append((name, declared))
+            case Option():
+                pass
+            case _:
+                raise DeclarationError(
+                    f"{component._label()}.{name}: a bare Declaration declares nothing"
+                )
+    return Form(component, tuple(variables), tuple(parameters), tuple(modules), connectors)
+
+
+def element_paths(component: Component, name: str, declaration: Declaration) -> list[str]:
+    """Local paths of a declaration: one, or one for every element of a vector or matrix."""
+    return element_names(name, component._shape(name, declaration))

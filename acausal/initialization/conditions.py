@@ -1,0 +1,205 @@
+"""Conditions at the initial time: fixed starts and initial equations, and how far a state is from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import sympy as sp
+
+from acausal.codegen import Packed, ParameterLayout, Program, chosen_module, evaluate
+from acausal.flattening import Binding, EquationGroup, FlatModel
+from acausal.modeling import time
+from acausal.structure import ReducedModel
+
+
+@dataclass(frozen=True)
+class FixedStart:
+    """``sign * node = start`` of ``variable``."""
+
+    node: int
+    sign: int
+    variable: int
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What a model says about its initial time.
+
+    Attributes:
+        start_of: for every state the variable whose start it takes, and the sign; ``fixed``: whether it is fixed.
+        further: fixed starts that are not met by that: of variables that are not states, and of further
+            names of a state.
+    """
+
+    reduced: ReducedModel
+    program: Program
+    parameters: ParameterLayout
+    start_of: tuple[tuple[int, int], ...]
+    fixed: np.ndarray
+    further: tuple[FixedStart, ...]
+
+    @property
+    def nominal(self) -> np.ndarray:
+        """Typical magnitudes of the states, shape (n_states,)."""
+        n = self.reduced.model.n_variables
+        return np.asarray(
+            [self.reduced.model.nominal[v] if v < n else 1.0 for v, _ in self.start_of]
+        )
+
+    @cached_property
+    def own(self) -> tuple[FixedStart, ...]:
+        """The fixed starts that states take by themselves."""
+        return tuple(
+            FixedStart(int(state), sign, variable)
+            for state, (variable, sign), fixed in zip(
+                self.reduced.states, self.start_of, self.fixed, strict=True
+            )
+            if fixed
+        )
+
+    def names(self, starts: Sequence[FixedStart], resting: Sequence[int] = ()) -> list[str]:
+        """What `residuals` are residuals of, in words."""
+        layout = self.reduced.model.layout
+        names = [f"{layout.variable(c.variable)} (fixed start)" for c in starts]
+        for group in self.reduced.model.initial:
+            places = [layout.paths[c] for c in group.components]
+            names += [
+                f"{p} ({group.template.origin})" if p else group.template.origin for p in places
+            ]
+        states = self.reduced.states
+        return names + [f"der({self.reduced.name(int(states[i]))}) = 0" for i in resting]
+
+    def starts(self, packed: Packed) -> Any:
+        """Start values of the states, shape (n_states,)."""
+        return self._starts(packed, self.start_of)
+
+    def residuals(
+        self,
+        starts: Sequence[FixedStart],
+        resting: Sequence[int],
+        packed: Packed,
+        x: Any,
+        u: Any,
+        t0: Any,
+    ) -> Any:
+        """How far a state is from fixed starts, from the initial equations, and from rest in some states.
+
+        Fixed starts and rates are measured in nominal values, so that their squares may be added.
+        """
+        nominal = self.reduced.model.nominal
+        parts: list[Any] = []
+        if starts:
+            values = self.program.values([c.node for c in starts], t0, x, u, packed)
+            signs = np.asarray([c.sign for c in starts])
+            wanted = self._starts(packed, [(c.variable, 1) for c in starts])
+            parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
+        parts += [self._initial(group, packed, x, u, t0) for group in self.reduced.model.initial]
+        if resting:
+            rates = self.program.vector_field(t0, x, u, packed)
+            parts.append((rates / self.nominal)[np.asarray(resting)])
+        return jnp.concatenate(parts)
+
+    @cached_property
+    def _bindings(self) -> dict[int, Binding]:
+        return {b.target: b for b in self.reduced.model.starts}
+
+    def _starts(self, packed: Packed, members: Sequence[tuple[int, int]]) -> Any:
+        """Start values of variables, each with its sign; those of one expression side by side."""
+        model, n = self.reduced.model, self.reduced.model.n_variables
+        number = [model.start[v] if v < n else 0.0 for v, _ in members]
+        x = jnp.asarray(np.asarray(number, dtype=float))
+        groups: dict[Any, list[tuple[int, tuple[int, ...]]]] = {}
+        for row, (variable, _) in enumerate(members):
+            if (b := self._bindings.get(variable)) is not None:
+                groups.setdefault((b.expression, b.symbols), []).append((row, b.arguments))
+        for (expression, symbols), found in groups.items():
+            rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
+            position = self.parameters.position[arguments]  # -1: folded, or bound to what is folded
+            read = jnp.where(position >= 0, packed.values[position], 0.0)
+            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, read.T, strict=True))))
+        return x * np.asarray([sign for _, sign in members], dtype=float)
+
+    def _initial(self, group: EquationGroup, packed: Packed, x: Any, u: Any, t0: Any) -> Any:
+        """Residuals of initial equations; derivatives are taken along the vector field."""
+        columns: dict[sp.Symbol, Any] = {time: jnp.asarray(t0)}
+        for i, (symbol, order) in enumerate(
+            zip(group.template.variables, group.template.orders, strict=True)
+        ):
+            columns[symbol] = self._variables(group.variables[:, i], order, packed, x, u, t0)
+        for i, symbol in enumerate(group.template.parameters):
+            kept = self.parameters.position[group.parameters[:, i]] >= 0
+            read = (
+                self.parameters.gather(group.parameters[kept, i]).read([packed.values])
+                if kept.any()
+                else 0.0
+            )
+            columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(read)
+        for i, symbol in enumerate(group.template.modules):
+            columns[symbol] = chosen_module(packed, self.parameters.chosen(group.modules[:, i]))
+        return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
+
+    def _variables(
+        self, variables: Any, order: int, packed: Packed, x: Any, u: Any, t0: Any
+    ) -> Any:
+        resolved = [self.reduced.resolve(int(v)) for v in variables]
+        nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
+
+        def value(t: Any, x: Any) -> Any:
+            return signs * self.program.values(nodes, t, x, u, packed)
+
+        def along(function: Any) -> Any:
+            def slope(t: Any, x: Any) -> Any:
+                rate = self.program.vector_field(t, x, u, packed)
+                return jax.jvp(function, (t, x), (jnp.ones_like(t), rate))[1]
+
+            return slope
+
+        for _ in range(order):
+            value = along(value)
+        return value(jnp.asarray(t0, dtype=float), x)
+
+
+def initial_conditions(
+    reduced: ReducedModel, program: Program, parameters: ParameterLayout
+) -> Conditions:
+    """Collect what the model says about the initial time."""
+    model = reduced.model
+    members, signs = reduced.start_members
+    start_of = [(int(members[s]), int(signs[s])) for s in reduced.states]
+    fixed = [v < model.n_variables and bool(model.fixed[v]) for v, _ in start_of]
+    met = {v for v, _ in start_of}
+    resolved = [(v, *reduced.resolve(v)) for v in np.flatnonzero(model.fixed).tolist()]
+    further = [FixedStart(node, sign, v) for v, node, sign in resolved if v not in met]
+    return Conditions(
+        reduced,
+        program,
+        parameters,
+        tuple(start_of),
+        np.asarray(fixed, dtype=bool),
+        _distinct(model, further, dict(zip(reduced.states.tolist(), start_of, strict=True))),
+    )
+
+
+def _distinct(
+    model: FlatModel, starts: list[FixedStart], start_of: dict[int, tuple[int, int]]
+) -> tuple[FixedStart, ...]:
+    """The fixed starts without those that repeat a number that their node is given already."""
+    bound = {b.target for b in model.starts}
+    known = {
+        (state, sign * float(model.start[v]))
+        for state, (v, sign) in start_of.items()
+        if v < model.n_variables and model.fixed[v] and v not in bound
+    }
+    kept: list[FixedStart] = []
+    for c in starts:
+        told = c.node, c.sign * float(model.start[c.variable])
+        if c.variable in bound or told not in known:
+            kept.append(c)
+            known.add(told)
+    return tuple(kept)

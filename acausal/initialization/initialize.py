@@ -1,0 +1,318 @@
+"""Initialize: consistent values of the states from starts, fixed starts, initial equations or rest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import optimistix as optx
+
+from acausal._jax import traced
+from acausal.codegen import Dense, Packed, ParameterLayout, Program, explain_breakdown, root
+from acausal.errors import DataError, InitializationError, listing, nearest
+from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
+from acausal.structure import ReducedModel
+
+MAX_STEPS = 100
+LEFT_OVER = 1e-6
+"""How far off a condition may be, in nominal values."""
+INDEPENDENT = 1e-9
+"""Slopes below this fraction of the largest one count as none."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One initialization problem: which states move, and what they are to meet.
+
+    Attributes:
+        moved: states that may move away from their starts. ``starts``: fixed starts that are to be met.
+        resting: states that are to be at rest. ``least_squares``: whether all is met as well as can be.
+    """
+
+    moved: tuple[int, ...]
+    starts: tuple[FixedStart, ...]
+    resting: tuple[int, ...]
+    least_squares: bool
+
+
+@dataclass(frozen=True, repr=False)
+class Initialization:
+    """Initial values of the states, and how each was found.
+
+    Attributes:
+        x: the values, shape (n_states,). ``states``: their names.
+        roles: for every state "given" (by ``x0``), "fixed" (its start), "computed" (the conditions determine it),
+            "chosen" (the conditions leave it open: as near to its start as they allow), "start" (no condition
+            depends on it: it takes its start) or "fitted" (least squares).
+        conditions: in words; ``residuals``: how far each is off, in nominal values.
+    """
+
+    x: Any
+    states: tuple[str, ...]
+    roles: tuple[str, ...]
+    conditions: tuple[str, ...]
+    residuals: np.ndarray
+
+    def __repr__(self) -> str:
+        width = max(map(len, self.states), default=0)
+        lines = [
+            f"  {name:<{width}}  {float(value): .6g}  {role}"
+            for name, value, role in zip(self.states, self.x, self.roles, strict=True)
+        ]
+        lines += [
+            f"  {name}: off by {abs(float(rest)):.2g}"
+            for name, rest in zip(self.conditions, self.residuals, strict=True)
+        ]
+        n_open = sum(r in ("chosen", "start") for r in self.roles)
+        told = f"{len(self.states)} states, {len(self.conditions)} conditions, {n_open} left open"
+        return "\n".join([f"Initialization ({told})", *lines])
+
+
+@dataclass(frozen=True)
+class Initializer:
+    """The initialization problem of a model.
+
+    States with a fixed start take it. The others start from their guess and move as little as possible,
+    measured in nominal values, to satisfy the other conditions.
+    """
+
+    conditions: Conditions
+
+    @property
+    def reduced(self) -> ReducedModel:
+        """The model."""
+        return self.conditions.reduced
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the states."""
+        return tuple(self.reduced.name(int(s)) for s in self.reduced.states)
+
+    def __call__(
+        self,
+        packed: Packed,
+        x0: Mapping[str, Any] | Any = None,
+        u0: Any = None,
+        t0: float = 0.0,
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
+    ) -> Any:
+        """Initial states, shape (n_states,); see `System.initial_state`."""
+        if x0 is not None and not isinstance(x0, Mapping):
+            return self._whole(x0)
+        u, at = self._inputs(u0), jnp.asarray(t0, float)
+        x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        return x if plan is None else self._found(plan, packed, x, u, at)[0]
+
+    def report(
+        self,
+        packed: Packed,
+        x0: Mapping[str, Any] | None = None,
+        u0: Any = None,
+        t0: float = 0.0,
+        steady: bool | Sequence[str] = False,
+        least_squares: bool = False,
+    ) -> Initialization:
+        """Initial states and how each was found; see `System.initialize`."""
+        u, at = self._inputs(u0), jnp.asarray(t0, float)
+        x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        roles = [
+            "given" if name in (x0 or {}) else "fixed" if fixed else "start"
+            for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
+        ]
+        if plan is None:
+            return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
+        x, rest, slopes = self._found(plan, packed, x, u, at)
+        for i, role in zip(plan.moved, _roles(plan, np.asarray(slopes)), strict=True):
+            roles[i] = role
+        told = self.conditions.names(plan.starts, plan.resting)
+        return Initialization(x, self.names, tuple(roles), tuple(told), np.asarray(rest))
+
+    # -- the problem -------------------------------------------------------------------------------
+
+    def _whole(self, x0: Any) -> Any:
+        x = jnp.asarray(x0, dtype=float)
+        if x.shape != (len(self.names),):
+            raise DataError(
+                f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
+            )
+        return x
+
+    def _inputs(self, u0: Any) -> Any:
+        return jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
+
+    def _posed(
+        self,
+        packed: Packed,
+        given: Mapping[str, Any],
+        steady: bool | Sequence[str],
+        least_squares: bool,
+    ) -> tuple[Any, Plan | None]:
+        """The states to begin with, and what remains to be met, if anything."""
+        self._known("x0", given)
+        x = self.conditions.starts(packed)
+        for i, name in enumerate(self.names):
+            if name in given:
+                x = x.at[i].set(given[name])
+        told = np.asarray([n in given for n in self.names], dtype=bool)
+        at_will = ~told & ~self.conditions.fixed
+        if isinstance(steady, bool):
+            resting = at_will & steady
+        else:
+            self._known("steady", steady)
+            resting = np.asarray([n in steady for n in self.names], dtype=bool)
+        nodes = self.reduced.states[told]
+        starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
+        moved = ~told if least_squares else at_will
+        plan = Plan(
+            tuple(np.flatnonzero(moved).tolist()),
+            tuple(c for c in starts if c.node not in nodes),
+            tuple(np.flatnonzero(resting).tolist()),
+            least_squares,
+        )
+        overruled = bool(given) and not plan.moved  # x0 says all that fixed starts leave open
+        nothing = not (plan.starts or plan.resting or self.reduced.model.initial)
+        return x, None if overruled or nothing else plan
+
+    def _known(self, argument: str, names: Sequence[str] | Mapping[str, Any]) -> None:
+        for name in names:
+            if name not in self.names:
+                raise DataError(f"{argument}: '{name}' is not a state; {nearest(name, self.names)}")
+
+    # -- its solution ------------------------------------------------------------------------------
+
+    def _found(self, plan: Plan, packed: Packed, x: Any, u: Any, t0: Any) -> tuple[Any, Any, Any]:
+        """The states, what is left over of the conditions, and the conditions' slopes by what moved."""
+        x, rest, slopes = self._satisfied(plan, packed, x, u, t0)
+        if not plan.least_squares and not traced(rest):
+            self._check(plan, packed, x, np.asarray(rest), u, t0)
+        return x, rest, slopes
+
+    @cached_property
+    def _satisfied(self) -> Any:
+        """`_satisfy`, compiled once for every plan."""
+        return eqx.filter_jit(self._satisfy)
+
+    def _satisfy(self, plan: Plan, packed: Packed, x: Any, u: Any, t0: Any) -> tuple[Any, Any, Any]:
+        """States that satisfy the conditions, what is left over, and its slopes.
+
+        The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
+        """
+        free = np.asarray(plan.moved, dtype=np.int64)
+        nominal = self.conditions.nominal[free]
+
+        def residual(z: Any, packed: Packed, x: Any) -> Any:
+            at = x.at[free].set(z * nominal)
+            return self.conditions.residuals(plan.starts, plan.resting, packed, at, u, t0)
+
+        def stationary(z: Any, packed: Packed, x: Any) -> Any:
+            half = lambda z: jnp.sum(residual(z, packed, x) ** 2) / 2  # noqa: E731
+            return jax.grad(half)(z)
+
+        frozen, start = _stop_gradient((packed, x))
+        if not plan.moved:
+            rest = residual(jnp.zeros(0), frozen, start)
+            return x, rest, jnp.zeros((len(rest), 0))
+        z0 = x[free] / nominal
+        guess = jax.lax.stop_gradient(z0)
+        least = _least_squares if plan.least_squares else _least_change
+        z = jax.lax.stop_gradient(least(lambda z: residual(z, frozen, start), guess))
+        vanishing = stationary if plan.least_squares else residual
+        slope = jax.jacfwd(lambda z: vanishing(z, frozen, start))(z)
+        change = z0 - guess
+        z = z + change - _smallest(slope, vanishing(z, packed, x) + slope @ change)
+        at = jax.lax.stop_gradient(z)
+        rest = residual(at, frozen, start)
+        slopes = jax.jacfwd(lambda z: residual(z, frozen, start))(at)
+        return x.at[free].set(z * nominal), rest, slopes
+
+    # -- what goes wrong ---------------------------------------------------------------------------
+
+    def _check(self, plan: Plan, packed: Packed, x: Any, rest: np.ndarray, u: Any, t0: Any) -> None:
+        wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
+        if not len(wrong):
+            return
+        if not np.isfinite(rest).all():
+            start = self.conditions.starts(packed)
+            reason = explain_breakdown(self.reduced, self.conditions.program, t0, start, u, packed)
+            raise InitializationError(
+                "no initial values were found: the model's equations have no finite values at its starts. "
+                + (reason or "Give start values nearer to the solution (ac.Start).")
+            )
+        names = self.conditions.names(plan.starts, plan.resting)
+        off = [f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong]
+        moved = [self.names[i] for i in plan.moved]
+        held = self._held(plan, packed, x, wrong, u, t0)
+        told = [
+            f"the initial conditions cannot all hold; left over: {listing(off)}",
+            f"they are {len(rest)}, and {len(moved)} states may move"
+            + (f" ({listing(moved, 6)})" if moved else ""),
+            *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
+        ]
+        raise InitializationError(
+            "; ".join(told)
+            + ". Is a start fixed twice, or in conflict with a connection? Make one of "
+            "them a guess (fixed=False), give starts nearer to a solution, or take the nearest values "
+            "(least_squares=True)."
+        )
+
+    def _held(
+        self, plan: Plan, packed: Packed, x: Any, wrong: np.ndarray, u: Any, t0: Any
+    ) -> list[str]:
+        """States that may not move although conditions that are left over depend on them."""
+
+        def residual(x: Any) -> Any:
+            return self.conditions.residuals(plan.starts, plan.resting, packed, x, u, t0)
+
+        slopes = np.asarray(jax.jacfwd(residual)(x))[wrong]
+        hit = np.abs(slopes).max(axis=0, initial=0.0) > 0
+        return [n for i, n in enumerate(self.names) if hit[i] and i not in plan.moved]
+
+
+def _roles(plan: Plan, slopes: np.ndarray) -> list[str]:
+    """What determined each of the states that moved."""
+    if plan.least_squares:
+        return ["fitted"] * len(plan.moved)
+    _, sizes, rows = np.linalg.svd(slopes)
+    rank = int((sizes > INDEPENDENT * sizes.max(initial=0.0)).sum())
+    is_open = np.abs(rows[rank:]).max(axis=0, initial=0.0) > INDEPENDENT
+    touched = np.abs(slopes).max(axis=0) > 0
+    return [
+        "start" if not hit else "chosen" if undetermined else "computed"
+        for hit, undetermined in zip(touched, is_open, strict=True)
+    ]
+
+
+def _stop_gradient(tree: Any) -> Any:
+    return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
+
+
+def _least_change(residual: Any, guess: Any) -> Any:
+    """Newton's method with the smallest steps: a root near the guess also where there are many."""
+    return root(Dense(residual, _smallest), guess, max_steps=MAX_STEPS)[0]
+
+
+def _smallest(jacobian: Any, r: Any) -> Any:
+    """The smallest step that the linear equations ask for, each equation counted alike."""
+    size = jnp.max(jnp.abs(jacobian), axis=1, initial=0.0)
+    weight = 1 / jnp.where(size > 0, size, 1.0)
+    return jnp.linalg.pinv(weight[:, None] * jacobian) @ (weight * r)
+
+
+def _least_squares(residual: Any, guess: Any) -> Any:
+    solver = optx.LevenbergMarquardt(rtol=1e-10, atol=1e-12)
+    found = optx.least_squares(lambda z, _: residual(z), solver, guess, max_steps=1000, throw=False)
+    return found.value
+
+
+def initializer(
+    reduced: ReducedModel, program: Program, parameters: ParameterLayout
+) -> Initializer:
+    """The initialization problem of a model."""
+    return Initializer(initial_conditions(reduced, program, parameters))

@@ -1,0 +1,135 @@
+"""Functions for equations, under the names that a user of mathematics expects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+from sympy import (
+    acos,
+    asin,
+    atan,
+    atan2,
+    cos,
+    cosh,
+    exp,
+    log,
+    pi,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+    tanh,
+)
+
+from acausal.modeling.declarations import ModuleCall, time
+
+maximum, minimum = sp.Max, sp.Min
+
+__all__ = [
+    "Abs",
+    "acos",
+    "asin",
+    "atan",
+    "atan2",
+    "cos",
+    "cosh",
+    "exp",
+    "floor",
+    "log",
+    "maximum",
+    "minimum",
+    "pi",
+    "prescribed",
+    "sign",
+    "sin",
+    "sinh",
+    "sqrt",
+    "tan",
+    "tanh",
+    "where",
+]
+
+
+def where(condition: Any, value: Any, otherwise: Any) -> sp.Expr:
+    """``value`` where the condition holds, else ``otherwise``.
+
+    A piecewise expression; chain it for more than two branches. Derivatives are taken branch by branch.
+    """
+    return sp.Piecewise((value, condition), (otherwise, True))
+
+
+class Abs(sp.Abs):
+    """The absolute value of a real number (sympy's own expects complex ones, as in ``Abs(log(x))``)."""
+
+    def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
+        argument: Any = self.args[0]
+        return sign(argument) * argument.diff(s)
+
+
+class sign(sp.sign):  # noqa: N801 (a mathematician's name)
+    """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
+
+    def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
+        return sp.S.Zero
+
+
+class floor(sp.floor):  # noqa: N801 (a mathematician's name)
+    """The greatest integer not above the argument; piecewise constant, so its derivative counts as zero."""
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Zero."""
+        return sp.S.Zero
+
+
+class Prescribed(sp.Function):
+    """``Prescribed(n, time, q, qd, ...)``: q's n-th derivative, which is the signal at that place."""
+
+    def fdiff(self, argindex: int = 1) -> Any:
+        """With respect to time the next signal, else zero."""
+        parts: Any = self.args
+        order, _, *signals = parts
+        if argindex != 2:
+            return sp.S.Zero
+        last = order + 1 == len(signals) - 1
+        return signals[-1] if last else Prescribed(order + 1, time, *signals)
+
+    def _eval_is_real(self) -> bool:
+        return True
+
+    def _sympystr(self, printer: Any) -> str:
+        parts: Any = self.args
+        return printer._print(parts[2 + int(parts[0])])
+
+
+def prescribed(q: Any, *derivatives: Any) -> Any:
+    """The signal ``q``, whose derivatives in time are these signals, not computed but given."""
+    return Prescribed(0, time, q, *derivatives) if derivatives else q
+
+
+COMPUTABLE: tuple[type, ...] = (
+    ModuleCall,
+    Prescribed,
+    sp.Abs,
+    sp.Heaviside,
+    sp.Max,
+    sp.Min,
+    sp.Mod,
+    sp.Piecewise,
+    sp.acos,
+    sp.asin,
+    sp.atan,
+    sp.atan2,
+    sp.ceiling,
+    sp.cos,
+    sp.cosh,
+    sp.exp,
+    sp.floor,
+    sp.log,
+    sp.sign,
+    sp.sin,
+    sp.sinh,
+    sp.tan,
+    sp.tanh,
+)
+"""All functions that may stand in an equation."""

@@ -1,0 +1,9 @@
+"""Models as data: JSON netlists are read into components, and components are written as netlists.
+
+In: a file's text, or a `Component`. Out: a `Component`, or a file.
+It knows declarations and names of classes; no JAX, no flattening. Text is parsed, never run.
+"""
+
+from acausal.netlist.file import NetlistError as NetlistError
+from acausal.netlist.library import Library as Library
+from acausal.netlist.load_save import load as load, save as save

@@ -1,0 +1,150 @@
+"""Libraries of components: how a file's class names find Python classes.
+
+A library is a module. A class in it is found by its Python path, ``my_library.springs.CubicSpring``, and, where the
+module has a ``CATALOG``, by Modelica's name. These attributes of the module are read:
+
+- ``CATALOG``: Modelica's packages, each with the Python module that holds its classes and their names, such as
+  ``{"Modelica.Blocks.Math": ("blocks", ("Gain", "Add"))}``.
+- ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water()}``.
+- ``FUNCTIONS``: functions of numbers that expressions may call, by the last word of their name.
+- ``ENUMERATIONS``: names of enumeration types; their values are read as the last word, a text.
+
+Installed packages announce theirs as an entry point of the group ``acausal.libraries``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from difflib import get_close_matches
+from functools import cache, cached_property
+from importlib.metadata import entry_points
+from types import ModuleType
+from typing import Any
+
+from acausal.errors import nearest
+from acausal.modeling import Component, Connector, Input, Output
+
+
+@dataclass(frozen=True)
+class Library:
+    """The classes and constants of one module, by the names that files use."""
+
+    module: ModuleType
+
+    @cached_property
+    def catalog(self) -> dict[str, str]:
+        """Modelica's name of a class -> its Python path, whether it exists or not."""
+        packages: dict[str, tuple[str, tuple[str, ...]]] = getattr(self.module, "CATALOG", {})
+        return {
+            f"{package}.{name}": f"{self.module.__name__}.{place}.{name}"
+            for package, (place, names) in packages.items()
+            for name in names
+        }
+
+    @cached_property
+    def modelica_names(self) -> dict[str, str]:
+        """Modelica's name of a class -> its Python path, for the classes that exist."""
+        return {name: path for name, path in self.catalog.items() if self._python(path) is not None}
+
+    @cached_property
+    def written_names(self) -> dict[type, str]:
+        """The name that a class is written with: Modelica's where there is one."""
+        found: dict[type, str] = {}
+        named = [(modelica, self._python(p), p) for modelica, p in self.modelica_names.items()]
+        for modelica, cls, path in named:  # first where it is defined, then where it is shown, too
+            if cls.__module__.startswith(path.rpartition(".")[0]):
+                found.setdefault(cls, modelica)
+        for modelica, cls, _ in named:
+            found.setdefault(cls, modelica)
+        return found
+
+    def find(self, name: str) -> Any:
+        """The class of a full name, or None."""
+        return self._python(self.catalog.get(name, name))
+
+    def name_of(self, cls: type) -> str | None:
+        """The full name of a class, or None if it is not of this library."""
+        if cls in self.written_names:
+            return self.written_names[cls]
+        modules = cls.__module__.split(".")
+        for length in range(1, len(modules) + 1):  # the shortest path that leads there
+            path = ".".join((*modules[:length], cls.__qualname__))
+            if self._python(path) is cls:
+                return path
+        return None
+
+    def constant(self, name: str) -> Any:
+        """A record, a constant, the value of an enumeration or, with ``()``, a function; None if there is none."""
+        words = name.removesuffix("()").split(".")
+        if words[-1] in self.records:
+            return self.records[words[-1]]
+        if name.endswith("()"):
+            return getattr(self.module, "FUNCTIONS", {}).get(words[-1])
+        enumerations: tuple[str, ...] = getattr(self.module, "ENUMERATIONS", ())
+        return words[-1] if len(words) > 1 and words[-2] in enumerations else None
+
+    def constant_name(self, value: Any) -> str | None:
+        """How a record is written, or None if this library does not know it."""
+        for name, record in self.records.items():
+            if type(record) is type(value) and is_dataclass(record):
+                changed = [
+                    f"{field.name.rstrip('_')}={given!r}"
+                    for field in fields(record)
+                    if (given := getattr(value, field.name)) != getattr(record, field.name)
+                ]
+                return f"{name}({', '.join(changed)})"
+        return None
+
+    @cached_property
+    def records(self) -> dict[str, Any]:
+        """Constants and records by the last word of their name."""
+        return getattr(self.module, "RECORDS", {})
+
+    def _python(self, path: str) -> Any:
+        """A public class by its Python path, reached through the library's own modules only."""
+        own = self.module.__name__
+        if not path.startswith(f"{own}."):
+            return None
+        value: Any = self.module
+        for word in path[len(own) + 1 :].split("."):
+            if word.startswith("_") or not isinstance(value, ModuleType):
+                return None
+            value = getattr(value, word, None)
+            if isinstance(value, ModuleType) and not value.__name__.startswith(f"{own}."):
+                return None
+        return value if is_element(value) else None
+
+
+def is_element(value: Any) -> bool:
+    """Whether a file may name this: a class of components or connectors, or a signal."""
+    return isinstance(value, type) and (
+        issubclass(value, Component | Connector) or value in (Input, Output)
+    )
+
+
+def find(libraries: Sequence[Library], name: str) -> Any:
+    """The class of a full name.
+
+    Raises:
+        KeyError: with a clause that names the nearest known class.
+    """
+    for library in libraries:
+        found = library.find(name)
+        if found is not None:
+            return found
+    if any(name in library.catalog for library in libraries):
+        raise KeyError("the library does not cover it yet")
+    known = [n for library in libraries for n in library.modelica_names]
+    same = [n for n in known if n.rpartition(".")[2] == name.rpartition(".")[2]]
+    if same or get_close_matches(name[:200], known, n=1):
+        raise KeyError(nearest(name, same or known))
+    modules = ", ".join(library.module.__name__ for library in libraries) or "none is installed"
+    raise KeyError(f"name it as Modelica does, or by its Python path within a library ({modules})")
+
+
+@cache
+def installed() -> tuple[Library, ...]:
+    """The libraries that installed packages announce."""
+    points = sorted(entry_points(group="acausal.libraries"), key=lambda point: point.name)
+    return tuple(Library(point.load()) for point in points)

@@ -1,0 +1,79 @@
+"""Models as data: JSON netlists of components, connections and parameters, read and written.
+
+A class is named as in the Modelica Standard Library or by its Python path within a library; only classes of
+registered libraries can be reached. Expressions go through `acausal.netlist.parser`. A file cannot run code.
+
+```json
+{
+  "model": "Oscillator",
+  "parameters": {"c": 100.0},
+  "components": {
+    "fixed": {"class": "Modelica.Mechanics.Translational.Components.Fixed"},
+    "spring": {"class": "Modelica.Mechanics.Translational.Components.Spring", "with": {"c": "2*c"}},
+    "mass": {"class": "acausal.components.translational.Mass", "with": {"m": 1.0, "s": {"start": 0.1, "fixed": true}}}
+  },
+  "connections": [["fixed.flange", "spring.flange_a"], ["spring.flange_b", "mass.flange_a"]],
+  "initial_equations": ["mass.v = 0"]
+}
+```
+
+`netlist.schema.json` beside this module describes the format.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from types import ModuleType
+
+from acausal.errors import ModelError
+from acausal.modeling import Component
+from acausal.netlist import file as netlist_file
+from acausal.netlist.library import Library, installed
+from acausal.netlist.model import Netlist
+from acausal.netlist.reader import build
+from acausal.netlist.writer import Writer
+
+
+def load(path: str | Path, libraries: Sequence[ModuleType] = ()) -> Netlist:
+    """Read a model from a JSON netlist.
+
+    Arguments:
+        path: the file.
+        libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
+
+    Returns:
+        The model, a `Component` with the parts of the file.
+
+    Raises:
+        ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
+            that does not exist, an expression that is malformed.
+    """
+    path, known = Path(path), _libraries(libraries)
+    return build(netlist_file.read(path), path.name, known)
+
+
+def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = ()) -> None:
+    """Write a model as a JSON netlist; `load` gives the same model back.
+
+    Parts whose class is in a library are written by its name; other composites as subsystems. What was read from
+    a file and not changed is written as it stood there.
+
+    Arguments:
+        model: a composite: parts, parameters, connections. Its class may not state equations of its own.
+        path: the file.
+        libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
+
+    Raises:
+        ModelError: for a part of no library, or a value that a file cannot hold (a user's network).
+    """
+    if not isinstance(model, Component):
+        raise ModelError(f"save needs a Component, got {type(model).__name__}")
+    netlist_file.write(Writer(_libraries(libraries)).model(model), Path(path))
+
+
+def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
+    for module in modules:
+        if not isinstance(module, ModuleType):
+            raise ModelError(f"libraries=[...] lists modules, got {module!r:.60}")
+    return (*installed(), *(Library(module) for module in modules))

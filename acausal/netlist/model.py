@@ -1,0 +1,195 @@
+"""What a netlist becomes: a component that remembers its file, and what names and modifiers mean in it."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+import sympy as sp
+
+from acausal.errors import nearest
+from acausal.modeling import Component, Connector, Eq, ModuleReference
+
+START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSelect": "state"}
+"""Attributes of a variable in a file -> field of `Start`."""
+
+INDEX = r"\[(\d{1,6}(?:,\s*\d{1,6})*)\]"
+STEP = re.compile(rf"([A-Za-z]\w*)|{INDEX}", re.ASCII)
+PATH = re.compile(rf"[A-Za-z]\w*({INDEX})?(\.[A-Za-z]\w*({INDEX})?)*", re.ASCII)
+
+
+@dataclass
+class FileRecord:
+    """What a file says about a model beyond its parts and connections.
+
+    Attributes:
+        title: name of the model.
+        experiment: keys of the file that are not part of the model.
+        initial: initial equations, as text and as equation.
+        bindings: variables that are given a value.
+        texts: (part, modifier) -> what stands there and the state it led to; part "" are the model's parameters.
+        wires: pairs that are connected, and how many connections each pair made.
+        made: by part, the arguments that it was made with.
+        named: the names that classes of parts and connectors have in the file.
+        placed: connectors that stand among the components.
+    """
+
+    title: str = ""
+    experiment: dict[str, Any] = field(default_factory=dict[str, Any])
+    initial: list[tuple[str, Eq]] = field(default_factory=list[tuple[str, Eq]])
+    bindings: list[Eq] = field(default_factory=list[Eq])
+    texts: dict[tuple[str, str], tuple[Any, Any]] = field(
+        default_factory=dict[tuple[str, str], tuple[Any, Any]]
+    )
+    wires: list[tuple[list[str], int]] = field(default_factory=list[tuple[list[str], int]])
+    made: dict[str, dict[str, Any]] = field(default_factory=dict[str, dict[str, Any]])
+    named: dict[str, str] = field(default_factory=dict[str, str])
+    placed: list[str] = field(default_factory=list[str])
+
+
+class Netlist(Component):
+    """A model read from a file: a component whose equations are those of the file."""
+
+    _file: FileRecord
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.__dict__["_file"] = FileRecord()
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The keys of the file that are not part of the model: times of an experiment, notes."""
+        return self._file.experiment
+
+    def equations(self) -> Iterator[Eq]:
+        """Variables that the file gives a value."""
+        yield from self._file.bindings
+
+    def initial_equations(self) -> Iterator[Eq]:
+        """The initial equations of the file."""
+        yield from (equation for _, equation in self._file.initial)
+
+    def _label(self) -> str:
+        return super()._label() if self._path() else self._file.title or "Netlist"
+
+    def remember(self, part: str, key: str, raw: Any) -> None:
+        """Note what the file says about a modifier of a part ("" for the model itself)."""
+        owner = attribute(self, part) if part else self
+        self._file.texts[part, key] = raw, state(owner, key)
+
+    def tell_apart(self) -> None:
+        """Make the equations of the file part of what tells this model from others with the same parts."""
+        initial = tuple(text for text, _ in self._file.initial)
+        self._constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
+
+    def settle(self) -> None:
+        """Take the present state as what the file led to, after an enclosing file has modified this model."""
+        for (part, key), (raw, _) in list(self._file.texts.items()):
+            self.remember(part, key, raw)
+        for child in self._children.values():
+            if isinstance(child, Netlist):
+                child.settle()
+
+
+def attribute(model: Component, path: str) -> Any:
+    """What a dotted name with indices (counted from 1) means in a model, or None.
+
+    Raises:
+        DeclarationError: for a connector or variable that exists only with an option.
+    """
+    if not PATH.fullmatch(path):
+        return None
+    value: Any = model
+    for step in STEP.finditer(path):
+        if step[2] is not None:
+            for index in step[2].split(","):
+                if not isinstance(value, Sequence) or not 1 <= int(index) <= len(
+                    cast(Sequence[Any], value)
+                ):
+                    return None
+                value = value[int(index) - 1]
+        else:
+            value = _step(value, step[1])
+    return value
+
+
+def _step(value: Any, name: str) -> Any:
+    """A member by its name; of a list of parts the list of their members, as in ``sine.y``."""
+    match value:
+        case Component():
+            return _member(value, name)
+        case Connector():
+            return getattr(value, name) if name in value.declarations else None
+        case list():
+            members = [_step(v, name) for v in cast(list[Any], value)]
+            return members if members and all(m is not None for m in members) else None
+        case _:
+            return None
+
+
+def state(part: Any, key: str) -> tuple[Any, ...]:
+    """What modifiers of that name have made of a part: unchanged as long as it holds the same objects."""
+    if not isinstance(part, Component):
+        return ()
+    if key in part._children:
+        child = part._children[key]
+        return tuple(
+            v
+            for name in (*child._declared, *child._dynamic, *child._children)
+            for v in state(child, name)
+        )
+    own = [part._modifiers.get(key), part._options.get(key), part._constants.get(key)]
+    inner = [v for name, v in part._modifiers.items() if name.startswith(f"{key}.")]
+    return (*own, *inner)
+
+
+def _member(component: Component, name: str) -> Any:
+    """A part, connector, declaration or plain value of a component, nothing that could be called."""
+    if (
+        name not in component._children
+        and name not in component._declared
+        and name not in component.__dict__
+    ):
+        return None
+    value = getattr(component, name)
+    known = isinstance(value, Component | Connector | sp.Expr | ModuleReference)
+    return value if known or not callable(value) else None
+
+
+def is_left_out(model: Component, path: str) -> bool:
+    """Whether a name means a connector that an option has left out."""
+    owner_path, _, name = path.rpartition(".")
+    owner = attribute(model, owner_path) if owner_path else model
+    if isinstance(owner, list) and owner:
+        owner = cast(list[Any], owner)[0]
+    if not isinstance(owner, Component):
+        return False
+    name = name.partition("[")[0]
+    declared = owner._declared.get(name)
+    if declared is None:
+        return False
+    when = declared._when if isinstance(declared, Connector) else declared.when
+    return when is not None and not owner._exists(when)
+
+
+def hint(model: Component, text: str) -> str:
+    """A clause that names the nearest thing that can be connected."""
+    head, _, tail = text.rpartition(".")
+    owner = attribute(model, head) if head else model
+    if isinstance(owner, Component):
+        return nearest(tail, [*(n for n, _ in owner._declarations()), *owner._children])
+    return nearest(text.partition(".")[0], model._children)
+
+
+def arguments_of(cls: Any) -> dict[str, Any]:
+    """The arguments of a class that are no declarations, with their defaults."""
+    found: dict[str, Any] = {}
+    for function in (cls.__new__, cls.__init__):
+        for name, parameter in inspect.signature(function).parameters.items():
+            named = parameter.kind in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY)
+            if named and name not in ("self", "cls") and name not in cls._declared:
+                found[name] = parameter.default
+    return found

@@ -1,0 +1,114 @@
+"""Modifiers in a netlist: what the entries of ``with`` do to a part."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, cast
+
+from acausal.errors import nearest, shortened
+from acausal.modeling import (
+    Component,
+    Connector,
+    Declaration,
+    Eq,
+    Input,
+    Module,
+    Option,
+    Parameter,
+    Variable,
+)
+from acausal.netlist.file import NetlistError, kind, within
+from acausal.netlist.model import START_KEYS, arguments_of
+from acausal.netlist.scope import IGNORED_KEYS, Scope
+
+
+def is_structural(cls: Any, key: str) -> bool:
+    """Whether a part must be made with that modifier: an option, a vector, an argument of its class."""
+    declared = cls._declared.get(key)
+    if isinstance(declared, Declaration):
+        vector = isinstance(declared, Parameter) and declared.shape is not None
+        return vector or isinstance(declared, Option)
+    return declared is None and key in arguments_of(cls)
+
+
+def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:
+    """Apply one modifier to a part; a mapping modifies the variables of a connector or the parts within.
+
+    Raises:
+        NetlistError: in one sentence, with the place.
+    """
+    if key in part._children:
+        if not isinstance(raw, Mapping):
+            raise NetlistError(
+                f"{where} is a component; its modifiers are an object, not {kind(raw)}"
+            )
+        for name, inner in raw.items():
+            modify(scope, part._children[key], name, inner, f"{where}.{shortened(name)}")
+        return
+    declared = part._declaration(key)
+    match declared:
+        case Connector():
+            value = _connector(scope, raw, where)
+        case Variable():
+            value = _variable(scope, part, key, raw, where)
+        case Parameter():
+            value = _parameter(scope, raw, where)
+        case Option():
+            value = scope.option(declared, raw, where)
+        case Module():
+            raise NetlistError(f"{where} is a network, which a file cannot hold; give it in Python")
+        case None if key in part.DISCRETE and isinstance(raw, Mapping):
+            scope.start(raw, where)  # checked, but there is nothing to start
+            return
+        case _:
+            known = [*(n for n, _ in part._declarations()), *part._children]
+            hint = nearest(key, known)
+            raise NetlistError(f"{where}: {part._label()} has no '{shortened(key)}'; {hint}")
+    if value is not None:
+        within(where, lambda: part.modify(**{key: value}))
+
+
+def _connector(scope: Scope, raw: Any, where: str) -> Any:
+    if not isinstance(raw, Mapping):
+        raise NetlistError(f"{where} is a connector; modify its variables by an object")
+    return {name: scope.start(v, f"{where}.{shortened(name)}") for name, v in raw.items()}
+
+
+def _parameter(scope: Scope, raw: Any, where: str) -> Any:
+    """The value of a parameter; of one with attributes what stands under "=", None if nothing does."""
+    if not isinstance(raw, Mapping):
+        return scope.value(raw, where)
+    for key in raw:
+        if key not in ("=", "start", "fixed", "nominal", *IGNORED_KEYS):
+            raise NetlistError(
+                f"{where}: unknown attribute '{shortened(key)}'; a parameter's value stands under '='"
+            )
+    if raw.get("fixed", True) is not True:
+        rest = {key: raw[key] for key in ("start", "fixed") if key in raw}
+        return scope.start(rest, where)
+    given = raw.get("=", raw.get("start"))
+    return None if given is None else scope.value(given, where)
+
+
+def _variable(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Any:
+    """The attributes of a variable; a value for it becomes one more equation of the model."""
+    attributes = cast(Mapping[str, Any], raw) if isinstance(raw, Mapping) else {"=": raw}
+    if "=" in attributes:
+        _bind(scope, part, key, attributes["="], where)
+    rest = {k: v for k, v in attributes.items() if k != "="}
+    start = scope.start(rest, where)
+    return start if any(k in START_KEYS for k in rest) else None
+
+
+def _bind(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:
+    if isinstance(part._declaration(key), Input):
+        raise NetlistError(f"{where} is an input; connect a source to it")
+    value, variable = scope.value(raw, where), getattr(part, key)
+    pairs = [(variable, value)]
+    if isinstance(variable, Sequence) and isinstance(value, Sequence):
+        values, variables = cast(Sequence[Any], value), cast(Sequence[Any], variable)
+        if len(values) != len(variables):
+            raise NetlistError(f"{where} has {len(variables)} elements, not {len(values)}")
+        pairs = list(zip(variables, values, strict=True))
+    for left, right in pairs:
+        scope.model._file.bindings.append(within(where, lambda a=left, b=right: Eq(a, b)))

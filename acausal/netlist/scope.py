@@ -1,0 +1,151 @@
+"""What names and values in a netlist mean: expressions, classes, options and starts, seen from one model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, cast
+
+import sympy as sp
+
+from acausal.errors import nearest, shortened
+from acausal.modeling import STATE_SELECT, Option, Parameter, Reference, Start, time
+from acausal.netlist import library
+from acausal.netlist.file import NetlistError, kind, within
+from acausal.netlist.library import Library
+from acausal.netlist.model import START_KEYS, Netlist, attribute
+from acausal.netlist.parser import parse
+
+IGNORED_KEYS = ("displayUnit", "unit", "quantity", "min", "max")
+"""Attributes of a modifier that change no result."""
+
+
+class Scope:
+    """Reads the values of one model of a file.
+
+    Arguments:
+        model: whose names expressions see.
+        libraries: whose classes, records and enumerations they see.
+    """
+
+    def __init__(self, model: Netlist, libraries: tuple[Library, ...]) -> None:
+        self.model, self.libraries = model, libraries
+
+    def lookup(self, name: str) -> Any:
+        """What a name in an expression means.
+
+        Raises:
+            KeyError: if it means nothing.
+        """
+        value = attribute(self.model, name)
+        if value is not None:
+            return value
+        for known in self.libraries:
+            value = known.constant(name)
+            if value is not None:
+                return value
+        if name == "time":
+            return time
+        raise KeyError(name)
+
+    def find(self, name: Any, where: str) -> Any:
+        """The class of that name."""
+        if not isinstance(name, str):
+            raise NetlistError(f"{where}: the name of a class is needed, not {kind(name)}")
+        try:
+            return library.find(self.libraries, name)
+        except KeyError as error:
+            hint = f"there is no class '{shortened(name)}'; {error.args[0]}"
+            raise NetlistError(f"{where}: {hint}") from None
+
+    def value(self, raw: Any, where: str) -> Any:
+        """A number, truth value, list, or the value of an expression."""
+        match raw:
+            case bool() | int() | float():
+                return raw
+            case str():
+                return within(where, lambda: parse(raw, self.lookup))
+            case list():
+                values = cast(list[Any], raw)
+                return [self.value(v, f"{where}[{i}]") for i, v in enumerate(values)]
+            case Mapping() if "=" in raw:
+                return self.value(raw["="], where)
+            case _:
+                raise NetlistError(f"{where}: {kind(raw)} is no value")
+
+    def option(self, option: Option, raw: Any, where: str) -> Any:
+        """A structural choice; one of its choices may stand there as it is."""
+        if isinstance(raw, str) and raw in (option.choices or ()):
+            return raw
+        return _settled(option, self.value(raw, where), where)
+
+    def argument(self, raw: Any, where: str) -> Any:
+        """An argument of a class: a class by its name, a value, or a list of them."""
+        if isinstance(raw, list):
+            items = cast(list[Any], raw)
+            return [self.argument(item, f"{where}[{i}]") for i, item in enumerate(items)]
+        if isinstance(raw, str):
+            try:
+                return library.find(self.libraries, raw)
+            except KeyError:
+                pass
+        return self.value(raw, where)
+
+    def start(self, raw: Any, where: str) -> Start:
+        """The attributes of a variable."""
+        if not isinstance(raw, Mapping):
+            raise NetlistError(
+                f'{where}: a variable\'s attributes are an object such as {{"start": 0}}, not {kind(raw)}'
+            )
+        values: dict[str, Any] = {}
+        for key, given in cast(Mapping[str, Any], raw).items():
+            if key in IGNORED_KEYS:
+                continue
+            if key not in START_KEYS:
+                raise NetlistError(
+                    f"{where}: unknown attribute '{shortened(key)}'; {nearest(key, START_KEYS)}"
+                )
+            bare = key == "stateSelect" and given in STATE_SELECT
+            value = given if bare else self.value(given, f"{where}.{key}")
+            values[START_KEYS[key]] = _attribute(key, value, f"{where}.{key}")
+        return within(where, lambda: Start(**values))
+
+
+def _settled(option: Option, value: Any, where: str) -> Any:
+    """The value of a structural choice: expressions of parameters are reckoned here and now."""
+    if isinstance(value, list):
+        return [_settled(option, v, where) for v in cast(list[Any], value)]
+    if isinstance(value, sp.Expr):
+        value = _reckoned(value, where, ())
+    whole = isinstance(option.default, int) and not isinstance(option.default, bool)
+    return int(value) if whole and isinstance(value, float) and value.is_integer() else value
+
+
+def _reckoned(expression: sp.Expr, where: str, via: tuple[sp.Basic, ...]) -> float:
+    values: dict[Any, Any] = {}
+    for symbol in sorted(expression.free_symbols, key=str):
+        if not isinstance(symbol, Reference) or not isinstance(symbol.declaration, Parameter):
+            raise NetlistError(
+                f"{where}: '{symbol}' changes with time; a structural choice is fixed"
+            )
+        given = symbol.owner._modifiers.get(symbol.path, symbol.declaration.default)
+        if isinstance(given, sp.Expr) and symbol not in via:
+            given = _reckoned(given, where, (*via, symbol))
+        if not isinstance(given, int | float):
+            raise NetlistError(f"{where}: '{symbol}' has no number; a structural choice is fixed")
+        values[symbol] = given
+    return float(cast(Any, expression.xreplace(values)))
+
+
+def _attribute(key: str, value: Any, where: str) -> Any:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    match key:
+        case "fixed" if not isinstance(value, bool):
+            raise NetlistError(f"{where}: true or false is needed, not {kind(value)}")
+        case "nominal" if not number:
+            raise NetlistError(f"{where}: a number is needed, not {kind(value)}")
+        case "stateSelect" if not isinstance(value, str):
+            raise NetlistError(f"{where}: a StateSelect is needed, not {kind(value)}")
+        case "start" if not number and not isinstance(value, list | sp.Expr | bool):
+            raise NetlistError(f"{where}: a number or an expression is needed, not {kind(value)}")
+        case _:
+            return float(value) if isinstance(value, bool) and key == "start" else value

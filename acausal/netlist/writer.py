@@ -1,0 +1,387 @@
+"""Write: a component tree becomes a netlist document.
+
+What came from a file and is unchanged is written as it stood there. Of a part whose class is in a library its name is
+written and how it differs from a fresh one; any other part is written as a subsystem.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import ModelError
+from acausal.modeling import (
+    Component,
+    Connector,
+    InitialParameter,
+    Input,
+    Module,
+    Option,
+    Output,
+    Parameter,
+    Reference,
+    Start,
+    Variable,
+    references,
+)
+from acausal.netlist.file import EXPERIMENT_KEYS, NetlistError, within
+from acausal.netlist.library import Library
+from acausal.netlist.model import START_KEYS, Netlist, arguments_of, state
+from acausal.netlist.printer import written
+
+LEADING = ("start_time", "stop_time", "compare")
+"""Keys of an experiment that come before the model."""
+
+
+class Writer:
+    """Writes a component tree as a document."""
+
+    def __init__(self, libraries: tuple[Library, ...]) -> None:
+        self.libraries = libraries
+
+    def model(
+        self, model: Component, said: Mapping[str, Any] = MappingProxyType({})
+    ) -> dict[str, Any]:
+        """The document of a composite.
+
+        Arguments:
+            said: modifiers of its parts that the enclosing model's file states already.
+
+        Raises:
+            NetlistError: in one sentence, for what a file cannot hold.
+        """
+        read = model if isinstance(model, Netlist) else None
+        if read is None:
+            _check_statements(model)
+        experiment = read._file.experiment if read else {}
+        connectors = self._connectors(model)
+        placed = {n: {"class": connectors.pop(n)} for n in (read._file.placed if read else ())}
+        parts = {
+            name: self._part(model, name, part, _inner(said, name))
+            for name, part in model._children.items()
+        }
+        sections = {
+            "parameters": self._parameters(model),
+            "connectors": connectors,
+            "components": {**placed, **parts},
+            "connections": _connections(model),
+            "initial_equations": [text for text, _ in read._file.initial] if read else [],
+        }
+        document: dict[str, Any] = {"model": read._file.title if read else type(model).__name__}
+        if read and not read._file.title:
+            del document["model"]
+        document |= {key: experiment[key] for key in LEADING if key in experiment}
+        document |= {key: section for key, section in sections.items() if section}
+        return document | {key: experiment[key] for key in EXPERIMENT_KEYS if key in experiment}
+
+    # -- what a model declares -----------------------------------------------------------------------
+
+    def _parameters(self, model: Component) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        texts = model._file.texts if isinstance(model, Netlist) else {}
+        for (part, name), (raw, before) in texts.items():
+            if not part:
+                kept = _same(before, state(model, name))
+                found[name] = raw if kept else self._parameter(model, name)
+        for name, declared in model._declarations():
+            if isinstance(declared, Parameter | InitialParameter) and name not in found:
+                found[name] = self._parameter(model, name)
+        return found
+
+    def _parameter(self, model: Component, name: str) -> Any:
+        declared = model._declaration(name)
+        if isinstance(declared, InitialParameter):
+            guess = model._modifiers.get(name, Start()).value
+            unit = {"unit": declared.unit} if declared.unit else {}
+            start = self._json(model, declared.start if guess is None else guess, name)
+            return {"start": start, "fixed": False, **unit}
+        if not isinstance(declared, Parameter):
+            return self._json(model, model._constants[name], name)
+        value = model._modifiers.get(name, declared.default)
+        if not _is_within(model, value):  # given from outside: the enclosing model says so
+            value = declared.default
+        if callable(value) and not isinstance(value, sp.Expr):
+            value = value(model)
+        text = None if value is None else self._json(model, value, name)
+        attributes = {
+            key: given
+            for key in ("unit", "min", "max")
+            if (given := getattr(declared, key)) not in ("", None)
+        }
+        return (
+            {"=": text, **attributes}
+            if attributes and declared.shape is None and text is not None
+            else text
+        )
+
+    def _connectors(self, model: Component) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for name, declared in model._declarations():
+            where = f"{model._label()}.{name}"
+            if isinstance(declared, Connector):
+                found[name] = self._class(type(declared), where, _known(model, name))
+            elif isinstance(declared, Input | Output) and declared.shape is None:
+                role = Input if isinstance(declared, Input) else Output
+                kind = self._class(role, where, _known(model, name))
+                found[name] = {"class": kind, "unit": declared.unit} if declared.unit else kind
+            elif isinstance(declared, InitialParameter):
+                pass  # a parameter of the file
+            elif isinstance(declared, Variable | Module) and not isinstance(model, Netlist):
+                raise NetlistError(
+                    f"{where}: a file holds parts, parameters and scalar signals; "
+                    f"put {type(model).__name__} into a library"
+                )
+        return found
+
+    # -- parts ---------------------------------------------------------------------------------------
+
+    def _part(
+        self, model: Component, name: str, part: Component, said: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        texts: Mapping[tuple[str, str], tuple[Any, Any]]
+        texts = model._file.texts if isinstance(model, Netlist) else {}
+        cls = None if isinstance(part, Netlist) else self._public(type(part))
+        if cls is not None:
+            known = _known(model, name)
+            entry: dict[str, Any] = {"class": self._class(cls, part._label(), known)}
+            changed = self._modifiers(model, part, cls, said)
+        elif part._children:
+            kept = {
+                key: raw
+                for (owner, key), (raw, before) in texts.items()
+                if owner == name and _same(before, state(part, key))
+            }
+            entry = self.model(part, {**said, **kept})
+            changed = {
+                key: self._json(model, value, f"{part._label()}.{key}")
+                for key, value in part._modifiers.items()
+                if not _is_within(part, value)
+            }
+        else:
+            self._class(type(part), part._label())
+            raise AssertionError
+        given: dict[str, Any] = {}
+        for key in dict.fromkeys((*(k for owner, k in texts if owner == name), *changed)):
+            kept = (name, key) in texts and _same(texts[name, key][1], state(part, key))
+            if kept:
+                given[key] = texts[name, key][0]
+            elif key in changed:
+                given[key] = changed[key]
+        return {**entry, "with": given} if given else entry
+
+    def _modifiers(
+        self, model: Component, part: Component, cls: Any, said: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """What a part of a library must be given to become what it is."""
+        made = model._file.made.get(part._name) if isinstance(model, Netlist) else None
+        arguments = made or self._arguments(part, cls)
+        try:
+            fresh = cls(**arguments)
+        except Exception:  # whatever a constructor does not like
+            raise _unwritable(part) from None
+        found = {
+            key: self._json(model, value, f"{part._label()}.{key}", cls._declared.get(key))
+            for key, value in arguments.items()
+            if not isinstance(cls._declared.get(key), Option) or value != cls._declared[key].default
+        }
+        return found | self._differences(model, part, fresh, (part, fresh), said)
+
+    def _arguments(self, part: Component, cls: Any) -> dict[str, Any]:
+        """Options, vectors, and arguments of the class that it keeps as attributes of the same name."""
+        found = dict(part._options)
+        for name, value in part._modifiers.items():
+            declared = cls._declared.get(name)
+            if isinstance(declared, Parameter) and declared.shape is not None:
+                found[name] = value
+        for name, default in arguments_of(cls).items():
+            if name in part._constants and part._constants[name] != default:
+                found[name] = part._constants[name]
+        return found
+
+    def _differences(
+        self,
+        model: Component,
+        part: Component,
+        fresh: Component,
+        roots: tuple[Component, Component],
+        said: Mapping[str, Any],
+    ) -> dict[str, Any]:
+        """Modifiers that make a fresh part, and the parts within, equal to this one."""
+        alike = [(n, type(c)) for n, c in part._children.items()] == [
+            (n, type(c)) for n, c in fresh._children.items()
+        ]
+        constants = [
+            _comparable(root, c._constants) for root, c in zip(roots, (part, fresh), strict=True)
+        ]
+        if (
+            not alike
+            or len(part._connections) != len(fresh._connections)
+            or constants[0] != constants[1]
+        ):
+            raise _unwritable(part)
+        found: dict[str, Any] = {}
+        given = {**part._options, **part._modifiers}
+        before = {**fresh._options, **fresh._modifiers}
+        for key, value in given.items():
+            if key in said or key.partition(".")[0] in said:
+                continue
+            if key in before and _comparable(roots[0], value) == _comparable(roots[1], before[key]):
+                continue
+            text = self._json(model, value, f"{part._label()}.{key}", part._declared.get(key))
+            connector, _, variable = key.partition(".")
+            if variable:
+                found.setdefault(connector, {})[variable] = text
+            else:
+                found[key] = text
+        for name, child in part._children.items():
+            inner = self._differences(
+                model, child, fresh._children[name], roots, _inner(said, name)
+            )
+            if inner:
+                found[name] = inner
+        return found
+
+    def _public(self, cls: Any) -> Any:
+        """The class, if it is in a library."""
+        return cls if any(library.name_of(cls) for library in self.libraries) else None
+
+    def _class(self, cls: type, where: str, known: str | None = None) -> str:
+        """The name of a class: the one that the file has for it, if it still means that class."""
+        for library in self.libraries:
+            if known is not None and library.find(known) is cls:
+                return known
+            name = library.name_of(cls)
+            if name is not None:
+                return name
+        raise NetlistError(f"{where}: class {cls.__name__} is in no library; pass libraries=[...]")
+
+    # -- values --------------------------------------------------------------------------------------
+
+    def _json(self, model: Component, value: Any, where: str, declared: Any = None) -> Any:
+        match value:
+            case bool() | int() | float():
+                return value
+            case str():
+                choices = declared.choices if isinstance(declared, Option) else None
+                return value if value in (choices or ()) else f'"{value}"'
+            case Start():
+                return self._start(model, value, where)
+            case np.ndarray():
+                return self._json(model, value.tolist(), where)
+            case list() | tuple():
+                return [self._json(model, v, where) for v in cast(Sequence[Any], value)]
+            case sp.Expr() if value.is_number:
+                return float(value)
+            case sp.Expr():
+                names = {r: sp.Symbol(_path(model, r, where), real=True) for r in references(value)}
+                return within(where, lambda: written(value.xreplace(names)))
+            case type():
+                return self._class(value, where)
+            case _ if isinstance(declared, Module):
+                raise NetlistError(
+                    f"{where}: a file cannot hold a network; save the model without it and give it after loading, "
+                    f"by modify({where.rpartition('.')[2]}=...)"
+                )
+            case _:
+                for library in self.libraries:
+                    name = library.constant_name(value)
+                    if name is not None:
+                        return name
+                raise NetlistError(f"{where}: a file cannot hold {value!r:.60}")
+
+    def _start(self, model: Component, start: Start, where: str) -> dict[str, Any]:
+        given = {key: getattr(start, name) for key, name in START_KEYS.items()}
+        state = {"stateSelect": f"StateSelect.{start.state}"} if start.state is not None else {}
+        return {
+            key: self._json(model, value, where)
+            for key, value in given.items()
+            if value is not None and key != "stateSelect"
+        } | state
+
+
+def _inner(said: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    inner = said.get(name, {})
+    return cast(Mapping[str, Any], inner) if isinstance(inner, Mapping) else {}
+
+
+def _known(model: Component, name: str) -> str | None:
+    return model._file.named.get(name) if isinstance(model, Netlist) else None
+
+
+def _check_statements(model: Component) -> None:
+    for stated in (model.equations, model.initial_equations):
+        if next(iter(stated()), None) is not None:
+            raise NetlistError(
+                f"{model._label()} states equations of its own, which a file cannot hold; "
+                "put its class into a library, or the equations into a part of a library"
+            )
+
+
+def _connections(model: Component) -> list[list[str]]:
+    """What the file connected, then what was connected since."""
+    found: list[list[str]] = []
+    count = 0
+    if isinstance(model, Netlist):
+        found = [list(pair) for pair, _ in model._file.wires]
+        count = sum(made for _, made in model._file.wires)
+    where = model._label()
+    return found + [
+        [_path(model, end, where) for end in pair] for pair in model._connections[count:]
+    ]
+
+
+def _path(model: Component, end: Any, where: str) -> str:
+    """Dotted name of an endpoint or reference, seen from a model.
+
+    Raises:
+        NetlistError: if it lies outside of the model.
+    """
+    owner, local = (end.owner, end.path) if isinstance(end, Reference) else (end._owner, end._name)
+    names = [local]
+    while owner is not model:
+        if owner is None:
+            raise NetlistError(
+                f"{where} refers to '{local}', which is not part of {model._label()}"
+            )
+        names.append(owner._name)
+        owner = owner._parent
+    return ".".join(reversed(names))
+
+
+def _is_within(model: Component, value: Any) -> bool:
+    """Whether all references of a value lie within a model."""
+    if isinstance(value, list | tuple | np.ndarray):
+        return all(_is_within(model, v) for v in cast(Sequence[Any], value))
+    if not isinstance(value, sp.Expr):
+        return True
+    owners = [reference.owner for reference in references(value)]
+    return all(owner is model or model in owner._ancestors() for owner in owners)
+
+
+def _comparable(root: Component, value: Any) -> Any:
+    """A value with names instead of references, so that those of like parts are equal."""
+    match value:
+        case sp.Expr() if _is_within(root, value):
+            names = {r: sp.Symbol(_path(root, r, "")) for r in references(value)}
+            return value.xreplace(names)
+        case list() | tuple() | np.ndarray():
+            return [_comparable(root, v) for v in cast(Sequence[Any], value)]
+        case dict():
+            return {k: _comparable(root, v) for k, v in cast(dict[str, Any], value).items()}
+        case _:
+            return value
+
+
+def _same(before: Sequence[Any], now: Sequence[Any]) -> bool:
+    return len(before) == len(now) and all(a is b for a, b in zip(before, now, strict=True))
+
+
+def _unwritable(part: Component) -> ModelError:
+    return NetlistError(
+        f"{part._label()} was made with arguments that a file cannot hold; give modifiers instead, or take its "
+        "class out of the library, so that it is written as a subsystem"
+    )

@@ -1,0 +1,54 @@
+"""The networks among a model's parameters: found, corrected after training."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import equinox as eqx
+import jax
+
+from acausal.data import Signal
+from acausal.networks.energy import Levelled
+from acausal.networks.scaled import Potential
+from acausal.networks.zero import OffsetCorrected
+
+
+def modules(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
+    """The modules (networks, tables) among a model's parameters, by name."""
+    return {name: leaf for name, leaf in params.items() if isinstance(leaf, eqx.Module)}
+
+
+def networks(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
+    """The modules that hold something to train: floating-point arrays that are no time base or table."""
+    return {name: module for name, module in modules(params).items() if _trainable(module)}
+
+
+def _trainable(module: eqx.Module) -> bool:
+    arrays = jax.tree.leaves(eqx.filter(module, eqx.is_inexact_array))
+    return bool(arrays) and not isinstance(module, Signal)
+
+
+def remove_offset(
+    params: Mapping[str, Any], names: tuple[str, ...] | None = None
+) -> dict[str, Any]:
+    """The parameters with networks wrapped in `OffsetCorrected` (all networks, or those named).
+
+    Of an energy the slope at zero is removed, which is the offset of its law.
+    """
+    chosen = networks(params) if names is None else names
+    return {n: _corrected(leaf) if n in chosen else leaf for n, leaf in params.items()}
+
+
+def _corrected(network: Any) -> Any:
+    if isinstance(network, Potential):
+        return replace(network, net=Levelled(network.net, network.inputs))
+    return OffsetCorrected(network)
+
+
+def output_scale(module: Any) -> float:
+    """The typical output of a network's law: its ``output_scale`` if it has one, else 1."""
+    if isinstance(module, OffsetCorrected):
+        return output_scale(module.net)
+    return float(getattr(module, "output_scale", 1.0))

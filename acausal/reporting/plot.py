@@ -1,0 +1,108 @@
+"""Plots of a training: what a network has learned and where to trust it, and how the loss fell."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from acausal.training import Band, Fit, History, Seen
+
+TRUTH = "#22303c"
+LEARNED = ("#1f77b4", "#d1603d", "#3d8c5a", "#8a5a9e", "#b8860b", "#417f8a")
+"""Colours of learned curves, in turn."""
+GUIDE = "#8795a1"
+SPAN = 3.0
+"""Learned functions are drawn over this many sigmas of their inputs."""
+
+
+def plot_learned(
+    ax: Axes,
+    functions: Mapping[str, Callable[..., Any]],
+    seen: Seen,
+    *,
+    truth: Callable[[Any], Any] | None = None,
+    xlabel: str = "",
+    ylabel: str = "",
+) -> None:
+    """Draw learned functions of one argument over what they have seen.
+
+    Vertical lines mark 1 sigma (dashed) and 2 sigma (solid) of the inputs in training; beyond 2 sigma, shaded,
+    a function extrapolates.
+
+    Arguments:
+        functions: by label; scalar functions that JAX can map.
+        seen: statistics of the argument in training.
+        truth: the true function, where it is known.
+    """
+    mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
+    x = np.linspace(mean - SPAN * sigma, mean + SPAN * sigma, 601)
+    if truth is not None:
+        ax.plot(x, np.asarray(truth(x)), color=TRUTH, lw=2.4, alpha=0.55, label="truth")
+    for (label, function), color in zip(functions.items(), cycle(LEARNED), strict=False):
+        ax.plot(x, np.asarray(jax.vmap(function)(jnp.asarray(x))), color=color, lw=1.5, label=label)
+    plot_guides(ax, seen, x[0], x[-1])
+    ax.set(xlabel=xlabel, ylabel=ylabel)
+    ax.legend(frameon=False)
+
+
+def plot_guides(ax: Axes, seen: Seen, start: float, end: float) -> None:
+    """Mark over an axis from ``start`` to ``end`` what a network has seen of its first argument."""
+    mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
+    for side, edge in ((-1, start), (1, end)):
+        ax.axvline(mean + side * sigma, color=GUIDE, lw=0.9, ls="--")
+        ax.axvline(mean + 2 * side * sigma, color=GUIDE, lw=0.9)
+        ax.axvspan(*sorted((mean + 2 * side * sigma, edge)), color=GUIDE, alpha=0.12, lw=0)
+    ax.set_xlim(start, end)
+    ax.grid(alpha=0.25)
+
+
+def plot_band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") -> None:
+    """Draw a law with a band of two standard deviations to either side."""
+    low, high = law.law - 2 * law.sigma, law.law + 2 * law.sigma
+    ax.fill_between(law.x, low, high, color=color, alpha=0.2, lw=0)
+    ax.plot(law.x, law.law, color=color, lw=1.6, label=label)
+
+
+def plot_losses(
+    ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None
+) -> None:
+    """Draw losses over epochs: of the batches (thin), over the whole record (dots) and over what is held out (squares).
+
+    Arguments:
+        levels: horizontal lines by label, such as a published loss.
+    """
+    for (label, history), color in zip(histories.items(), cycle(LEARNED), strict=False):
+        ax.semilogy(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
+        ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
+        if len(history.validation_loss):
+            kept = f"{label}, held out"
+            ax.semilogy(*history.validation_loss.T, "s--", color=color, lw=1.2, ms=3, label=kept)
+    for label, level in (levels or {}).items():
+        ax.axhline(level, color=GUIDE, lw=1, ls=":")
+        place = (1.0, level)
+        ax.annotate(
+            label, place, xycoords=("axes fraction", "data"), xytext=(4, 0), textcoords="offset points",
+            va="center", fontsize=8, color=GUIDE, annotation_clip=False,
+        )  # fmt: skip
+    ax.set(xlabel="epoch", ylabel="loss")
+    ax.grid(alpha=0.25, which="both")
+    ax.legend(frameon=False)
+
+
+def plot_modifiers(ax: Axes, fit: Fit, *, targets: Mapping[str, float] | None = None) -> None:
+    """Draw the changes of trained parameters over epochs, and their targets where these are known."""
+    for (name, values), color in zip(fit.history.modifiers.items(), cycle(LEARNED), strict=False):
+        ax.plot(values, color=color, lw=1.4, label=name)
+        if targets is not None:
+            ax.axhline(targets[name], color=color, lw=0.9, ls="--")
+    ax.set(xlabel="epoch", ylabel="change")
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False)

@@ -1,0 +1,181 @@
+"""Algebraic loops: blocks of equations in local numbers, equal ones side by side, and how they are torn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from acausal.errors import StructureError, listing
+from acausal.flattening import Integers, Statement
+from acausal.structure import graph, symbolic as derive
+from acausal.structure.equations import Equations
+from acausal.structure.jacobian import Point, constant, slopes
+from acausal.structure.rank import singular
+
+
+@dataclass(frozen=True)
+class BlockEquation:
+    """An equation of an algebraic block: its slots name the block's unknowns (>= 0) or externals (-1 - i).
+
+    Slots in ``vanishing`` have a factor that is zero for the model's own parameter values.
+    """
+
+    template: Statement
+    variables: tuple[int, ...]
+    parameters: tuple[int, ...]
+    modules: tuple[int, ...]
+    vanishing: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
+class BlockShape:
+    """What equal algebraic loops share: equations over local numbers, and how they are torn."""
+
+    equations: tuple[BlockEquation, ...]
+    n_unknowns: int
+    torn: graph.Torn
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether the loop is linear in its unknowns."""
+        return all(
+            derive.is_linear(e.template, tuple(c for c, v in enumerate(e.variables) if v >= 0))
+            for e in self.equations
+        )
+
+
+@dataclass(frozen=True)
+class Loop:
+    """Algebraic loops of one shape, side by side: (n, m) unknowns follow from externals together."""
+
+    shape: BlockShape
+    unknowns: Integers
+    externals: Integers
+    parameters: Integers
+    modules: Integers
+
+
+@dataclass(frozen=True)
+class Block:
+    """One algebraic loop: its equations in local numbers, and what fills them."""
+
+    stated: tuple[int, ...]
+    equations: tuple[BlockEquation, ...]
+    unknowns: list[int]
+    externals: list[int]
+    parameters: list[int]
+    modules: list[int]
+
+
+def block_of(
+    system: Equations, equations: list[int], unknowns: list[int], vanishing: set[tuple[int, int]]
+) -> Block:
+    """A block in local numbers; equal blocks get equal equations."""
+    local = {v: i for i, v in enumerate(unknowns)}
+    externals: dict[int, int] = {}
+    parameters: list[int] = []
+    modules: list[int] = []
+    stated: list[BlockEquation] = []
+    for e in equations:
+        codes = tuple(
+            local[v] if v in local else -1 - externals.setdefault(v, len(externals))
+            for v in system.variables[e]
+        )
+        first, first_module = len(parameters), len(modules)
+        parameters += system.parameters[e]
+        modules += system.modules[e]
+        stated.append(
+            BlockEquation(
+                system.template[e],
+                codes,
+                tuple(range(first, len(parameters))),
+                tuple(range(first_module, len(modules))),
+                tuple(c for c, v in enumerate(codes) if v >= 0 and (e, c) in vanishing),
+            )
+        )
+    return Block(tuple(equations), tuple(stated), unknowns, list(externals), parameters, modules)
+
+
+def loop_of(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) -> Loop:
+    """Equal blocks side by side, torn.
+
+    Raises:
+        StructureError: if a loop is singular for the model's own ``parameters``.
+    """
+    equations, n_unknowns = blocks[0].equations, len(blocks[0].unknowns)
+    incidence = [[v for v in e.variables if v >= 0] for e in equations]
+
+    def solvable(equation: int, unknown: int) -> bool:
+        stated = equations[equation]
+        column = stated.variables.index(unknown)
+        return column not in stated.vanishing and derive.is_safely_solvable(stated.template, column)
+
+    nonlinear = {
+        code
+        for e in equations
+        for column, code in enumerate(e.variables)
+        if code >= 0 and not derive.is_solvable(e.template, column)
+    }  # Newton's method finds these best where it moves them itself
+    loop = Loop(
+        BlockShape(
+            equations,
+            n_unknowns,
+            graph.tear(incidence, solvable, n_unknowns, nonlinear.__contains__),
+        ),
+        matrix([b.unknowns for b in blocks]),
+        matrix([b.externals for b in blocks]),
+        matrix([b.parameters for b in blocks]),
+        matrix([b.modules for b in blocks]),
+    )
+    wrong = _singular(loop, parameters)
+    if wrong is not None:
+        raise StructureError(_explain(system, blocks[wrong]))
+    return loop
+
+
+def _explain(system: Equations, block: Block) -> str:
+    told = listing(dict.fromkeys(system.describe(e) for e in block.stated), 6)
+    unknowns = listing([system.name(v) for v in block.unknowns])
+    zeros = [
+        system.model.layout.parameter(p)
+        for e, stated in zip(block.stated, block.equations, strict=True)
+        for column in stated.vanishing
+        for p in system.divisors(e, column)
+    ]
+    hint = f"; {listing(dict.fromkeys(zeros))} being zero may be why" if zeros else ""
+    return (
+        f"the equations of a loop repeat or contradict each other, so that they do not determine {unknowns}: "
+        f"{told}{hint}"
+    )
+
+
+def _singular(loop: Loop, parameters: np.ndarray) -> int | None:
+    """The first of the loops whose equations depend on each other, as far as the slopes are constant."""
+    shape, n = loop.shape, len(loop.unknowns)
+    if not shape.is_linear:
+        return None
+    nowhere = Point(np.ones(1), parameters)
+    rows: list[int] = []
+    columns: list[int] = []
+    values: list[np.ndarray] = []
+    for i, e in enumerate(shape.equations):
+        for column, code in enumerate(e.variables):
+            if code < 0:
+                continue
+            if not constant(e.template, column):
+                return None
+            variables = np.zeros((n, len(e.variables)), dtype=np.int64)
+            own = loop.parameters[:, list(e.parameters)]
+            rows.append(i)
+            columns.append(code)
+            values.append(slopes(e.template, column, variables, own, nowhere))
+    each = np.stack(values, axis=1).tolist()
+    size = shape.n_unknowns
+    return next((i for i, own in enumerate(each) if singular(rows, columns, own, size)), None)
+
+
+def matrix(rows: list[list[int]]) -> Integers:
+    """Rows of equal length as an array, also where they are empty."""
+    return np.asarray(rows, dtype=np.int64).reshape(len(rows), -1)

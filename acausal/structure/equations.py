@@ -1,0 +1,233 @@
+"""Equations by number: what index reduction reads and extends, each a template with its slots filled."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from acausal.errors import StructureError
+from acausal.flattening import FlatModel, Integers, Statement
+from acausal.structure import graph, symbolic as derive
+from acausal.structure.aliases import AliasFree
+from acausal.structure.jacobian import Point, constant, slopes
+from acausal.structure.singularity import equation_name
+
+
+@dataclass
+class Equations:
+    """All equations by number, and the graph of their unknowns; index reduction extends both."""
+
+    model: FlatModel
+    aliases: AliasFree
+    template: list[Statement]
+    variables: list[list[int]]
+    parameters: list[list[int]]
+    modules: list[list[int]]
+    component: list[int]
+    known: set[int]
+    structure: graph.DifferentialStructure
+    sign: list[int]
+    base: list[int]
+    derived_from: dict[int, int] = field(default_factory=dict)
+
+    @staticmethod
+    def of(model: FlatModel, aliases: AliasFree) -> Equations:
+        """Number the equations of a model without aliases."""
+        template: list[Statement] = []
+        variables: list[list[int]] = []
+        parameters: list[list[int]] = []
+        modules: list[list[int]] = []
+        component: list[int] = []
+        for group in aliases.groups:
+            template += [group.template] * len(group)
+            variables += group.variables.tolist()
+            parameters += group.parameters.tolist()
+            modules += group.modules.tolist()
+            component += group.components.tolist()
+        known = {aliases.zero, *(int(aliases.representative[i]) for i in model.inputs)}
+        derivative = aliases.derivative.tolist()
+        for node in sorted(known):
+            while derivative[node] >= 0:
+                node = derivative[node]
+                known.add(node)
+        structure = graph.DifferentialStructure(
+            incidence=[
+                [v for v in _read(t, row) if v not in known]
+                for t, row in zip(template, variables, strict=True)
+            ],
+            derivative=derivative,
+            successor=[-1] * len(variables),
+            differentiate=lambda e, s: system.differentiate(e),
+        )
+        system = Equations(
+            model,
+            aliases,
+            template,
+            variables,
+            parameters,
+            modules,
+            component,
+            known,
+            structure,
+            aliases.derivative_sign.tolist(),
+            aliases.base.tolist(),
+        )
+        return system
+
+    @property
+    def incidence(self) -> list[list[int]]:
+        """The unknowns of every equation."""
+        return self.structure.incidence
+
+    def unknowns(self) -> list[int]:
+        """All representatives that are not known."""
+        n = len(self.aliases.representative)
+        own = np.flatnonzero(self.aliases.representative == np.arange(n)).tolist()
+        return [v for v in (*own, *range(n, len(self.structure.derivative))) if v not in self.known]
+
+    def chains(self) -> dict[int, int]:
+        """Every unknown -> the variable at the bottom of its chain of derivatives.
+
+        Chains that end in a known derivative (the integral of an input, say) need no equation and are left out.
+        """
+        unknowns = self.unknowns()
+        bottom = {v: v for v in unknowns}
+        derivatives = set(self.structure.derivative)
+        for v in unknowns:
+            if v not in derivatives:
+                chain = [v]
+                while (node := self.structure.derivative[chain[-1]]) in bottom:
+                    chain.append(node)
+                for node_of_chain in chain:
+                    if node >= 0:
+                        del bottom[node_of_chain]
+                    else:
+                        bottom[node_of_chain] = v
+        return bottom
+
+    def origins(self) -> list[tuple[str, int]]:
+        """Text and component of every equation."""
+        return [(t.origin, c) for t, c in zip(self.template, self.component, strict=True)]
+
+    def describe(self, equation: int) -> str:
+        """Where an equation is stated, and how it reads (of a derivative, what was differentiated)."""
+        while equation in self.derived_from:
+            equation = self.derived_from[equation]
+        origin = self.template[equation].origin, self.component[equation]
+        return equation_name(self.model, origin)
+
+    def name(self, node: int) -> str:
+        """Dotted name of a node; derivatives without one are called ``der(...)``."""
+        if node < self.model.n_variables:
+            return self.model.layout.variable(node)
+        return f"der({self.name(self.base[node])})"
+
+    def slopes(self, chosen: Sequence[int], point: Point) -> tuple[Integers, Integers, np.ndarray]:
+        """Slopes of some equations as a sparse matrix: row in ``chosen``, node, value."""
+        entries: list[tuple[Integers, Integers, np.ndarray]] = []
+        for template, members in self._by_template(chosen):
+            variables = np.asarray([self.variables[chosen[i]] for i in members])
+            parameters = np.asarray([self.parameters[chosen[i]] for i in members], dtype=np.int64)
+            entries += [
+                (np.asarray(members), nodes, slopes(template, c, variables, parameters, point))
+                for c, nodes in enumerate(variables.T)
+            ]
+        rows, columns, values = zip(*entries, strict=True)
+        return np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
+
+    def vanishing(self, parameters: np.ndarray) -> set[tuple[int, int]]:
+        """(equation, column) where a slope is zero for these parameters, though not for others."""
+        found: set[tuple[int, int]] = set()
+        at = Point(np.ones(1), parameters)
+        for template, members in self._by_template(range(len(self.template))):
+            for column in range(len(template.variables)) if template.parameters else ():
+                if constant(template, column) and not derive.slope(template, column).is_Number:
+                    own = np.asarray([self.parameters[e] for e in members], dtype=np.int64)
+                    nowhere = np.zeros((len(members), len(template.variables)), dtype=np.int64)
+                    zero = np.flatnonzero(slopes(template, column, nowhere, own, at) == 0)
+                    found.update((members[i], column) for i in zero.tolist())
+        return found
+
+    def divisors(self, equation: int, column: int) -> list[int]:
+        """The parameters in the slope of a slot."""
+        template = self.template[equation]
+        symbols = derive.slope(template, column).free_symbols
+        slots = zip(template.parameters, self.parameters[equation], strict=True)
+        return [p for s, p in slots if s in symbols]
+
+    def _by_template(self, chosen: Sequence[int]) -> list[tuple[Statement, list[int]]]:
+        """Positions in ``chosen`` of the equations that share a template."""
+        found: dict[int, list[int]] = {}
+        for i, e in enumerate(chosen):
+            found.setdefault(id(self.template[e]), []).append(i)
+        return [(self.template[chosen[members[0]]], members) for members in found.values()]
+
+    def reduce_index(self) -> None:
+        """Differentiate what Pantelides' algorithm asks for."""
+        try:
+            graph.pantelides(self.structure)
+        except RecursionError as error:
+            origin = self.template[int(error.args[0])].origin
+            raise StructureError(f"index reduction does not end at: {origin}") from None
+        self.derived_from = {d: e for e, d in enumerate(self.structure.successor) if d >= 0}
+        first_new = len(self.base)
+        new = len(self.structure.derivative) - first_new
+        self.sign += [1] * new
+        self.base += [-1] * new
+        for node, derivative in enumerate(self.structure.derivative):
+            if derivative >= first_new:
+                self.base[derivative] = node
+
+    def differentiate(self, equation: int) -> list[int]:
+        """Append the derivative of an equation; returns its unknowns."""
+        template, sources = derive.differentiate(self.template[equation])
+        row = self.variables[equation]
+        nodes: list[int] = []
+        codes: list[int] = []
+        first: dict[int, int] = {}
+        for column, raised in sources:
+            node, sign = (self._derivative(row[column])) if raised else (row[column], 1)
+            nodes.append(node)
+            place = first.setdefault(node, len(nodes))
+            codes.append(0 if node == self.aliases.zero else sign * place)
+        special, (columns, kept, used) = derive.specialised(
+            template, (*codes, *[0] * len(template.parameters))
+        )
+        self.template.append(special)
+        self.variables.append([nodes[c] for c in columns])
+        self.parameters.append([self.parameters[equation][c] for c in kept])
+        self.modules.append([self.modules[equation][c] for c in used])
+        self.component.append(self.component[equation])
+        return [v for v in _read(special, self.variables[-1]) if v not in self.known]
+
+    def settle(self) -> None:
+        """Put signals in the place of `Prescribed`; nothing is differentiated after this."""
+        for e, template in enumerate(self.template):
+            if derive.has_prescribed(template):
+                self.template[e], columns = derive.settled(template)
+                self.variables[e] = [self.variables[e][c] for c in columns]
+
+    def new_node(self) -> int:
+        """A further variable without a name."""
+        self.structure.derivative.append(-1)
+        self.sign.append(1)
+        self.base.append(-1)
+        return len(self.base) - 1
+
+    def _derivative(self, node: int) -> tuple[int, int]:
+        """Node and sign of a node's derivative."""
+        if node == self.aliases.zero:
+            return node, 1
+        derivative = self.structure.derivative_of(node)
+        if node in self.known:
+            self.known.add(derivative)
+        return derivative, self.sign[node] if node < len(self.sign) else 1
+
+
+def _read(template: Statement, row: list[int]) -> list[int]:
+    """The variables that an equation's value depends on."""
+    if not derive.has_prescribed(template):
+        return row
+    return [row[c] for c in derive.settled(template)[1]]

@@ -1,0 +1,183 @@
+"""Hidden constraints: equations that, taken together, say something about states alone.
+
+Two capacitors side by side say ``c1.v = p - n`` and ``c2.v = p - n``. By its structure this determines the
+potentials p and n; in truth it ties the voltages to each other. Where unknowns stand with constant factors, such
+combinations are found: first modulo a prime, for parameters without relations, then exactly. Each takes the place of
+one of its equations, so that index reduction sees it. (For factors that are integers: Otter & Elmqvist 2017,
+"Transformation of Differential Algebraic Array Equations to Index One Form".)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import cache, reduce
+from operator import add, mul
+from random import Random
+from typing import Any
+
+import sympy as sp
+
+from acausal.flattening import Statement, Template, Total
+from acausal.structure import symbolic as derive
+from acausal.structure.equations import Equations
+from acausal.structure.rank import cancelling, crowded
+from acausal.structure.symbolic import specialised
+
+PRIME = 2**61 - 1
+RESIDUES = sp.GF(PRIME)
+Columns = dict[int, int]
+"""Unknowns, and the columns that they stand in."""
+Part = tuple[Statement, sp.Expr, tuple[int, ...], tuple[int, ...]]
+"""A template, its factor, the slots of variables that are kept, and in what slot of the sum each parameter goes."""
+
+
+def expose_constraints(system: Equations) -> dict[int, list[int]]:
+    """Replace equations that follow from others, but for what they say about states, by just that.
+
+    Returns:
+        For every equation that was replaced the others that it was combined with.
+    """
+    highest = _highest(system)
+    residue = cache(lambda parameter: RESIDUES(Random(parameter).randrange(1, PRIME)))
+    suspects = {e: _residues(system, e, highest[e], residue) for e in crowded(highest)}
+    found: dict[int, list[int]] = {}
+    for combination in cancelling(suspects):
+        numbers = {p: i for i, p in enumerate(_parameters(system, combination))}
+        for factors in _exactly(system, {e: highest[e] for e in combination}, numbers):
+            *others, target = combination
+            _replace(system, target, factors, numbers)
+            found[target] = others
+    return found
+
+
+def _highest(system: Equations) -> dict[int, Columns]:
+    """The unknowns without derivative of every equation in which all of them have constant factors."""
+    derivative, known = system.structure.derivative, system.known
+    found: dict[int, Columns] = {}
+    for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
+        columns = {v: c for c, v in enumerate(row) if derivative[v] < 0 and v not in known}
+        if columns and (isinstance(template, Total) or _are_constant(template, columns.values())):
+            found[e] = columns
+    return found
+
+
+def _are_constant(template: Template, columns: Iterable[int]) -> bool:
+    return all(_factor(template, c) is not None for c in columns)
+
+
+@cache
+def _factor(template: Statement, column: int) -> Any:
+    """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
+    if not derive.is_solvable(template, column):
+        return None
+    slope = derive.slope(template, column)
+    if not slope.free_symbols <= {*template.parameters} or not slope.is_rational_function():
+        return None
+    return slope.xreplace({f: sp.Rational(f) for f in slope.atoms(sp.Float)})
+
+
+def _residues(
+    system: Equations, equation: int, columns: Columns, residue: Callable[[int], Any]
+) -> dict[int, Any]:
+    """The factors of unknowns modulo the prime."""
+    template = system.template[equation]
+    chosen = map(residue, system.parameters[equation])
+    values = dict(zip(template.parameters, chosen, strict=True))
+    return {v: _modular(_factor(template, c), values) for v, c in columns.items()}
+
+
+def _modular(expression: Any, values: dict[Any, Any]) -> Any:
+    if expression.is_Symbol:
+        return values[expression]
+    if expression.is_Rational:
+        return RESIDUES(int(expression.p)) / RESIDUES(int(expression.q))
+    if expression.is_Pow:
+        return _modular(expression.base, values) ** int(expression.exp)
+    return reduce(mul if expression.is_Mul else add, (_modular(a, values) for a in expression.args))
+
+
+def _parameters(system: Equations, equations: dict[int, Any]) -> list[int]:
+    return list(dict.fromkeys(p for e in equations for p in system.parameters[e]))
+
+
+def _exactly(
+    system: Equations, rows: dict[int, Columns], numbers: dict[int, int]
+) -> list[dict[int, sp.Expr]]:
+    """Factors with which these equations cancel, if there are any: polynomials in ``_symbol(number)``."""
+    slopes: dict[int, dict[int, Any]] = {}
+    for e, columns in rows.items():
+        template = system.template[e]
+        own = {
+            s: _symbol(numbers[p])
+            for s, p in zip(template.parameters, system.parameters[e], strict=True)
+        }
+        slopes[e] = {v: _factor(template, c).xreplace(own) for v, c in columns.items()}
+    present = {s for row in slopes.values() for x in row.values() for s in x.free_symbols}
+    symbols = [s for s in map(_symbol, numbers.values()) if s in present]
+    field: Any = sp.QQ.frac_field(*symbols) if symbols else sp.QQ
+    exact = {e: {v: field.from_sympy(x) for v, x in row.items()} for e, row in slopes.items()}
+    found: list[dict[int, sp.Expr]] = []
+    for factors in cancelling(exact):
+        ring = field.get_ring()
+        common = reduce(ring.lcm, (field.denom(f) for f in factors.values()))
+        found.append({e: field.to_sympy(f * common) for e, f in factors.items()})
+    return found
+
+
+def _symbol(number: int) -> sp.Symbol:
+    return sp.Symbol(f"p{number}", real=True)
+
+
+# -- the combination ----------------------------------------------------------------------------------
+
+
+def _replace(
+    system: Equations, target: int, factors: dict[int, sp.Expr], numbers: dict[int, int]
+) -> None:
+    """Put a combination of equations in the place of one of them."""
+    derivative = system.structure.derivative
+    parts: list[Part] = []
+    nodes: list[int] = []
+    modules: list[int] = []
+    for e, factor in factors.items():
+        row = system.variables[e]
+        kept = tuple(c for c, v in enumerate(row) if derivative[v] >= 0 or v in system.known)
+        parameters = tuple(numbers[p] for p in system.parameters[e])
+        parts.append((system.template[e], factor, kept, parameters))
+        nodes += [row[c] for c in kept]
+        modules += system.modules[e]
+    template = _combined(tuple(parts), len(numbers), system.template[target].origin)
+    codes = [nodes.index(v) + 1 for v in nodes]
+    special, (columns, used, called) = specialised(template, (*codes, *[0] * len(numbers)))
+    every = list(numbers)
+    system.template[target] = special
+    system.variables[target] = [nodes[c] for c in columns]
+    system.parameters[target] = [every[c] for c in used]
+    system.modules[target] = [modules[c] for c in called]
+    system.incidence[target] = [v for v in system.variables[target] if v not in system.known]
+
+
+@cache
+def _combined(parts: tuple[Part, ...], n_parameters: int, origin: str) -> Template:
+    """The sum of multiples of equations, without the slots that cancel."""
+    terms: list[sp.Expr] = []
+    variables: list[sp.Symbol] = []
+    modules: list[sp.Symbol] = []
+    for i, (template, factor, kept, numbers) in enumerate(parts):
+        own = {
+            s: sp.Symbol(f"{s.name}|{i}", real=s.is_real)
+            for s in (*template.variables, *template.modules)
+        }
+        variables += [own[template.variables[c]] for c in kept]
+        modules += [own[s] for s in template.modules]
+        shared = {s: _symbol(n) for s, n in zip(template.parameters, numbers, strict=True)}
+        gone = {s: sp.S.Zero for c, s in enumerate(template.variables) if c not in kept}
+        terms.append(factor * template.residual.xreplace({**own, **shared, **gone}))
+    return Template(
+        sp.Add(*terms),
+        tuple(variables),
+        (0,) * len(variables),
+        tuple(_symbol(n) for n in range(n_parameters)),
+        tuple(modules),
+        origin,
+    )

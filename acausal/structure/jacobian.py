@@ -1,0 +1,91 @@
+"""Slopes in numbers: partial derivatives of equations at a point, for questions that structure cannot answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.flattening import FlatModel, Integers, Statement, Total
+from acausal.modeling import ModuleCall, Prescribed, time
+from acausal.structure import symbolic as derive
+
+TIME = 0.37
+
+
+@dataclass(frozen=True)
+class Point:
+    """Values of all variables (by node) and parameters."""
+
+    variables: np.ndarray
+    parameters: np.ndarray
+
+
+def slopes(
+    template: Statement, column: int, variables: Integers, parameters: Integers, point: Point
+) -> np.ndarray:
+    """Partial derivatives with respect to one slot, for all rows of ``variables`` and ``parameters``.
+
+    What has no finite value there, or depends on a callable parameter, is taken for some number but zero.
+    """
+    if isinstance(template, Total):
+        return np.full(len(variables), float(template.coefficients[column]))
+    expression = derive.slope(template, column)
+    if expression.is_Number:
+        return np.full(len(variables), float(expression))
+    values = [point.variables[variables].T, point.parameters[parameters].T]
+    with np.errstate(all="ignore"):
+        result = np.broadcast_to(
+            _function(expression, (*template.variables, *template.parameters))(
+                TIME, *values[0], *values[1]
+            ),
+            (len(variables),),
+        )
+    return np.where(np.isfinite(result), result, 1.0)
+
+
+def constant(template: Statement, column: int) -> bool:
+    """Whether the slope depends on parameters and numbers only."""
+    if isinstance(template, Total):
+        return True
+    slope = derive.slope(template, column)
+    return not (slope.free_symbols - {*template.parameters} or slope.has(ModuleCall))
+
+
+def parameter_values(model: FlatModel) -> np.ndarray:
+    """The model's own values of all parameters, bound ones computed (nan: bound in a circle)."""
+    value = np.array(model.value)
+    waiting = list(model.bindings)
+    while waiting:
+        ready = [b for b in waiting if not np.isnan(value[list(b.arguments)]).any()]
+        if not ready:
+            break
+        groups: dict[Any, list[Any]] = {}
+        for b in ready:
+            groups.setdefault((b.expression, b.symbols), []).append(b)
+        for (expression, symbols), members in groups.items():
+            arguments = np.asarray([b.arguments for b in members]).reshape(len(members), -1)
+            with np.errstate(all="ignore"):
+                computed = _function(expression, symbols)(TIME, *value[arguments].T)
+            value[[b.target for b in members]] = np.nan_to_num(computed)
+        done = {b.target for b in ready}
+        waiting = [b for b in waiting if b.target not in done]
+    return value
+
+
+def random_values(n: int) -> np.ndarray:
+    """Numbers without relations, the same at every call; positive, so that roots and logarithms exist."""
+    return np.random.default_rng(0).uniform(0.5, 1.5, n)
+
+
+@cache
+def _function(expression: sp.Expr, symbols: Sequence[sp.Symbol]) -> Callable[..., Any]:
+    calls = sorted(expression.atoms(ModuleCall), key=sp.default_sort_key)
+    plain = expression.xreplace({c: sp.Float(0.6 + 0.1 * i) for i, c in enumerate(calls)})
+    plain = plain.replace(Prescribed, lambda n, t, *signals: signals[int(n)])
+    plain = plain.replace(sp.DiracDelta, lambda *_: sp.S.Zero)
+    return sp.lambdify((time, *symbols), plain, "numpy")

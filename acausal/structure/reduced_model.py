@@ -1,0 +1,184 @@
+"""Reduce: aliases, index reduction, state selection and solving order of a flat model.
+
+The result says which variables are states, and in which order and from which equations all others follow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from acausal.errors import StructureError
+from acausal.flattening import FlatModel, Integers
+from acausal.structure import graph
+from acausal.structure.algebraic_loops import BlockEquation, BlockShape, Loop
+from acausal.structure.aliases import AliasFree, eliminate_aliases
+from acausal.structure.blocks import Accumulation, Assignment, Step, order_steps
+from acausal.structure.equations import Equations
+from acausal.structure.hidden_constraints import expose_constraints
+from acausal.structure.singularity import explain_singularity
+from acausal.structure.sparse_loops import Mesh
+from acausal.structure.state_selection import select_states
+
+__all__ = [
+    "Accumulation",
+    "Assignment",
+    "BlockEquation",
+    "BlockShape",
+    "Loop",
+    "Mesh",
+    "ReducedModel",
+    "Step",
+    "reduce",
+]
+
+OFF_ZERO = 1e-3
+
+
+@dataclass(frozen=True)
+class ReducedModel:
+    """A model ready for code: states, inputs and the steps that compute everything else.
+
+    Nodes are those of `AliasFree`, then further derivatives that index reduction introduced.
+
+    Attributes:
+        states: nodes of the states, in order of declaration.
+        rates, rate_signs: for every state the node of its derivative, and its sign.
+        inputs: nodes of the inputs; derivatives of inputs, where the equations need them, follow.
+        input_orders: for every input, which one it derives from and how often it is differentiated.
+        input_signs: for every input the sign of its node.
+        base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
+        derivative, derivative_sign: as in `AliasFree`, extended.
+        steps: in solving order.
+    """
+
+    model: FlatModel
+    aliases: AliasFree
+    states: Integers
+    rates: Integers
+    rate_signs: Integers
+    inputs: Integers
+    input_orders: tuple[tuple[int, int], ...]
+    input_signs: Integers
+    base: Integers
+    derivative: Integers
+    derivative_sign: Integers
+    steps: tuple[Step, ...]
+
+    def resolve(self, node: int) -> tuple[int, int]:
+        """Representative of a node and the node's sign relative to it."""
+        if node < len(self.aliases.representative):
+            return int(self.aliases.representative[node]), int(self.aliases.sign[node])
+        return node, 1
+
+    @cached_property
+    def start_members(self) -> tuple[Integers, Integers]:
+        """For every node the variable whose start it takes (itself if it has no name), and the sign.
+
+        Of a node's names a fixed one counts most, then one whose start somebody gave, then the node's own.
+        """
+        model, n = self.model, self.model.n_variables
+        node, sign = self.aliases.representative[:n], self.aliases.sign[:n]
+        own = node == np.arange(n)
+        order = np.lexsort((-np.arange(n), own, model.start_given, model.fixed))
+        member = np.arange(len(self.derivative))
+        member_sign = np.ones(len(member), dtype=np.int64)
+        member[node[order]] = order
+        member_sign[node[order]] = sign[order]
+        return member, member_sign
+
+    def start_guess(self, nodes: Integers) -> np.ndarray:
+        """Start values of nodes as far as they are numbers; a little off zero where nobody gave one.
+
+        At zero itself many slopes vanish, and Newton's method would not find away from there.
+        """
+        model = self.model
+        member, sign = (a[nodes] for a in self.start_members)
+        named = member < model.n_variables
+        v = np.where(named, member, 0)
+        start = np.where(named, model.start[v], 0.0)
+        unknown = ~(named & model.start_given[v]) & (start == 0)
+        return sign * np.where(unknown, OFF_ZERO * np.where(named, model.nominal[v], 1.0), start)
+
+    def nominal(self, nodes: Integers) -> np.ndarray:
+        """Typical magnitudes of nodes; 1 for derivatives without a name."""
+        named = nodes < self.model.n_variables
+        return np.where(named, self.model.nominal[np.where(named, nodes, 0)], 1.0)
+
+    def name(self, node: int) -> str:
+        """Dotted name of a node; derivatives without one are called ``der(...)``."""
+        if node < self.model.n_variables:
+            return self.model.layout.variable(node)
+        return f"der({self.name(int(self.base[node]))})"
+
+
+def reduce(model: FlatModel) -> ReducedModel:
+    """Turn a flat model into an ordered set of assignments and loops.
+
+    Raises:
+        StructureError: if the model is singular, over- or underdetermined.
+    """
+    aliases = eliminate_aliases(model)
+    system = Equations.of(model, aliases)
+    combined = expose_constraints(system)
+    problem = explain_singularity(
+        model, aliases, system.incidence, system.chains(), system.origins(), combined
+    )
+    if problem is not None:
+        raise StructureError(problem)
+    system.reduce_index()
+    system.settle()
+    states = select_states(system)
+    return _order(system, states)
+
+
+# -- solving order ------------------------------------------------------------------------------------
+
+
+def _order(system: Equations, states: list[int]) -> ReducedModel:
+    solved = set(states)
+    unknowns = [v for v in system.unknowns() if v not in solved]
+    incidence = [[v for v in row if v not in solved] for row in system.incidence]
+    n_nodes = len(system.structure.derivative)
+    variable_of = graph.match(incidence, n_nodes)
+    if len(incidence) != len(unknowns) or min(variable_of, default=0) < 0:
+        raise StructureError(
+            f"after index reduction {len(incidence)} equations face {len(unknowns)} unknowns; "
+            "the model has constraints that contradict or repeat each other"
+        )
+    blocks = graph.order_blocks(incidence, variable_of, n_nodes)
+    steps = order_steps(system, incidence, variable_of, blocks)
+    inputs, orders, signs = _inputs(system)
+    return ReducedModel(
+        model=system.model,
+        aliases=system.aliases,
+        states=np.asarray(states, dtype=np.int64),
+        rates=np.asarray([system.structure.derivative[v] for v in states], dtype=np.int64),
+        rate_signs=np.asarray([system.sign[v] for v in states], dtype=np.int64),
+        inputs=np.asarray(inputs, dtype=np.int64),
+        input_orders=tuple(orders),
+        input_signs=np.asarray(signs, dtype=np.int64),
+        base=np.asarray(system.base, dtype=np.int64),
+        derivative=np.asarray(system.structure.derivative, dtype=np.int64),
+        derivative_sign=np.asarray(system.sign, dtype=np.int64),
+        steps=steps,
+    )
+
+
+def _inputs(system: Equations) -> tuple[list[int], list[tuple[int, int]], list[int]]:
+    """Nodes of the inputs and of their derivatives; (input, order) and sign of each."""
+    nodes = [int(system.aliases.representative[i]) for i in system.model.inputs]
+    orders = [(i, 0) for i in range(len(nodes))]
+    signs = [1] * len(nodes)
+    for i, node in enumerate(tuple(nodes)):
+        order, sign = 0, 1
+        while system.structure.derivative[node] >= 0:
+            sign *= system.sign[node]
+            node = system.structure.derivative[node]
+            order += 1
+            nodes.append(node)
+            orders.append((i, order))
+            signs.append(sign)
+    return nodes, orders, signs

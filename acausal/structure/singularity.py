@@ -1,0 +1,87 @@
+"""Diagnosis of singular models: which equations and unknowns do not fit, in the user's names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from acausal.errors import listing
+from acausal.flattening import FlatModel
+from acausal.modeling import Potential
+from acausal.structure import graph
+from acausal.structure.aliases import AliasFree
+
+
+def explain_singularity(
+    model: FlatModel,
+    aliases: AliasFree,
+    incidence: Sequence[Sequence[int]],
+    chains: dict[int, int],
+    origins: Sequence[tuple[str, int]],
+    combined: Mapping[int, Sequence[int]],
+) -> str | None:
+    """A sentence about a structurally singular model, or None for a sound one.
+
+    A variable and its derivatives count as one unknown (``chains``), so that constraints between states,
+    which index reduction resolves, are not mistaken for singularities. ``combined`` tells what equations an
+    equation was put together from, besides its own.
+    """
+    collapsed = [list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in incidence]
+    bottoms = list(dict.fromkeys(chains.values()))
+    number = {v: i for i, v in enumerate(bottoms)}
+    found = graph.singularity(
+        [[number[v] for v in row] for row in collapsed], len(bottoms), range(len(bottoms))
+    )
+    if found is None and not aliases.redundant:
+        return None
+    unknowns = model.n_variables - len(model.inputs)
+    parts = [f"structurally singular: {model.n_equations} equations for {unknowns} unknowns"]
+    unmatched = [bottoms[i] for i in (found.unmatched_variables if found else ())]
+    missing = [_name(model, aliases, node) for node in unmatched]
+    unmatched_equations = found.unmatched_equations if found else ()
+    surplus = [origins[e] for e in unmatched_equations]
+    reached = [*(found.equations if found else ())]
+    reached += [other for e in unmatched_equations for other in combined.get(e, ())]
+    related = [origins[e] for e in reached if origins[e] not in surplus]
+    if missing:
+        parts.append(f"undetermined: {listing(missing)}")
+    if surplus or aliases.redundant:
+        told = [equation_name(model, origin) for origin in (*surplus, *aliases.redundant)]
+        parts.append(f"too much is said by: {listing(dict.fromkeys(told), 6)}")
+    if related:
+        parts.append(
+            f"together with: {listing(dict.fromkeys(equation_name(model, o) for o in related), 6)}"
+        )
+    floating = any(_is_potential(model, node) for node in unmatched)
+    excess = bool(surplus or aliases.redundant)
+    return "; ".join(parts) + ". " + _mend(bool(missing), excess, floating)
+
+
+def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
+    if node < model.n_variables:
+        return model.layout.variable(node)
+    return f"der({_name(model, aliases, int(aliases.base[node]))})"
+
+
+def equation_name(model: FlatModel, origin: tuple[str, int]) -> str:
+    """Where an equation, given by its text and the component that states it, belongs."""
+    text, component = origin
+    if component < 0:
+        return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({text})"
+    path = model.layout.paths[component]
+    return f"{path} ({text})" if path else text
+
+
+def _is_potential(model: FlatModel, node: int) -> bool:
+    if node >= model.n_variables:
+        return False
+    return isinstance(model.layout.variable_declaration(node), Potential)
+
+
+def _mend(missing: bool, surplus: bool, floating: bool) -> str:
+    if not missing:
+        return "Are two sources or fixed points joined rigidly, or is an equation stated twice?"
+    if floating:
+        return "Is a Fixed (a ground, a reference) missing, or a connector left unconnected?"
+    if surplus:
+        return "Are two sources or fixed points joined rigidly, in parallel or in series?"
+    return "Is a connector left unconnected, or an equation forgotten?"

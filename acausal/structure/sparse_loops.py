@@ -1,0 +1,159 @@
+"""Meshes: algebraic loops of so many unknowns that only arrays and sparse matrices can hold them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from acausal.errors import StructureError, listing
+from acausal.flattening import Integers, Template
+from acausal.structure import symbolic as derive
+from acausal.structure.algebraic_loops import matrix
+from acausal.structure.elimination_order import Pattern, analyse
+from acausal.structure.equations import Equations
+from acausal.structure.jacobian import Point, random_values, slopes
+
+LARGE = 100
+"""A loop of more unknowns is a mesh."""
+
+
+@dataclass(frozen=True)
+class MeshGroup:
+    """Equations of one template in which the same slots (``inner``) hold unknowns of the mesh."""
+
+    template: Template
+    inner: tuple[int, ...]
+    variables: Integers
+    parameters: Integers
+    modules: Integers
+
+
+@dataclass(frozen=True)
+class Sums:
+    """Equations ``sum(factors * nodes) = 0``, all in one list: ``rows`` tells which equation a term belongs to.
+
+    Attributes:
+        origins: of every equation, for messages.
+    """
+
+    rows: Integers
+    nodes: Integers
+    factors: np.ndarray
+    origins: tuple[str, ...]
+
+    def chosen(self, which: np.ndarray) -> Sums:
+        """Some of the terms."""
+        return Sums(self.rows[which], self.nodes[which], self.factors[which], self.origins)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Large algebraic loops of one level, solved together: their unknowns, and as many equations.
+
+    Attributes:
+        groups: equations in order of rows; ``sums``: those that come after, by row among them.
+        pattern: where the slopes by the unknowns stand: group by group and slot by slot, then those of the sums.
+    """
+
+    unknowns: Integers
+    groups: tuple[MeshGroup, ...]
+    sums: Sums
+    pattern: Pattern
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether the equations are linear in the unknowns."""
+        return all(derive.is_linear(g.template, g.inner) for g in self.groups)
+
+    @property
+    def externals(self) -> Integers:
+        """What the equations read besides the unknowns."""
+        read = [*(g.variables.ravel() for g in self.groups), self.sums.nodes]
+        nodes = np.unique(np.concatenate(read))
+        return nodes[self.places(nodes) < 0]
+
+    def places(self, nodes: Integers) -> Integers:
+        """Where nodes stand among the unknowns (-1: they do not)."""
+        return _places(self.unknowns, nodes)
+
+
+def mesh_of(
+    system: Equations, equations: list[int], unknowns: list[int], parameters: np.ndarray
+) -> Mesh:
+    """Group the equations of large loops, and find an order of elimination for the model's ``parameters``.
+
+    Raises:
+        StructureError: if the equations depend on each other.
+    """
+    nodes = np.asarray(unknowns, dtype=np.int64)
+    summing = [e for e in equations if derive.coefficients(system.template[e]) is not None]
+    groups = _groups(system, equations, set(unknowns))
+    sums = _sums(system, summing)
+    offset = sum(len(g.variables) for g in groups)
+    point = Point(random_values(len(system.structure.derivative)), parameters)
+    rows: list[Integers] = []
+    columns: list[Integers] = []
+    values: list[np.ndarray] = []
+    first = 0
+    for g in groups:
+        for column in g.inner:
+            rows.append(first + np.arange(len(g.variables)))
+            columns.append(_places(nodes, g.variables[:, column]))
+            values.append(slopes(g.template, column, g.variables, g.parameters, point))
+        first += len(g.variables)
+    inside = _places(nodes, sums.nodes)
+    rows.append(offset + sums.rows[inside >= 0])
+    columns.append(inside[inside >= 0])
+    values.append(sums.factors[inside >= 0])
+    entries = np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
+    try:
+        pattern = analyse(*entries, len(nodes))
+    except np.linalg.LinAlgError:
+        raise StructureError(_singular(system, equations, unknowns)) from None
+    return Mesh(nodes, groups, sums, pattern)
+
+
+def _places(unknowns: Integers, nodes: Integers) -> Integers:
+    order = np.argsort(unknowns)
+    found = np.searchsorted(unknowns[order], nodes).clip(max=len(unknowns) - 1)
+    return np.where(unknowns[order][found] == nodes, order[found], -1)
+
+
+def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[MeshGroup, ...]:
+    """The equations that are more than sums, by template and by the slots that are unknown."""
+    found: dict[tuple[Template, tuple[int, ...]], list[int]] = {}
+    for e in equations:
+        template = system.template[e]
+        if isinstance(template, Template) and derive.coefficients(template) is None:
+            inner = tuple(c for c, v in enumerate(system.variables[e]) if v in unknowns)
+            found.setdefault((template, inner), []).append(e)
+    return tuple(
+        MeshGroup(
+            template,
+            inner,
+            matrix([system.variables[e] for e in members]),
+            matrix([system.parameters[e] for e in members]),
+            matrix([system.modules[e] for e in members]),
+        )
+        for (template, inner), members in found.items()
+    )
+
+
+def _sums(system: Equations, equations: list[int]) -> Sums:
+    lengths = [len(system.variables[e]) for e in equations]
+    factors = [c for e in equations for c in derive.coefficients(system.template[e]) or ()]
+    return Sums(
+        np.repeat(np.arange(len(equations)), lengths),
+        np.asarray([v for e in equations for v in system.variables[e]], dtype=np.int64),
+        np.asarray(factors, dtype=float),
+        tuple(system.template[e].origin for e in equations),
+    )
+
+
+def _singular(system: Equations, equations: list[int], unknowns: list[int]) -> str:
+    told = listing(dict.fromkeys(system.describe(e) for e in equations), 6)
+    return (
+        f"the equations of a loop repeat or contradict each other, so that they do not determine "
+        f"{listing([system.name(v) for v in unknowns])}: {told}"
+    )

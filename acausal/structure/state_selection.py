@@ -1,0 +1,99 @@
+"""State selection: after index reduction, which variables are states and which are dummy derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from acausal.errors import StructureError, listing
+from acausal.modeling import STATE_SELECT
+from acausal.structure.equations import Equations
+from acausal.structure.jacobian import Point, parameter_values, random_values
+from acausal.structure.rank import choose_columns
+
+DEFAULT = float(STATE_SELECT.index("default"))
+
+
+def select_states(system: Equations) -> list[int]:
+    """Choose dummy derivatives (Mattsson & Soderlind 1993), sparing the variables most wanted as states.
+
+    The differentiated constraints determine the dummies if their slopes are independent. That is looked at in
+    numbers: first where the model starts, as far as somebody said where, then at a point without relations.
+
+    Raises:
+        StructureError: if the constraints depend on each other.
+    """
+    derivative = system.structure.derivative
+    antecedent = {d: v for v, d in enumerate(derivative) if d >= 0 and v not in system.known}
+    wanted = _preference(system, antecedent)
+    dummies: set[int] = set()
+    constraints = [e for e in system.derived_from if system.structure.successor[e] < 0]
+    candidates = [v for v in antecedent if derivative[v] < 0]
+    points = _points(system) if constraints else ()
+    while constraints:
+        candidates.sort(key=lambda v: wanted(antecedent[v]))
+        dummy = _independent(system, constraints, candidates, points)
+        dummies.update(dummy)
+        constraints = [
+            system.derived_from[e]
+            for e in constraints
+            if system.derived_from[e] in system.derived_from
+        ]
+        candidates = [antecedent[v] for v in dummy if antecedent[v] in antecedent]
+    return [
+        v for v, d in enumerate(derivative) if d >= 0 and d not in dummies and v not in system.known
+    ]
+
+
+def _independent(
+    system: Equations, constraints: list[int], candidates: list[int], points: tuple[Point, ...]
+) -> list[int]:
+    """Candidates that the constraints determine, as many as there are constraints."""
+    left: list[int] = []
+    for point in points:
+        rows, columns, values = system.slopes(constraints, point)
+        shape = len(constraints), len(system.structure.derivative)
+        chosen, left = choose_columns(csr_array((values, (rows, columns)), shape=shape), candidates)
+        if not left:
+            return chosen
+    told = listing(dict.fromkeys(system.describe(constraints[row]) for row in left), 6)
+    raise StructureError(
+        f"constraints between states repeat or contradict others: {told}. "
+        "Are parts joined rigidly along two ways?"
+    )
+
+
+def _points(system: Equations) -> tuple[Point, Point]:
+    """Where slopes are looked at: the given starts, else random values; and random values alone."""
+    model = system.model
+    anywhere = random_values(len(system.structure.derivative))
+    start = np.array(anywhere)
+    given = np.flatnonzero(model.start_given)
+    start[system.aliases.representative[given]] = system.aliases.sign[given] * model.start[given]
+    parameters = parameter_values(model)
+    return Point(start, parameters), Point(anywhere, parameters)
+
+
+def _preference(
+    system: Equations, antecedent: dict[int, int]
+) -> Callable[[int], tuple[float, int]]:
+    """How much a node is wanted as a state: by wish, then the earlier declared.
+
+    What it derives from would become a state with it, so the average wish along that chain counts; of
+    a node's names the one with the highest wish.
+    """
+    n = system.model.n_variables
+    representative = system.aliases.representative
+    wish = np.full(len(system.structure.derivative), DEFAULT)
+    wish[representative[:n]] = 0.0
+    np.maximum.at(wish, representative[:n], system.model.state)
+
+    def wanted(node: int) -> tuple[float, int]:
+        chain = [node]
+        while chain[-1] in antecedent:
+            chain.append(antecedent[chain[-1]])
+        return float(wish[chain].mean()), -node
+
+    return wanted

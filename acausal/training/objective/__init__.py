@@ -1,0 +1,1 @@
+"""What is minimised: losses of predictions over a record, and penalties."""

@@ -1,0 +1,106 @@
+"""Equation error: targets computed from measured states, without any simulation."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal.errors import TrainingError, listing
+from acausal.training.objective.modifiers import Modifiers
+from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.record import Batch
+from acausal.training.objective.smoothing import smoothed
+
+POINTS = 5000
+"""Samples of the record that are looked at, evenly spread."""
+
+
+class EquationError(eqx.Module):
+    """The loss of targets that are observed in the measured states and inputs, sample by sample.
+
+    It costs next to nothing, but what noise is left in the states biases it, as it is taken for the truth: a good
+    place to start from. It sees what targets depend on at an instant (an acceleration shows a force; a position
+    does not).
+
+    Attributes:
+        problem: the model and the record.
+        rows: indices of the samples that count.
+        x: the states there, smoothed, shape (number of rows, number of states).
+    """
+
+    problem: Problem
+    rows: Array
+    x: Array
+
+    @property
+    def modifiers(self) -> Modifiers:
+        """The parameters that are trained."""
+        return self.problem.modifiers
+
+    def start(self) -> Trainable:
+        """What is trained, where training starts."""
+        return self.problem.start()
+
+    def draw(self, key: Array) -> Batch:
+        """All of it, whatever the key."""
+        return Batch(jnp.zeros(1, int), jnp.ones(1), None)
+
+    def losses(self, trainable: Trainable, batch: Batch) -> Array:
+        """The loss over all samples, shape (1,)."""
+        p = self.problem
+        packed = p.system.pack(p.assemble(trainable))
+        steps = p.record.steps
+        t, u, y = (a[self.rows] for a in (steps.t, steps.inputs.start, p.record.y))
+        predicted = jax.vmap(lambda t, x, u: p.system.observe(p.targets, t, x, u, packed))(
+            t, self.x, u
+        )
+        return p.loss(predicted, y, p.record.sigma)[None]
+
+    def penalties(self, trainable: Trainable) -> dict[str, Array]:
+        """What every regularizer adds to the loss."""
+        return self.problem.penalties(trainable)
+
+
+def equation_error(problem: Problem) -> EquationError:
+    """The equation error of a problem.
+
+    Raises:
+        TrainingError: if states are not measured, or the targets tell nothing of what is to be trained.
+    """
+    if problem.record.x is None:
+        raise TrainingError(
+            "The equation error needs all states in the data: "
+            "leave 'equation_error' out of the strategy, or measure them."
+        )
+    count = len(problem.record)
+    rows = np.unique(np.linspace(0, count - 1, min(count, POINTS)).astype(int))
+    objective = EquationError(problem, jnp.asarray(rows), jnp.asarray(_states(problem)[rows]))
+    unseen = _unseen(objective)
+    if unseen:
+        raise TrainingError(
+            f"At an instant no target depends on {listing(unseen)}: the equation error cannot train it. "
+            "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out."
+        )
+    return objective
+
+
+def _states(problem: Problem) -> np.ndarray:
+    """The measured states at every sample; smoothed, if samples are evenly spaced."""
+    x = np.asarray(problem.record.x)
+    if problem.record.steps.h.ndim > 0:
+        return x
+    return np.stack([smoothed(column) for column in x.T], axis=1)
+
+
+def _unseen(objective: EquationError) -> list[str]:
+    """Networks and parameters that the loss does not depend on."""
+    start = objective.problem.start()
+    batch = objective.draw(jax.random.key(0))
+    gradient = eqx.filter_jit(jax.grad(lambda tree: objective.losses(tree, batch)[0]))(start)
+    parts: dict[str, Any] = {**gradient.networks, **gradient.modifiers}
+    return [n for n, g in parts.items() if not any(bool(a.any()) for a in jax.tree.leaves(g))]

@@ -1,0 +1,104 @@
+"""Held out: samples that training never moves by, and how well the model predicts them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from numbers import Real
+from typing import Any
+
+import equinox as eqx
+import numpy as np
+from jax import Array
+
+from acausal.data import Data
+from acausal.errors import DataError
+from acausal.training.objective.build_problem import Start, first_state
+from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.record import Sequences, lay_out
+
+Validation = float | Data | Mapping[str, Any] | None
+"""What to hold out: the last part of the record, another record, or nothing."""
+
+
+class HeldOut(eqx.Module):
+    """What is held out of a training.
+
+    Attributes:
+        problem: a record that ends with the samples held out; what is before them leads the simulation to them.
+        first: index of the first of them.
+    """
+
+    problem: Problem
+    first: int = eqx.field(static=True)
+
+    def loss(self, trainable: Trainable) -> Array:
+        """The loss over the samples held out, in one simulation of their record."""
+        p, rows = self.problem, slice(self.first, None)
+        y = p.simulate(trainable).y
+        return p.loss(y[rows], p.record.y[rows], p.record.sigma)
+
+
+def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | None]:
+    """What to train on; and the record that ends with what is held out, with where that begins.
+
+    Raises:
+        DataError: for a fraction that leaves no two samples for either.
+    """
+    if validation is None:
+        return data, None
+    if not isinstance(validation, float | int | Real):
+        return data, (Data.of(validation), 0)
+    share = float(validation)
+    if not np.isfinite(share):
+        raise DataError(f"validation={share} is no fraction; give a number between 0 and 1.")
+    first = len(data) - round(share * len(data))
+    if not 2 <= first <= len(data) - 2:
+        raise DataError(
+            f"validation={share:g} of {len(data)} samples leaves {first} to train on; "
+            "give a fraction between 0 and 1, or another record."
+        )
+    return data.between(data.time[0], data.time[first - 1]), (data, first)
+
+
+def hold_out(
+    problem: Problem, kept: tuple[Data, int] | None, x0: Start | Mapping[str, float]
+) -> HeldOut | None:
+    """What a problem's training is judged by, from the result of `split`.
+
+    The end of the record is predicted in one simulation from the record's start. Another record starts as ``x0``
+    says; where that is trained, from its own measured states.
+
+    Raises:
+        DataError: if the record does not have what that needs.
+    """
+    if kept is None:
+        return None
+    data, first = kept
+    if first:
+        other = over(problem, data, problem.x0)
+        return HeldOut(replace(other, nodes=problem.nodes), first)
+    data = data.for_system(problem.system)
+    start = first_state(problem.system, data, "data" if x0 == "fit" else x0)
+    return HeldOut(over(problem, data, start), first)
+
+
+def over(problem: Problem, data: Data, x0: Array | None) -> Problem:
+    """The same model over another record as one sequence, with steps that are no longer.
+
+    Arguments:
+        problem: what was posed. Errors stay relative to the standard deviations of its record.
+        data: the other record, in the model's units.
+        x0: the state at its start, shape (number of states,); ``None`` for the model's start values.
+    """
+    record = lay_out(data, problem.system.inputs, problem.targets, None)
+    longest, before = (float(np.max(np.asarray(r.steps.h))) for r in (record, problem.record))
+    return replace(
+        problem,
+        record=replace(record, sigma=problem.record.sigma),
+        sequences=Sequences(len(record), len(record), 1, None),
+        x0=x0,
+        nodes=None,
+        substeps=max(1, int(np.ceil(longest / (before / problem.substeps) - 1e-6))),
+        mesh=None,
+    )

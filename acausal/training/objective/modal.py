@@ -1,0 +1,151 @@
+"""Regularizers of a model's modes: the eigenvalues of its linearizations along the record.
+
+Each takes the model as linear about states of the record and penalises eigenvalues that are where they should not be:
+a law cannot buy accuracy at an instant with an instability. The eigenvalues of frozen linearizations prove nothing
+about large motions, but where they are bad, simulations drift or blow up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal.errors import TrainingError, nearest
+from acausal.training.objective.regularizers import Context, Trajectory
+
+TINY = 1e-12
+"""Of an eigenvalue [1/s] and of a scalar product of eigenvectors: nothing is divided by less."""
+
+
+class Modal(eqx.Module):
+    """``weight · mean over points of Σ excess²``.
+
+    Attributes:
+        weight: of the penalty.
+        points: of the record, evenly spread, at which the model is linearized.
+        reach: how far out: 1 as in the record, 2 twice as far from its mean state.
+        states: those whose modes count; ``None`` for all. Leave out one that only integrates an input, as a road's
+            height does: its eigenvalue is 0 whatever is learned.
+    """
+
+    weight: float = 1.0
+    points: int = eqx.field(static=True, default=20)
+    reach: float = 1.0
+    states: tuple[str, ...] | None = eqx.field(static=True, default=None)
+
+    def excess(self, re: Array, im: Array) -> Array:
+        """By how much eigenvalues ``re + j im`` [1/s] are where they should not be; 0 where they may be."""
+        raise NotImplementedError
+
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+        """The penalty."""
+        assert context.trajectory is not None
+        kept = _rows(self.states, context.trajectory.system.states)
+        A = jacobians(params, context.trajectory, self.points, self.reach)
+        re, im = jax.vmap(eigenvalues)(A[:, kept][:, :, kept])
+        return self.weight * jnp.mean(jnp.sum(self.excess(re, im) ** 2, axis=-1))
+
+
+class Stability(Modal):
+    """Modes should die out: real parts at most ``−margin``.
+
+    Attributes:
+        margin: in 1/s; the penalty grows with the square of what is missing, so ``weight`` is in s².
+    """
+
+    margin: float = 0.0
+
+    def excess(self, re: Array, im: Array) -> Array:
+        """What is missing of the margin."""
+        return jnp.maximum(re + self.margin, 0.0)
+
+
+class DampingRatio(Modal):
+    """Modes should not ring: damping ratios ``−Re λ/|λ|`` of at least ``ratio``.
+
+    Attributes:
+        ratio: between 0 and 1.
+    """
+
+    ratio: float = 0.1
+
+    def excess(self, re: Array, im: Array) -> Array:
+        """What is missing of the ratio."""
+        return jnp.maximum(self.ratio + re / _size(re, im), 0.0)
+
+
+class FrequencyRange(Modal):
+    """Modes should be neither slower than ``low`` nor faster than ``high``, by their ``|λ|``.
+
+    Attributes:
+        low, high: in rad/s.
+    """
+
+    low: float = 0.0
+    high: float = float("inf")
+
+    def excess(self, re: Array, im: Array) -> Array:
+        """How far a frequency is outside, relative to the bound."""
+        size = _size(re, im)
+        slow = 1 - size / self.low if self.low > 0 else 0.0
+        return jnp.maximum(jnp.maximum(size / self.high - 1, slow), 0.0)
+
+
+def jacobians(
+    params: Mapping[str, Any], trajectory: Trajectory, points: int, reach: float
+) -> Array:
+    """``∂(dx/dt)/∂x`` at points of a trajectory, shape (points, n, n); see `Modal` for the arguments."""
+    rows = np.unique(np.linspace(0, len(trajectory.t) - 1, points).astype(int))
+    t, x, u = (a[rows] for a in (trajectory.t, trajectory.x, trajectory.u))
+    centre = trajectory.x.mean(axis=0)
+    system, packed = trajectory.system, trajectory.system.pack(params)
+
+    def slope(t: Array, x: Array, u: Array) -> Array:
+        return jax.jacfwd(lambda x: system.vector_field(t, x, u, packed))(x)
+
+    return jax.vmap(slope)(t, centre + reach * (x - centre), u)
+
+
+@jax.custom_jvp
+def eigenvalues(A: Array) -> tuple[Array, Array]:
+    """Real and imaginary parts of a real matrix's eigenvalues, shape (n,) each; on a CPU alone.
+
+    Derivatives are ``dλ = wᴴ dA v / wᴴ v`` with left and right eigenvectors (J. Magnus: On differentiating eigenvalues
+    and eigenvectors, Econometric Theory 1, 1985). Where an eigenvalue is defective there are none: 0 is taken.
+    """
+    values, _, _ = _eig(A)
+    return values.real, values.imag
+
+
+@eigenvalues.defjvp
+def _(primals: tuple[Array], tangents: tuple[Array]) -> Any:
+    values, left, right = _eig(primals[0])
+    product = jnp.sum(left.conj() * right, axis=0)
+    defective = jnp.abs(product) < TINY
+    moved = jnp.einsum("ki,kl,li->i", left.conj(), tangents[0], right)
+    slopes = jnp.where(defective, 0.0, moved / jnp.where(defective, 1.0, product))
+    return (values.real, values.imag), (slopes.real, slopes.imag)
+
+
+def _eig(A: Array) -> tuple[Array, Array, Array]:
+    values, left, right = jax.lax.linalg.eig(
+        A, compute_left_eigenvectors=True, compute_right_eigenvectors=True
+    )
+    return values, left, right
+
+
+def _size(re: Array, im: Array) -> Array:
+    return jnp.sqrt(re**2 + im**2 + TINY**2)
+
+
+def _rows(chosen: tuple[str, ...] | None, states: tuple[str, ...]) -> np.ndarray:
+    for name in chosen or ():
+        if name not in states:
+            raise TrainingError(f"A regularizer names the state '{name}': {nearest(name, states)}")
+    return np.array([states.index(n) for n in (states if chosen is None else chosen)])

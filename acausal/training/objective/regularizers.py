@@ -1,0 +1,132 @@
+"""Regularizers: what training wants of a model beside fitting the data.
+
+A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace. Outputs of networks are
+taken relative to their ``output_scale``, so that weights are pure numbers. Of a network that is an energy its law
+counts, the slope.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import Array
+
+from acausal.errors import TrainingError, nearest
+from acausal.networks import inputs_of, law_of, output_scale
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+
+class Trajectory(eqx.Module):
+    """Where a model is over the record: as measured, else as it was before training.
+
+    Attributes:
+        system: the model.
+        t, x, u: samples of time, states and inputs, shapes (N,), (N, number of states), (N, number of inputs).
+    """
+
+    system: System = eqx.field(static=True)
+    t: Array
+    x: Array
+    u: Array
+
+
+class Context(eqx.Module):
+    """What a regularizer may know beside the parameters.
+
+    Attributes:
+        networks: names of the networks that are trained.
+        arguments: by network, the arguments it is called with over the record, shape (N, number of arguments).
+        trajectory: the model over the record.
+    """
+
+    networks: tuple[str, ...] = eqx.field(static=True)
+    arguments: Mapping[str, Array]
+    trajectory: Trajectory | None = None
+
+
+Regularizer = Callable[[Mapping[str, Any], Context], Array]
+
+
+class ZeroCrossing(eqx.Module):
+    """Networks should vanish at zero: ``weight · Σ F(0)²``, the paper's (4).
+
+    A network with secondary arguments T is held at zero for all of them: the mean over samples of
+    ``F(0, T_i)²``, the paper's (6).
+
+    Attributes:
+        weight: the paper's λ, for outputs relative to their scale.
+        networks: which; ``None`` means all that are trained.
+        secondary: by network, samples of its secondary arguments, shape (N, number of them); by default
+            those that occur over the record.
+    """
+
+    weight: float = 0.01
+    networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
+    secondary: Mapping[str, Any] | None = None
+
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+        """The penalty."""
+        names = _chosen(self.networks, context)
+        terms = [self._at_zero(name, params[name], context) for name in names]
+        return self.weight * _sum(terms)
+
+    def _at_zero(self, name: str, network: Any, context: Context) -> Array:
+        if self.secondary is not None and name in self.secondary:
+            given = jnp.asarray(self.secondary[name], float)
+            others = given[:, None] if given.ndim == 1 else given
+        else:
+            others = context.arguments[name][:, inputs_of(network) :]
+        if others.shape[1] == 0:
+            others = others[:1]
+        zeros = [jnp.zeros(())] * inputs_of(network)
+        force = jax.vmap(lambda row: law_of(network)(*zeros, *row))(others)
+        return jnp.mean((force / output_scale(network)) ** 2)
+
+
+class SmallCorrection(eqx.Module):
+    """Networks should add as little as the data allow: ``weight · Σ mean F²`` over the record.
+
+    A prior that fixes what data leave open. In the quarter vehicle, say, one factor on all masses, the tyre and
+    the suspension's force changes no acceleration; only the smallest correction picks one.
+
+    Attributes:
+        weight: of the mean square output, relative to the output's scale.
+        networks: which; ``None`` means all that are trained.
+    """
+
+    weight: float = 1e-3
+    networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
+
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+        """The penalty."""
+        names = _chosen(self.networks, context)
+        return self.weight * _sum([_mean_square(params[n], context.arguments[n]) for n in names])
+
+
+def _sum(terms: list[Array]) -> Array:
+    return jnp.sum(jnp.stack(terms)) if terms else jnp.zeros(())
+
+
+def _mean_square(network: Any, arguments: Array) -> Array:
+    force = jax.vmap(lambda row: law_of(network)(*row))(arguments)
+    return jnp.mean((force / output_scale(network)) ** 2)
+
+
+def _chosen(networks: tuple[str, ...] | None, context: Context) -> tuple[str, ...]:
+    for name in networks or ():
+        if name not in context.networks:
+            raise TrainingError(
+                f"A regularizer names the network '{name}': {nearest(name, context.networks)}"
+            )
+    return context.networks if networks is None else networks
+
+
+def label(regularizer: Regularizer) -> str:
+    """The name of a regularizer in histories."""
+    return getattr(regularizer, "__name__", type(regularizer).__name__)

@@ -1,0 +1,1 @@
+"""How sure a result is: laws' and parameters' confidence, prediction bands, residuals."""

@@ -1,0 +1,130 @@
+"""Conformal bands: how far predictions are off, measured on a record that the training never saw."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from acausal.data import Data
+from acausal.errors import DataError
+from acausal.training.objective.build_problem import Start, first_state
+from acausal.training.objective.held_out import over
+from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.uncertainty.residuals import correlation_time
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """A target over the time of a record, predicted in one simulation of it.
+
+    Attributes:
+        time, low, middle, high: shape (N,): the prediction and the bounds of its band.
+    """
+
+    time: np.ndarray
+    low: np.ndarray
+    middle: np.ndarray
+    high: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Conformal:
+    """Bands around the predictions of a trained model, as wide as what was held out asks for.
+
+    No noise model is behind them, and the model may be wrong. They hold as often as promised on average over time, on
+    records like the one that they were calibrated on: the same excitation, the same sensors. Where a record is rougher
+    than that one, they are too narrow.
+
+    Attributes:
+        level: how often a band should hold the measurement.
+        width: from a band's middle to its bounds, by target, in its unit.
+        independent: how many independent samples the record is worth, by target; its neighbours are alike.
+        problem, trained: what predicts.
+    """
+
+    level: float
+    width: dict[str, float]
+    independent: dict[str, float]
+    problem: Problem
+    trained: Trainable
+
+    def predict(
+        self,
+        data: Data | Mapping[str, ArrayLike],
+        x0: Start | Mapping[str, float] = "data",
+    ) -> dict[str, Prediction]:
+        """The targets over another record, by name; arguments as those of `Fit.conformal`."""
+        time, y, _ = predicted(self.problem, self.trained, data, x0)
+        return {
+            name: Prediction(time, y[:, i] - width, y[:, i], y[:, i] + width)
+            for i, (name, width) in enumerate(self.width.items())
+        }
+
+    def coverage(
+        self,
+        data: Data | Mapping[str, ArrayLike],
+        x0: Start | Mapping[str, float] = "data",
+    ) -> dict[str, float]:
+        """How often the bands hold the targets of a third record, by name; arguments as those of `Fit.conformal`."""
+        _, y, measured = predicted(self.problem, self.trained, data, x0)
+        return {
+            name: float(np.mean(np.abs(measured[:, i] - y[:, i]) <= width))
+            for i, (name, width) in enumerate(self.width.items())
+        }
+
+    def __repr__(self) -> str:
+        widths = [f"  {n}: ±{w:.4g}" for n, w in self.width.items()]
+        return "\n".join([f"Conformal bands that hold {100 * self.level:g} % of", *widths])
+
+
+def conformal(
+    problem: Problem,
+    trained: Trainable,
+    data: Data | Mapping[str, ArrayLike],
+    level: float,
+    x0: Start | Mapping[str, float],
+) -> Conformal:
+    """Calibrate bands: the quantile of the errors on a record, with the correction for its finite length.
+
+    Split conformal prediction (V. Vovk, A. Gammerman, G. Shafer: Algorithmic Learning in a Random World, Springer
+    2005) takes samples for exchangeable. Those of a record are not; what it is worth is counted in independent samples,
+    by the autocorrelation time of the errors' size, and the quantile is raised as for so many.
+
+    Raises:
+        DataError: if the record is too short for the level, or lacks what is needed.
+    """
+    if not 0 < level < 1:
+        raise DataError(f"level={level:g} is no share of the samples; give a number in (0, 1).")
+    _, y, measured = predicted(problem, trained, data, x0)
+    errors = np.abs(measured - y)
+    if not np.isfinite(errors).all():
+        raise DataError("The trained model diverges over the record; no band holds that.")
+    width: dict[str, float] = {}
+    independent: dict[str, float] = {}
+    for name, column in zip(problem.targets, errors.T, strict=True):
+        count = len(column) / correlation_time(column)
+        raised = np.ceil((count + 1) * level) / count
+        if raised > 1:
+            raise DataError(
+                f"The record is worth {count:.1f} independent samples of '{name}', too few for level={level:g}: "
+                "take a longer one, or a lower level."
+            )
+        width[name] = float(np.quantile(column, raised, method="inverted_cdf"))
+        independent[name] = float(count)
+    return Conformal(level, width, independent, problem, trained)
+
+
+def predicted(
+    problem: Problem,
+    trained: Trainable,
+    data: Data | Mapping[str, ArrayLike],
+    x0: Start | Mapping[str, float],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Time, predicted and measured targets of another record: shapes (N,), (N, targets), (N, targets)."""
+    record = Data.of(data).for_system(problem.system)
+    start = first_state(problem.system, record, x0)
+    other = over(problem, record, start)
+    return record.time, np.asarray(other.simulate(trained).y), np.asarray(other.record.y)

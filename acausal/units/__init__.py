@@ -1,0 +1,8 @@
+"""Units: values converted by pint, and equations checked for dimensions.
+
+In: units as text, a `FlatModel`. Out: converted values, or a `UnitError` that names the equation.
+It knows flat models; neither JAX nor structure.
+"""
+
+from acausal.units.check import check_dimensions as check_dimensions
+from acausal.units.conversion import convert as convert

@@ -1,0 +1,213 @@
+"""Check: the units of a flat model, before anything is derived from it.
+
+Each template is looked at once, however many instances it has, with the units of what fills its slots. Values and
+starts that are given by expressions are looked at likewise, and signals that are joined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import UnitError, shortened
+from acausal.flattening import Binding, EquationGroup, FlatModel, Integers, Layout, Statement, tiled
+from acausal.modeling import Declaration, Module
+from acausal.units.dimensions import SECOND, Dimension, described, dimension
+from acausal.units.infer import Finding, Signature, Slots, examine
+
+MAX_LISTED = 12
+
+
+def check_dimensions(flat: FlatModel) -> None:
+    """Refuse a model that adds, compares or equates what has unlike dimensions.
+
+    What has no unit agrees with everything.
+
+    Raises:
+        UnitError: for text that is no unit; for equations, values and connections of unlike dimensions. It names
+            the components, the equations as they are written, and what is unlike in them, at most a dozen.
+    """
+    _refuse(list(_misspelt(flat.layout)))
+    measures = _measure(flat.layout)
+    wrong = [*_equations(flat, measures)]
+    wrong += _values(
+        flat.bindings, measures.parameters, flat.layout.parameter, flat.layout, measures
+    )
+    wrong += _values(flat.starts, measures.variables, flat.layout.variable, flat.layout, measures)
+    wrong += _joins(flat, measures)
+    _refuse(wrong)
+
+
+def _refuse(wrong: Sequence[str]) -> None:
+    if len(wrong) == 1:
+        raise UnitError(wrong[0])
+    if wrong:
+        listed = " ".join(f"({i}) {w}" for i, w in enumerate(wrong[:MAX_LISTED], start=1))
+        more = f" and {len(wrong) - MAX_LISTED} more" if len(wrong) > MAX_LISTED else ""
+        raise UnitError(f"{len(wrong)} units are wrong: {listed}{more}")
+
+
+# -- what everything measures --------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Measures:
+    """The dimensions of a model.
+
+    Attributes:
+        known: those that occur; the first is None, unknown.
+        variables, parameters: for each, the index of its dimension there.
+        modules: for each, what it takes and gives.
+    """
+
+    known: tuple[Dimension | None, ...]
+    variables: Integers
+    parameters: Integers
+    modules: tuple[Signature, ...]
+
+
+def _declarations(layout: Layout) -> Iterator[tuple[str, Declaration]]:
+    for form in layout.forms:
+        where = form.prototype._label()
+        for path, declaration in (*form.variables, *form.parameters, *form.modules):
+            yield f"{where}.{path}", declaration
+
+
+def _misspelt(layout: Layout) -> Iterator[str]:
+    for name, declaration in _declarations(layout):
+        takes = declaration.takes if isinstance(declaration, Module) else ()
+        for unit in (declaration.unit, *takes):
+            try:
+                dimension(unit)
+            except UnitError as e:
+                yield f"{name}: {e}"
+
+
+def _measure(layout: Layout) -> _Measures:
+    indices: dict[Dimension | None, int] = {None: 0}
+
+    def index(declaration: Declaration) -> int:
+        return indices.setdefault(dimension(declaration.unit), len(indices))
+
+    variables = [[index(d) for _, d in form.variables] for form in layout.forms]
+    parameters = [[index(d) for _, d in form.parameters] for form in layout.forms]
+    modules = [[_signature(d) for _, d in form.modules] for form in layout.forms]
+    return _Measures(
+        variables=tiled(layout, layout.variable_base, variables, np.int64),
+        parameters=tiled(layout, layout.parameter_base, parameters, np.int64),
+        modules=tuple(s for form in layout.form_of for s in modules[form]),
+        known=tuple(indices),
+    )
+
+
+def _signature(module: Module) -> Signature:
+    return Signature(tuple(dimension(unit) for unit in module.takes), dimension(module.unit))
+
+
+# -- equations -----------------------------------------------------------------------------------------
+
+
+def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
+    found: dict[tuple[str, str], list[str]] = {}
+    for group in (*flat.groups, *flat.initial):
+        if group.components[0] < 0:  # a connection
+            continue
+        slots = _slots(group, measures)
+        finding = examine(group.template.residual, slots)
+        if finding is not None:
+            cls, _, equation = group.template.origin.partition(": ")
+            said = (
+                f"'{shortened(equation)}': {finding.reason}{_hint(group.template, slots, finding)}"
+            )
+            names = [flat.layout.paths[i] for i in group.components]
+            found.setdefault((cls, said), []).extend(names)
+    for (cls, said), names in found.items():
+        first = f"{cls} '{names[0]}'" if names[0] else cls
+        more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+        yield f"{first}{more}: {said}"
+
+
+def _slots(group: EquationGroup, measures: _Measures) -> Slots:
+    """The slots of a template with what they measure; all instances of a group have the same units."""
+    template = group.template
+    slots: list[tuple[sp.Symbol, Dimension | Signature | None]] = []
+    row = measures.variables[group.variables[0]]
+    for symbol, order, index in zip(template.variables, template.orders, row, strict=True):
+        known = measures.known[index]
+        slots.append((symbol, known / SECOND**order if known is not None and order else known))
+    row = measures.parameters[group.parameters[0]]
+    slots += [(s, measures.known[i]) for s, i in zip(template.parameters, row, strict=True)]
+    modules = zip(template.modules, group.modules[0], strict=True)
+    slots += [(s, measures.modules[i]) for s, i in modules]
+    return tuple(slots)
+
+
+def _hint(template: Statement, slots: Slots, finding: Finding) -> str:
+    """What may mend the equation: another unit of a parameter, or a derivative."""
+    own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
+    found: list[str] = []
+    for (symbol, given), power in product(own, (1, -1)):
+        if not isinstance(given, Dimension):
+            continue
+        meant = given * finding.excess**power
+        if examine(template.residual, tuple({**dict(slots), symbol: meant}.items())) is None:
+            found = [f"should '{symbol}' be in {described(meant)}"]
+            break
+    if finding.excess in (SECOND, SECOND**-1):
+        found.append("is a der(...) missing or one too many")
+    return f"; {', or '.join(found)}?" if found else ""
+
+
+# -- values and connections ----------------------------------------------------------------------------
+
+
+def _values(
+    bindings: Sequence[Binding],
+    targets: Integers,
+    name: Callable[[int], str],
+    layout: Layout,
+    measures: _Measures,
+) -> Iterator[str]:
+    """Parameters or starts given by parameters; many instances may be given the same."""
+    right: set[tuple[Any, ...]] = set()
+    for binding in bindings:
+        arguments = measures.parameters[list(binding.arguments)].tolist()
+        key = binding.expression, int(targets[binding.target]), *arguments
+        if key in right:
+            continue
+        names = [sp.Symbol(layout.parameter(i)) for i in binding.arguments]
+        value = binding.expression.xreplace(dict(zip(binding.symbols, names, strict=True)))
+        target = sp.Symbol(name(binding.target))
+        slots = zip((target, *names), (measures.known[i] for i in key[1:]), strict=True)
+        finding = examine(target - value, tuple(slots))
+        if finding is None:
+            right.add(key)
+        else:
+            yield f"'{target} = {shortened(str(value))}': {finding.reason}"
+
+
+def _joins(flat: FlatModel, measures: _Measures) -> Iterator[str]:
+    """Signals that meet in one node (connectors that do are of one kind, units and all)."""
+    least = np.full(flat.n_variables, len(measures.known))
+    greatest = np.zeros(flat.n_variables, dtype=np.int64)
+    joined = [g.variables for g in flat.groups if g.components[0] < 0]
+    for variables in joined:
+        index = measures.variables[variables]
+        node = variables[:, 0]
+        np.minimum.at(least, node, np.where(index > 0, index, len(measures.known)).min(axis=1))
+        np.maximum.at(greatest, node, index.max(axis=1))
+    for node in np.flatnonzero(least < greatest):
+        members = np.unique(np.concatenate([v[v[:, 0] == node].ravel() for v in joined]))
+        first: dict[Dimension, str] = {}
+        for member in members:
+            known = measures.known[measures.variables[member]]
+            if known is not None:
+                first.setdefault(
+                    known, f"'{flat.layout.variable(int(member))}' in {described(known)}"
+                )
+        yield f"{' and '.join(first.values())} are connected"

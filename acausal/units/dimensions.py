@@ -1,0 +1,241 @@
+"""Dimensions of units: what ``"N.m/rad"`` measures, as exponents of the SI's base units.
+
+The units that models are written in are known here. The others are left to pint, whose import takes
+longer than the compilation of a small model.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+
+from acausal.errors import DataError, UnitError, nearest, shortened
+from acausal.units.conversion import parse
+
+BASE = {"kg": "[mass]", "m": "[length]", "s": "[time]", "A": "[current]",
+        "K": "[temperature]", "mol": "[substance]", "cd": "[luminosity]"}  # fmt: skip
+"""The SI's base units, and pint's names of their dimensions."""
+
+DERIVED = {
+    **dict.fromkeys(("rad", "sr", "deg", "rev"), "1"),
+    "N": "kg.m/s2", "Pa": "kg/(m.s2)", "J": "kg.m2/s2", "W": "kg.m2/s3",
+    "V": "kg.m2/(A.s3)", "Ohm": "kg.m2/(A2.s3)", "S": "A2.s3/(kg.m2)", "C": "A.s",
+    "F": "A2.s4/(kg.m2)", "H": "kg.m2/(A2.s2)", "Wb": "kg.m2/(A.s2)", "T": "kg/(A.s2)",
+    "Hz": "1/s", "g": "kg", "t": "kg", "l": "m3", "bar": "kg/(m.s2)", "mbar": "bar", "eV": "kg.m2/s2", "lm": "cd",
+    "min": "s", "h": "s", "d": "s", "degC": "K", "degF": "K", "degR": "K",
+}  # fmt: skip
+"""Further symbols of units in Modelica, and a unit of the same dimension; of the scale nothing is said."""
+
+PREFIXES = ("da", *"YZEPTGMkhdcmunpfazy")
+PREFIXED = (*BASE, "g", "N", "Pa", "J", "W", "V", "Ohm", "S", "C", "F", "H", "Wb", "T", "Hz", "l",
+             "eV", "rad")  # fmt: skip
+"""Those that a prefix may precede."""
+
+QUANTITIES = {
+    "1": "pure number", "m": "length", "m2": "area", "m3": "volume", "s": "time", "m/s": "speed",
+    "m/s2": "acceleration", "1/s": "frequency or angular velocity", "1/s2": "angular acceleration",
+    "kg": "mass", "kg.m2": "moment of inertia", "m3/s": "volume flow",
+    "kg/m3": "density", "N": "force", "N/m": "stiffness", "N.s/m": "damping or mass flow", "N.s": "momentum",
+    "N.m": "torque or energy", "N.m.s": "rotational damping", "W": "power", "Pa": "pressure",
+    "Pa.s": "viscosity", "K": "temperature", "1/K": "temperature coefficient", "J/K": "heat capacity",
+    "W/K": "thermal conductance", "K/W": "thermal resistance", "J/(kg.K)": "specific heat capacity",
+    "J/kg": "specific energy", "A": "current", "V": "voltage", "C": "charge", "Ohm": "resistance",
+    "S": "conductance", "F": "capacitance", "H": "inductance", "Wb": "magnetic flux",
+    "T": "flux density", "A/m": "magnetic field strength", "V/m": "electric field strength",
+    "1/H": "reluctance", "H/m": "permeability", "F/m": "permittivity", "Ohm.m": "resistivity",
+    "S/m": "conductivity",
+}  # fmt: skip
+"""Units as a message names them, and what they measure."""
+
+SPELLED = ("N", "W", "V", "Ohm", "Wb")
+"""Of which one may stand in a unit that is not among these."""
+
+TOKEN = re.compile(
+    r"\s*(?:(?P<symbol>[^\W\d_]+|[%°])(?:(?P<power>[+-]?\d+)|\s*(?:\^|\*\*)\s*(?P<exact>[+-]?\d+(?:\.\d+)?))?"
+    r"|(?P<op>[1./*()]))"
+)
+
+_longest_first = "|".join(sorted((*BASE, *DERIVED), key=len, reverse=True))
+LETTERS = re.compile(rf"{_longest_first}|[kMm](?:{_longest_first})")
+JOINED = re.compile(rf"(?:{LETTERS.pattern})+")
+"""Units without a dot between them."""
+
+Exponent = int | Fraction
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A product of powers of the base units, in the order of `BASE`."""
+
+    exponents: tuple[Exponent, ...]
+
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)))
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return self * other**-1
+
+    def __pow__(self, exponent: Exponent) -> Dimension:
+        whole = exponent.numerator if exponent.denominator == 1 else exponent
+        return Dimension(tuple(a * whole for a in self.exponents))
+
+    def __str__(self) -> str:
+        """A unit of that dimension as a person writes it: ``"N.m"``, ``"A.s2/kg"``, ``"1"``."""
+        return _usual().get(self) or _spelled(self)
+
+
+NUMBER = Dimension((0,) * len(BASE))
+BASES = {symbol: Dimension(tuple(int(other == symbol) for other in BASE)) for symbol in BASE}
+SECOND = BASES["s"]
+
+
+@cache
+def dimension(text: str) -> Dimension | None:
+    """The dimension of a unit in Modelica's spelling; None for ``""``, a unit that is not given.
+
+    Raises:
+        UnitError: for text that is no unit; it names the nearest one.
+    """
+    return _read(text) if text.strip() else None
+
+
+def described(measured: Dimension) -> str:
+    """A unit and what it measures, for a message: ``"N (force)"``."""
+    unit = str(measured)
+    return f"{unit} ({QUANTITIES[unit]})" if unit in QUANTITIES else unit
+
+
+# -- reading ---------------------------------------------------------------------------------------
+
+
+class _Reader:
+    """Recursive descent over the tokens of one unit."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.tokens: list[re.Match[str]] = []
+        at = 0
+        while at < len(text.rstrip()):
+            match = TOKEN.match(text, at)
+            if match is None:
+                raise self.wrong()
+            self.tokens.append(match)
+            at = match.end()
+        self.tokens.reverse()
+
+    def wrong(self, meant: str | None = None) -> UnitError:
+        """The error that says so."""
+        known = [meant] if meant else [*QUANTITIES, *DERIVED]
+        return UnitError(
+            f"'{shortened(self.text)}' is no unit; {nearest(meant or self.text, known)}"
+        )
+
+    def unit(self) -> Dimension:
+        """All of the text."""
+        found = self._product()
+        if self.tokens:
+            raise self.wrong()
+        return found
+
+    def _product(self) -> Dimension:
+        """Factors with ``.``, ``*`` or ``/`` between them, from the left."""
+        found = self._factor()
+        while self.tokens and (op := self.tokens[-1]["op"]) in (".", "*", "/"):
+            self.tokens.pop()
+            factor = self._factor()
+            found = found / factor if op == "/" else found * factor
+        return found
+
+    def _factor(self) -> Dimension:
+        if not self.tokens:
+            raise self.wrong()
+        token = self.tokens.pop()
+        if token["symbol"]:
+            return self._symbol(token["symbol"]) ** Fraction(token["power"] or token["exact"] or 1)
+        if token["op"] == "1":
+            return NUMBER
+        if token["op"] == "(":
+            found = self._product()
+            if self.tokens and self.tokens.pop()["op"] == ")":
+                return found
+        raise self.wrong()
+
+    def _symbol(self, symbol: str) -> Dimension:
+        """What is not known here is asked of pint, and refused where pint takes it for something unlikely."""
+        known = _known(symbol)
+        if known is not None:
+            return known
+        alike, found = _lookalike(symbol), _of_pint(symbol)
+        if found is None or (alike is not None and _read(alike) != found):
+            raise self.wrong(self.text.replace(symbol, alike) if alike else None)
+        return found
+
+
+@cache
+def _read(text: str) -> Dimension:
+    return _Reader(text).unit()
+
+
+@cache
+def _known(symbol: str) -> Dimension | None:
+    """The dimension of a symbol of these tables, perhaps behind a prefix."""
+    if symbol in BASES:
+        return BASES[symbol]
+    if symbol in DERIVED:
+        return _read(DERIVED[symbol])
+    for prefix in PREFIXES:
+        rest = symbol.removeprefix(prefix)
+        if rest != symbol and rest in PREFIXED:
+            return _known(rest)
+    return None
+
+
+def _lookalike(symbol: str) -> str | None:
+    """The unit that may have been meant: in other letters (``"Kg"``), or two without a dot (``"Nm"``)."""
+    for other in (*BASE, *DERIVED):
+        if other.lower() == symbol.lower():
+            return other
+    return ".".join(LETTERS.findall(symbol)) if JOINED.fullmatch(symbol) else None
+
+
+def _of_pint(symbol: str) -> Dimension | None:
+    """The dimension of what pint knows beyond: ``"ft"``, ``"lbf"``, ``"newton"``; None for no unit."""
+    try:
+        powers = dict(parse(symbol).dimensionality)
+    except DataError:
+        return None
+    exponents = tuple(Fraction(powers.pop(name, 0)) for name in BASE.values())
+    return None if powers else Dimension(exponents)
+
+
+# -- writing ---------------------------------------------------------------------------------------
+
+
+@cache
+def _usual() -> dict[Dimension, str]:
+    return {_read(unit): unit for unit in QUANTITIES}
+
+
+def _spelled(measured: Dimension) -> str:
+    """The base units, or one derived unit and base units, whichever takes fewer factors."""
+    powers = [dict(zip(BASE, measured.exponents, strict=True))]
+    for unit in SPELLED:
+        for power in (1, -1, 2, -2):
+            rest = measured / _read(unit) ** power
+            powers.append({unit: power, **dict(zip(BASE, rest.exponents, strict=True))})
+    return _text(min(powers, key=lambda factors: sum(map(abs, factors.values()))))
+
+
+def _text(powers: dict[str, Exponent]) -> str:
+    above = [_power(unit, e) for unit, e in powers.items() if e > 0]
+    below = [_power(unit, -e) for unit, e in powers.items() if e < 0]
+    divisor = f"({'.'.join(below)})" if len(below) > 1 else "".join(below)
+    return ".".join(above or ["1"]) + (f"/{divisor}" if below else "")
+
+
+def _power(unit: str, exponent: Exponent) -> str:
+    if exponent == 1:
+        return unit
+    return f"{unit}{exponent}" if exponent.denominator == 1 else f"{unit}^{float(exponent):g}"

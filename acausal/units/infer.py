@@ -1,0 +1,266 @@
+"""Homogeneity: the dimension of an expression, from those of its symbols.
+
+An unknown dimension (None) agrees with any other. A symbol without a unit has it, and so has a number: as a term
+it takes the dimension of its neighbours, and as the factor of one quantity, ``3*tanh(v)``, it may be a constant with a
+dimension. In formulas, such as ``m*v**2/2`` and ``2*pi*f``, small numbers (`is_small`) are what they look like.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, lru_cache
+from typing import Any
+
+import sympy as sp
+from sympy.core.relational import Relational
+from sympy.logic.boolalg import Boolean
+
+from acausal.errors import shortened
+from acausal.modeling import ModuleCall, Prescribed, time
+from acausal.units.dimensions import NUMBER, SECOND, Dimension, described
+
+MAX_CASES = 64
+"""Of one expression, looked at one by one."""
+
+MAX_SMALL = 12
+"""The largest numerator and denominator of a small number."""
+
+
+@dataclass(frozen=True)
+class Signature:
+    """What a callable parameter takes and gives; None where that is unknown."""
+
+    arguments: tuple[Dimension | None, ...] = ()
+    result: Dimension | None = None
+
+
+Slots = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
+"""Every symbol, or those that are known, with its dimension."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that has another dimension than it should: what to say, and the quotient of the two."""
+
+    reason: str
+    excess: Dimension
+
+
+@lru_cache(maxsize=4096)
+def examine(expression: sp.Expr, slots: Slots) -> Finding | None:
+    """The first place where what is added, compared or put into a function does not fit; None if all does.
+
+    Numbers in the branches of cases may have a dimension of their own. So what does not fit as a whole does
+    if every case does: ``v*where(off, G, 1) - i*where(off, 1, R)`` is ``G*v - i`` or ``v - R*i``.
+    """
+    known = dict(slots)
+    finding = _first_finding(expression, known)
+    if finding is None or not expression.has(sp.Piecewise):
+        return finding
+    return next(filter(None, (_first_finding(case, known) for case in _cases_of(expression))), None)
+
+
+def _first_finding(expression: Any, known: Mapping[Any, Any]) -> Finding | None:
+    try:
+        _Walk(known).of(expression)
+    except _Unlike as unlike:
+        return unlike.finding
+    return None
+
+
+def _cases_of(expression: Any) -> Iterator[Any]:
+    """What stands in cases, and the expression in every case; the whole of it where these are many.
+
+    Where the conditions are the same, so is the case.
+    """
+    pieces: dict[tuple[Any, ...], list[Any]] = {}
+    for piece in sorted(expression.atoms(sp.Piecewise), key=sp.default_sort_key):
+        pieces.setdefault(tuple(condition for _, condition in piece.args), []).append(piece)
+    if math.prod(map(len, pieces)) > MAX_CASES:
+        yield expression
+        return
+    yield from itertools.chain.from_iterable(pieces.values())
+    for choice in itertools.product(*(range(len(conditions)) for conditions in pieces)):
+        chosen = zip(choice, pieces.values(), strict=True)
+        yield expression.xreplace({p: p.args[i][0] for i, same in chosen for p in same})
+
+
+class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
+    """Carries a finding up from where it is made."""
+
+    def __init__(self, reason: str, excess: Dimension) -> None:
+        super().__init__(reason)
+        self.finding = Finding(reason, excess)
+
+
+def is_small(number: Any) -> bool:
+    """Whether a number is made of 2, 1/2, 0.5, pi and the like: 9.81 and 1000 may be constants of nature."""
+    ratios = (
+        (n.p, n.q) if n.is_Rational else float(n).as_integer_ratio()
+        for n in number.atoms(sp.Number)
+    )
+    return all(abs(above) <= MAX_SMALL and below <= MAX_SMALL for above, below in ratios)
+
+
+class _Walk:
+    """One expression with known symbols; a part that occurs often is looked at once."""
+
+    def __init__(self, known: Mapping[Any, Any]) -> None:
+        self.known = known
+        self.seen: dict[Any, Dimension | None] = {time: SECOND}
+
+    def of(self, part: Any) -> Dimension | None:
+        """The dimension of a part of the expression."""
+        if part.is_Symbol or part in self.seen:
+            return self.seen.get(part, self.known.get(part))
+        if part.is_number:
+            return None
+        found = self.seen[part] = _rule(type(part))(self, part)
+        return found
+
+    def common(self, parts: Iterable[Any]) -> Dimension | None:
+        """The one dimension that all parts have."""
+        first: Any = None
+        found: Dimension | None = None
+        for part in parts:
+            here = self.of(part)
+            if here is None or here == found:
+                continue
+            if found is not None:
+                raise _Unlike(
+                    f"{_quoted(first)} is in {described(found)} but {_quoted(part)} in {described(here)}",
+                    here / found,
+                )
+            first, found = part, here
+        return found
+
+    def pure(self, part: Any, role: str) -> Dimension | None:
+        """A part that must be a pure number; of the time alone it may be one, as in ``sin(time)``."""
+        found = None if part.free_symbols == {time} else self.of(part)
+        if found is not None and found != NUMBER:
+            raise _wrong(f"{role} {_quoted(part)}", found, NUMBER)
+        return found
+
+
+def _wrong(name: str, found: Dimension, wanted: Dimension) -> _Unlike:
+    """What to say of something, named, that has the wrong dimension."""
+    need = "a pure number" if wanted == NUMBER else f"in {described(wanted)}"
+    return _Unlike(f"{name} is in {described(found)} but must be {need}", found / wanted)
+
+
+def _quoted(term: Any) -> str:
+    """A term without its sign, for a message."""
+    negative = term.is_Mul and term.as_coeff_Mul()[0].is_negative
+    return f"'{shortened(str(-term if negative else term))}'"
+
+
+# -- rules: one for each kind of expression ------------------------------------------------------------
+
+Rule = Callable[[_Walk, Any], Dimension | None]
+
+
+def _alike(walk: _Walk, expression: Any) -> Dimension | None:
+    return walk.common(expression.args)
+
+
+def _parts(walk: _Walk, expression: Any) -> None:
+    for part in expression.args:
+        walk.of(part)
+
+
+def _compared(walk: _Walk, expression: Any) -> None:
+    walk.common(expression.args)
+
+
+def _number(walk: _Walk, expression: Any) -> Dimension:
+    """Of a sign or an angle: a number, whatever the dimension that the arguments share."""
+    walk.common(expression.args)
+    return NUMBER
+
+
+def _function(walk: _Walk, expression: Any) -> Dimension:
+    walk.pure(expression.args[0], f"the argument of {expression.func.__name__},")
+    return NUMBER
+
+
+def _product(walk: _Walk, expression: Any) -> Dimension | None:
+    numbers = [f for f in expression.args if f.is_number and f not in (1, -1)]
+    quantities = [walk.of(f) for f in expression.args if not f.is_number]
+    known = [q for q in quantities if q is not None]
+    is_formula = len(quantities) > 1 or not numbers or any(n.is_irrational for n in numbers)
+    if len(known) < len(quantities) or not (is_formula and all(map(is_small, numbers))):
+        return None
+    return math.prod(known, start=NUMBER)
+
+
+def _power(walk: _Walk, expression: Any) -> Dimension | None:
+    base, exponent = expression.args
+    found = walk.of(base)
+    if exponent.is_number:
+        ratio = Fraction(float(exponent)).limit_denominator(1000)
+        return None if found is None else found**ratio
+    varied = walk.pure(exponent, f"the exponent of {_quoted(base)},")
+    if varied is not None:
+        walk.pure(base, f"the base of {_quoted(expression)},")
+    return NUMBER if base.is_number or found == NUMBER else None
+
+
+def _cases(walk: _Walk, expression: Any) -> Dimension | None:
+    for _, condition in expression.args:
+        walk.of(condition)
+    return walk.common(value for value, _ in expression.args)
+
+
+def _prescribed(walk: _Walk, expression: Any) -> Dimension | None:
+    order, _, *signals = expression.args
+    found: Dimension | None = None
+    for n, signal in enumerate(signals):
+        here = walk.of(signal)
+        if here is None:
+            continue
+        if found is not None and here * SECOND**n != found:
+            name = f"{_quoted(signal)}, derivative {n} of {_quoted(signals[0])},"
+            raise _wrong(name, here, found / SECOND**n)
+        found = here * SECOND**n
+    return None if found is None else found / SECOND ** int(order)
+
+
+def _call(walk: _Walk, expression: Any) -> Dimension | None:
+    """A network; differentiated, its result is divided by its arguments."""
+    module, orders, *arguments = expression.args
+    signature = walk.known.get(module, Signature())
+    declared = dict(enumerate(signature.arguments))
+    found = signature.result
+    for i, (argument, order) in enumerate(zip(arguments, orders, strict=True)):
+        here, takes = walk.of(argument), declared.get(i)
+        if here is not None and takes is not None and here != takes:
+            raise _wrong(f"argument {i + 1} of '{module}', {_quoted(argument)},", here, takes)
+        if order:
+            divisor = here or takes
+            found = None if found is None or divisor is None else found / divisor ** int(order)
+    return found
+
+
+RULES: dict[type, Rule] = {
+    sp.Add: _alike,
+    sp.Mul: _product,
+    sp.Pow: _power,
+    sp.Piecewise: _cases,
+    Relational: _compared,
+    Boolean: _parts,
+    **dict.fromkeys((sp.Abs, sp.Max, sp.Min, sp.Mod, sp.floor, sp.ceiling), _alike),
+    **dict.fromkeys((sp.sign, sp.Heaviside, sp.atan2), _number),
+    **dict.fromkeys((sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan), _function),
+    **dict.fromkeys((sp.sinh, sp.cosh, sp.tanh), _function),
+    Prescribed: _prescribed,
+    ModuleCall: _call,
+}
+
+
+@cache
+def _rule(kind: type) -> Rule:
+    return next(RULES[k] for k in kind.__mro__ if k in RULES)

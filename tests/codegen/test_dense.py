@@ -1,0 +1,75 @@
+"""Solvers of algebraic blocks."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from acausal.codegen.dense import solve_linear, solve_nonlinear
+
+
+def plain(residual):
+    """A block whose unknowns are its tearing variables."""
+    return lambda z: (z, residual(z))
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 5])
+def test_linear(n):
+    rng = np.random.default_rng(n)
+    a, b = rng.normal(size=(n, n)), rng.normal(size=n)
+    solve = lambda a, b: solve_linear(plain(lambda z: a @ z - b), jnp.ones(n))  # noqa: E731
+    np.testing.assert_allclose(solve(a, b), np.linalg.solve(a, b), rtol=1e-10)
+    ours = jax.jacobian(solve)(jnp.asarray(a), b)
+    np.testing.assert_allclose(
+        ours, jax.jacobian(jnp.linalg.solve)(jnp.asarray(a), b), rtol=1e-8, atol=1e-10
+    )
+
+
+@pytest.mark.parametrize(
+    ("residual", "guess", "root"),
+    [
+        (lambda z: z**2 - 2, 1e-3, 2**0.5),
+        (lambda z: jnp.arctan(z - 1), 30.0, 1.0),
+        (lambda z: jnp.exp(4 * z) - 5, -3.0, np.log(5) / 4),
+        (lambda z: jnp.log(z) + 1, 20.0, np.exp(-1)),
+        (lambda z: z**3, 1.0, 0.0),
+        (lambda z: 1e-8 * (z - 3), 0.0, 3.0),
+        (lambda z: 1e8 * jnp.sinh(z - 3), 0.0, 3.0),
+        (lambda z: jnp.where(z > 0, 10 * z, z) + 5, 8.0, -5.0),
+    ],
+)
+def test_nonlinear(residual, guess, root):
+    found = solve_nonlinear(plain(residual), jnp.array([guess]))
+    np.testing.assert_allclose(found, [root], rtol=1e-8, atol=1e-7)
+
+
+def test_several_unknowns():
+    def residual(z):
+        return jnp.array([z[0] ** 2 + z[1] ** 2 - 4, z[0] * z[1] - 1])
+
+    found = solve_nonlinear(plain(residual), jnp.array([2.0, 0.3]))
+    np.testing.assert_allclose(residual(found), 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "residual", [lambda z: z**2 + 1, lambda z: z * jnp.nan, lambda z: jnp.ones_like(z)]
+)
+def test_without_a_root_the_result_is_nan(residual):
+    assert np.isnan(solve_nonlinear(plain(residual), jnp.array([0.7]))).all()
+
+
+def test_gradients_of_first_and_second_order():
+    def root(p):  # z + exp(z) = p
+        return solve_nonlinear(plain(lambda z: z + jnp.exp(z) - p), jnp.zeros(1))[0]
+
+    z = float(root(2.0))
+    first = 1 / (1 + np.exp(z))
+    assert float(jax.grad(root)(2.0)) == pytest.approx(first)
+    assert float(jax.jvp(root, (2.0,), (1.0,))[1]) == pytest.approx(first)
+    assert float(jax.hessian(root)(2.0)) == pytest.approx(-np.exp(z) * first**3)
+
+
+def test_a_batch_converges_each_by_itself():
+    p = jnp.array([0.1, 4.0, 1e6])
+    roots = jax.vmap(lambda q: solve_nonlinear(plain(lambda z: z**2 - q), jnp.array([0.5])))(p)
+    np.testing.assert_allclose(roots[:, 0], np.sqrt(p), rtol=1e-9)

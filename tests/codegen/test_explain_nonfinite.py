@@ -1,0 +1,57 @@
+"""Models whose equations have no finite value somewhere: what is said of the place."""
+
+import pytest
+
+import acausal as ac
+from tests.support.parts import Equations, model
+
+Eq, der = ac.Eq, ac.der
+
+
+def fold():
+    """x grows from 0.5; y follows from y² = 1 - x, which has no solution above x = 1."""
+    component = Equations("x y", lambda s: [Eq(der(s.x), s.y), Eq(s.y**2, 1 - s.x)])
+    component.modify(x=ac.Start(0.5, fixed=True), y=ac.Start(1.0))
+    return component
+
+
+def square_root():
+    component = Equations("x", lambda s: [Eq(der(s.x), -ac.sqrt(s.x))])
+    component.modify(x=ac.Start(1.0, fixed=True))
+    return component
+
+
+@pytest.mark.parametrize(
+    ("part", "steps", "told"),
+    [
+        (fold, {"dt": 0.02}, r"equations for 'part\.y' .*nearest is part\.y = .*leaves 'Equations: y\*\*2 = 1"),
+        (fold, {"max_steps": 2000}, r"There the equations for 'part\.y' have no solution"),
+        (square_root, {"dt": 0.03}, r"There 'der\(part\.x\)' = -sqrt\(x\) is nan: a division by zero"),
+    ],
+)  # fmt: skip
+def test_the_place_of_a_breakdown(part, steps, told):
+    system = ac.compile(model(part=part()))
+    with pytest.raises(ac.SimulationError, match=told):
+        ac.simulate(system, (0.0, 3.0), **steps)
+
+
+def test_a_loop_without_a_solution_at_the_start():
+    component = Equations(
+        "x y", lambda s: [Eq(der(s.x), s.y), Eq(ac.exp(s.y) + s.y**2, s.p - s.x)], p=-1.0
+    )
+    component.modify(x=ac.Start(1.0), y=ac.Start(2.0, fixed=True))
+    with pytest.raises(
+        ac.InitializationError, match=r"no finite values at its starts.*'y' have no"
+    ):
+        ac.compile(component).initial_state()
+
+
+def test_a_singular_linear_loop():
+    component = Equations(
+        "x y z",
+        lambda s: [Eq(der(s.x), s.y), Eq(s.y + s.z, s.x), Eq(s.y + s.p * s.z, 2 * s.x)],
+        p=2.0,
+    )
+    system = ac.compile(component)
+    with pytest.raises(ac.SimulationError, match="linear equations for 'y', 'z' are singular"):
+        ac.simulate(system, (0, 1), dt=0.1, x0={"x": 1.0}, params={**system.parameters(), "p": 1.0})

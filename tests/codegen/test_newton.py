@@ -1,0 +1,66 @@
+"""Roots that Newton's method alone does not find."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from acausal.codegen import newton
+
+
+def root(residual, guess, scale=1.0):
+    return newton.root(newton.Dense(residual, jnp.linalg.solve), guess, scale)
+
+
+def freudenstein_and_roth(z):
+    """A local minimum of the residual's size lies on Newton's way: J. Moré et al., TOMS 7 (1981), problem 2."""
+    x, y = z
+    return jnp.array([x - 13 + ((5 - y) * y - 2) * y, x - 29 + ((1 + y) * y - 14) * y])
+
+
+def cycle(z):
+    """Newton's method goes to and fro between 0 and 1; the path leads to the root backwards."""
+    return z**3 - 2 * z + 2
+
+
+def folded(z):
+    """One unknown, whose path from the guess turns back twice before it reaches the root."""
+    return z**3 - 3 * z + 2.5
+
+
+@pytest.mark.parametrize(
+    ("residual", "guess", "found"),
+    [
+        (freudenstein_and_roth, [15.0, -2.0], [5.0, 4.0]),
+        (folded, [1.5], [-2.0536]),
+        (cycle, [0.0], [-1.7693]),
+    ],
+)
+def test_a_root_behind_a_minimum(residual, guess, found):
+    guess = jnp.array(guess)
+    z, arrived = root(residual, guess)
+    assert bool(arrived)
+    np.testing.assert_allclose(z, found, rtol=1e-4)
+    np.testing.assert_allclose(residual(z), 0, atol=1e-9)
+
+
+def test_no_root_is_told():
+    _, arrived = root(lambda z: z**2 + 1, jnp.array([0.7]))
+    assert not bool(arrived)
+
+
+def test_units_do_not_matter():
+    def scaled(z):
+        return jnp.array([1e9, 1e-7]) * freudenstein_and_roth(z * jnp.array([1e6, 1e-3]))
+
+    guess = jnp.array([15e-6, -2e3])
+    z, arrived = root(scaled, guess, scale=jnp.array([1e-6, 1e3]))
+    assert bool(arrived)
+    np.testing.assert_allclose(z, [5e-6, 4e3], rtol=1e-6)
+
+
+def test_side_by_side():
+    guesses = jnp.array([[15.0, -2.0], [5.1, 4.1]])
+    z, arrived = jax.vmap(lambda g: root(freudenstein_and_roth, g))(guesses)
+    assert bool(arrived.all())
+    np.testing.assert_allclose(z, [[5, 4], [5, 4]], rtol=1e-6)

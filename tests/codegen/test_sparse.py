@@ -1,0 +1,117 @@
+"""Sparse systems inside JAX programs, beside dense ones."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+import scipy.sparse.linalg
+
+from acausal.codegen import sparse
+from acausal.codegen.sparse import SparseMatrix
+from acausal.structure.elimination_order import analyse
+
+N = 30
+
+
+@pytest.fixture(scope="module")
+def system():
+    """A sparse matrix, its entries, a right side, and the dense solution as a function of both."""
+    generator = np.random.default_rng(0)
+    dense = np.where(generator.random((N, N)) < 0.1, generator.normal(size=(N, N)), 0)
+    dense[np.arange(N), generator.permutation(N)] += 2.0
+    rows, columns = np.nonzero(dense)
+    entries = dense[rows, columns]
+
+    def solve(entries, b):
+        return jnp.linalg.solve(jnp.zeros((N, N)).at[rows, columns].set(entries), b)
+
+    matrix = SparseMatrix(analyse(rows, columns, entries, N))
+    return matrix, jnp.asarray(entries), jnp.asarray(generator.normal(size=N)), solve
+
+
+def close(found, expected):
+    np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
+
+
+def test_solutions_are_those_of_the_dense_system(system):
+    matrix, entries, b, dense = system
+    close(jax.jit(matrix.solve)(entries, b), dense(entries, b))
+
+
+@pytest.mark.parametrize("argument", [0, 1])
+def test_derivatives_of_all_orders_and_modes(system, argument):
+    matrix, entries, b, dense = system
+
+    def loss(solve):
+        return lambda *args: jnp.sum(solve(*args) ** 3)
+
+    for transform in (jax.grad, jax.jacfwd):
+        of = [transform(loss(solve), argument) for solve in (matrix.solve, dense)]
+        close(of[0](entries, b), of[1](entries, b))
+    direction = jnp.ones_like((entries, b)[argument])
+
+    def curvature(solve):
+        def along(scale):
+            moved = [entries, b]
+            moved[argument] = moved[argument] + scale * direction
+            return loss(solve)(*moved)
+
+        return jax.grad(jax.grad(along))(0.0)
+
+    close(curvature(matrix.solve), curvature(dense))
+
+
+@pytest.mark.parametrize("axes", [(0, 0), (None, 0), (0, None)])
+def test_batches(system, axes):
+    matrix, entries, b, dense = system
+    scale = jnp.asarray([1.0, 0.5, 2.0])[:, None]
+    batch = [v if a is None else scale * v for a, v in zip(axes, (entries, b), strict=True)]
+    close(*(jax.vmap(solve, axes)(*batch) for solve in (matrix.solve, dense)))
+
+
+def test_batches_of_batches(system):
+    matrix, entries, b, dense = system
+    each = jnp.arange(1.0, 4.0)[:, None]
+    nested = [
+        jax.vmap(jax.vmap(s, (None, 0)), (0, None))(each * entries, each**2 * b)
+        for s in (matrix.solve, dense)
+    ]
+    close(*nested)
+
+
+def test_a_matrix_is_factorized_as_often_as_it_changes(system, monkeypatch):
+    matrix, entries, b, _ = system
+    matrix = SparseMatrix(matrix.pattern)
+    calls = []
+    plain = scipy.sparse.linalg.splu
+
+    def counted(*args, **kwargs):
+        calls.append(args)
+        return plain(*args, **kwargs)
+
+    monkeypatch.setattr(sparse, "splu", counted)
+
+    @jax.jit
+    def march(entries, b):
+        return jax.lax.scan(lambda x, _: (matrix.solve(entries, x), None), b, None, length=5)[0]
+
+    jax.block_until_ready(march(entries, b))
+    jax.block_until_ready(jax.grad(lambda b: march(entries, b).sum())(b))
+    assert len(calls) == 1
+    jax.block_until_ready(march(2 * entries, b))
+    assert len(calls) == 2
+
+
+@pytest.mark.parametrize("factor", [0.0, jnp.nan, jnp.inf])
+def test_what_cannot_be_solved_is_nan(system, factor):
+    matrix, entries, b, _ = system
+    assert jnp.isnan(matrix.solve(factor * entries, b)).all()
+
+
+def test_single_precision_stays_single(system):
+    matrix, entries, b, dense = system
+    found = matrix.solve(entries.astype(jnp.float32), b.astype(jnp.float32))
+    assert found.dtype == jnp.float32
+    np.testing.assert_allclose(found, dense(entries, b), rtol=1e-4, atol=1e-4)

@@ -1,0 +1,180 @@
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.units.conversion import convert
+from tests.support.oscillator import plain
+
+TIME = np.linspace(0, 1, 11)
+
+
+def refused(make):
+    with pytest.raises(ac.DataError) as error:
+        make()
+    return str(error.value)
+
+
+def test_a_record():
+    data = ac.Data(TIME, {"mass.s": TIME**2})
+    assert data.uniform
+    assert data.sample_time == pytest.approx(0.1)
+    assert len(data) == 11
+    assert "11 samples at 0.1 s" in repr(data)
+    np.testing.assert_array_equal(data["mass.s"], TIME**2)
+    assert len(data.between(0.25, 0.65)) == 4
+
+
+def test_a_mapping_is_a_record():
+    data = ac.Data.of({"time": TIME, "mass.s": TIME})
+    assert tuple(data.signals) == ("mass.s",)
+    assert (
+        refused(lambda: ac.Data.of({"Time": TIME}))
+        == "The record has no 'time': did you mean 'Time'?"
+    )
+
+
+def test_units_are_converted():
+    units = {"time": "ms", "mass.s": "mm", "mass.v": "km/h"}
+    data = ac.Data(1e3 * TIME, {"mass.s": TIME, "mass.v": TIME}, units).for_system(plain())
+    np.testing.assert_allclose(data.time, TIME)
+    np.testing.assert_allclose(data["mass.s"], 1e-3 * TIME)
+    np.testing.assert_allclose(data["mass.v"], TIME / 3.6)
+
+
+@pytest.mark.parametrize(
+    ("given", "wanted", "factor"),
+    [
+        ("kN.m", "N.m", 1000),
+        ("N/mm", "N/m", 1000),
+        ("g/cm3", "kg/m3", 1000),
+        ("cm/s2", "m/s2", 0.01),
+        ("rev/min", "rad/s", 2 * np.pi / 60),
+        ("1", "", 1),
+        ("percent", "1", 0.01),
+    ],
+)
+def test_spellings_of_units(given, wanted, factor):
+    assert convert(np.ones(1), given, wanted, "x")[0] == pytest.approx(factor)
+
+
+def test_temperatures_have_an_offset():
+    assert convert(np.array([20.0]), "degC", "K", "x")[0] == pytest.approx(293.15)
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (
+            lambda: ac.Data(TIME, {"x": np.where(TIME > 0.75, np.nan, TIME)}),
+            "'x' is nan at sample 8 and 2 more; leave such samples out, or fill the gap.",
+        ),
+        (lambda: ac.Data(TIME, {"x": TIME[:-1]}), "'x' has 10 samples for 11 times."),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}).between(5, 6),
+            "No two samples lie between 5 and 6 s; the record goes from 0 to 1 s.",
+        ),
+        (
+            lambda: ac.Data(TIME[::-1], {"x": TIME}),
+            "The record has a time base that does not increase: 1 s at sample 0 is followed by 0.9 s.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME, "y": TIME}, {"x": "m"}),
+            "'y' have no unit while other signals have one; give units to all.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}, {"x": "m", "y": "m"}),
+            "There are units for 'y' but no such signal: known are 'x'.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"mass.vv": TIME}).for_system(plain()),
+            (
+                "The data have 'mass.vv', which the model has not: did you mean 'mass.v'? "
+                "Leave others out by data.select([...])."
+            ),
+        ),
+        (
+            lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "kg"}).for_system(plain()),
+            "'mass.v' is given in 'kg', which cannot become 'm/s'.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"mass.v": TIME}).select(["mass.s"]),
+            "The record has no 'mass.s': did you mean 'mass.v'?",
+        ),
+    ],
+)
+def test_bad_records_are_refused_in_one_sentence(make, sentence):
+    assert refused(make) == sentence
+
+
+def test_a_unit_that_is_none():
+    message = refused(
+        lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "meterz"}).for_system(plain())
+    )
+    assert message.startswith("'mass.v': 'meterz' is no unit")
+
+
+def test_csv(tmp_path):
+    path = tmp_path / "record.csv"
+    path.write_text("time [s], mass.s [mm],mass.v [m/s]\n0,1,2\n\n0.5,2,3\n1,4,5\n")
+    data = ac.Data.from_csv(path).for_system(plain())
+    np.testing.assert_allclose(data["mass.s"], [1e-3, 2e-3, 4e-3])
+    np.testing.assert_allclose(data.time, [0, 0.5, 1])
+    path.write_text("time,mass.s\n0,1\n1,2\n")
+    assert ac.Data.from_csv(path).units is None
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "is empty; its first line must name the columns."),
+        ("time,x\n0,1\n1\n", ", line 3: 1 values for 2 columns."),
+        ("time,x\n0,1\n1,abc\n", ", line 3: 'abc' in column 'x' is no number."),
+        (
+            "time,x\n0,1\n1,nan\n",
+            ": 'x' is nan at sample 1; leave such samples out, or fill the gap.",
+        ),
+        ("time;x\n0;1\n", ", line 1: columns are separated by semicolons; commas are needed."),
+        ("time,x,x\n0,1,1\n", ", line 1: two columns are called 'x'."),
+        (
+            "time,x [m\n0,1\n",
+            ", line 1: 'x [m' is no column header; write 'name' or 'name [unit]'.",
+        ),
+        ("t,x\n0,1\n1,1\n", " has no column 'time': known are 't', 'x'."),
+        (
+            "time,x [m],y\n0,1,1\n1,1,1\n",
+            ": 'y' have no unit while other signals have one; give units to all.",
+        ),
+    ],
+)
+def test_bad_files_are_refused_with_the_line(tmp_path, text, sentence):
+    path = tmp_path / "bad.csv"
+    path.write_text(text)
+    message = refused(lambda: ac.Data.from_csv(path))
+    assert message.startswith(str(path))
+    assert message.endswith(sentence)
+
+
+def test_a_missing_file(tmp_path):
+    assert "cannot be read" in refused(lambda: ac.Data.from_csv(tmp_path / "none.csv"))
+
+
+def test_interpolation_goes_along_with_the_record():
+    t = np.linspace(0, 1, 11)
+    record = ac.Data(t, {"u": t, "w": t**2, "y": t}, interpolation={"u": "previous", "w": "cubic"})
+    part = record.between(0, 0.5).select(["u", "y"])
+    assert part.signal("u").interpolation == "previous"
+    assert part.signal("y").interpolation == "linear"
+    assert ac.Data(t, {"u": t}, interpolation="band-limited").signal("u").bends is not None
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ("spline", "The record has interpolation='spline'; choose one of linear, previous, cubic, band-limited."),
+        ({"v": "cubic"}, "There is an interpolation for 'v' but no such signal: known are 'u'."),
+    ],
+)  # fmt: skip
+def test_interpolations_are_checked(given, sentence):
+    with pytest.raises(ac.DataError) as error:
+        ac.Data([0.0, 1.0], {"u": [0.0, 1.0]}, interpolation=given)
+    assert str(error.value) == sentence

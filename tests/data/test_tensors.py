@@ -1,0 +1,110 @@
+"""Files of named arrays, and parameters in them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import equinox as eqx
+import jax
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.data import tensors
+from tests.support.oscillator import learned, plain
+
+
+def test_trees_come_back_as_they_were():
+    tree = {
+        "numbers": (1, 2.5, True), "key": jax.random.key(3), "function": np.sin, "none": None,
+        "arrays": [np.zeros((2, 0)), jax.numpy.arange(3), np.float64(1 / 3)], "infinite": np.inf,
+    }  # fmt: skip
+    back = tensors.filled_like(tree, tensors.named_arrays(tree), "it")
+    assert jax.tree.structure(back) == jax.tree.structure(tree)
+    for a, b in zip(jax.tree.leaves(back), jax.tree.leaves(tree), strict=True):
+        assert type(a) is type(b)
+        assert a is b or np.array_equal(*(tensors._stored(x) for x in (a, b)))
+    with pytest.raises(ac.DataError, match=r"^it lacks 'x':"):
+        tensors.filled_like({"x": 1.0}, {}, "it")
+    with pytest.raises(ac.DataError, match=r"^it has '.*' besides"):
+        tensors.filled_like({}, {"x": np.zeros(1)}, "it")
+    with pytest.raises(ac.DataError, match=r"as float64\[2\], but here it is float64\[3\]"):
+        tensors.filled_like({"x": np.zeros(3)}, {"x": np.zeros(2)}, "it")
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("saved") / "trained.safetensors"
+    ac.save_params(learned().parameters(3) | {"mass.m": 1.5}, path)
+    return path
+
+
+def test_parameters_come_back_as_they_were(saved: Path):
+    params, back = learned().parameters(3) | {"mass.m": 1.5}, ac.load_params(saved, learned())
+    assert list(back) == list(params)
+    assert back["mass.m"] == 1.5
+    assert back["extra.net"](0.3) == params["extra.net"](0.3)
+    assert jax.tree.structure(back) == jax.tree.structure(params)
+
+
+class Line(eqx.Module):
+    slope: float
+    layers: list[Any]
+    function: Any = eqx.field(static=True)
+
+    def __call__(self, x: Any) -> Any:
+        return self.slope * x
+
+
+def test_networks_of_the_users_own(tmp_path: Path):
+    path, like = tmp_path / "own.safetensors", {"net": Line(0.0, [np.tanh], np.sin), "a": 0.0}
+    ac.save_params({"net": Line(2.0, [np.tanh], np.sin), "a": 1.0}, path)
+    back = ac.load_params(path, like)
+    assert back["net"](3.0) == 6.0
+    assert back["a"] == 1.0
+    with pytest.raises(ac.DataError, match=r"has 'net\.function' as sin, but here it is cos"):
+        ac.load_params(path, like | {"net": Line(0.0, [np.tanh], np.cos)})
+    with pytest.raises(ac.DataError, match=r"has 'net\.layers\[0\]' as tanh, but here it is exp"):
+        ac.load_params(path, like | {"net": Line(0.0, [np.exp], np.sin)})
+
+
+@pytest.mark.parametrize(
+    ("model", "sentence"),
+    [
+        (lambda: plain(), "has 'extra.net.biases[0]', "),
+        (lambda: learned().parameters() | {"spring.k": 1.0}, "lacks 'spring.k': it belongs to another model."),
+        (lambda: learned().parameters() | {"extra.net": ac.MLP(width=4, key=0)},
+         "has 'extra.net.weights[0]' as float64[8, 1], but here it is float64[4, 1]: it belongs to another model."),
+        (lambda: learned().parameters() | {"extra.net": ac.MLP(width=8, input_scale=0.5, output_scale=20.0, key=0)},
+         "has 'extra.net.activation' as 'tanh', but here it is 'relu': it belongs to another network."),
+    ],
+    ids=["no network", "another parameter", "another width", "another activation"],
+)  # fmt: skip
+def test_parameters_of_another_model_are_refused(saved: Path, model: Any, sentence: str):
+    with pytest.raises(ac.DataError) as error:
+        ac.load_params(saved, model())
+    assert str(error.value).startswith(f"'{saved}' {sentence}")
+
+
+def test_files_that_cannot_be_read_or_written(
+    tmp_path: Path, saved: Path, monkeypatch: pytest.MonkeyPatch
+):
+    with pytest.raises(ac.DataError, match=r"cannot be read: No such file"):
+        ac.load_params(tmp_path / "none.safetensors", learned())
+    with pytest.raises(ac.DataError, match=r"cannot be written: No such file or directory\.$"):
+        ac.save_params({}, tmp_path / "none" / "a.safetensors")
+    tensors.write_arrays(tmp_path / "a.safetensors", {}, {"kind": "something else"})
+    with pytest.raises(ac.DataError, match=r"has no parameters of a model, .* but: something else"):
+        ac.load_params(tmp_path / "a.safetensors", learned())
+
+    def fail(descriptor: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    before = saved.read_bytes()
+    monkeypatch.setattr(os, "fsync", fail)
+    with pytest.raises(ac.DataError, match=r"cannot be written: No space left on device\.$"):
+        ac.save_params(plain().parameters(), saved)
+    assert saved.read_bytes() == before
+    assert [p.name for p in saved.parent.iterdir()] == [saved.name]

@@ -1,0 +1,379 @@
+import diffrax
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.data.record import Data
+from acausal.simulation.solvers import RK4, SOLVERS
+from tests.support.oscillator import C, M, force, plain, record, undamped
+
+OMEGA = np.sqrt(C / M)
+AT_ONE = {"mass.s": 1.0}
+NO_FORCE = {"push.f": 0.0}
+
+
+def error(solver, dt):
+    """Of an undamped oscillator's position and speed after 2 s."""
+    end = ac.simulate(undamped(), (0, 2), dt=dt, inputs=NO_FORCE, x0=AT_ONE, solver=solver).x[-1]
+    exact = jnp.asarray([np.cos(2 * OMEGA), -OMEGA * np.sin(2 * OMEGA)])
+    return float(jnp.abs(end - exact).max())
+
+
+# -- accuracy ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("solver", "order"),
+    [("heun", 2), ("midpoint", 2), ("bosh3", 3), ("rk4", 4), ("tsit5", 5), ("implicit_euler", 1)],
+)
+def test_fixed_steps_converge_with_their_order(solver, order):
+    coarse, fine = (0.02, 0.01) if order > 1 else (0.001, 0.0005)
+    ratio = error(solver, coarse) / error(solver, fine)
+    assert np.log2(ratio) == pytest.approx(order, abs=0.25 if order < 5 else 0.5)
+
+
+def test_unrolled_steps_are_diffrax_own():
+    ours = ac.simulate(undamped(), (0, 1), dt=0.01, inputs=NO_FORCE, x0=AT_ONE, solver="tsit5")
+    theirs = diffrax.diffeqsolve(
+        diffrax.ODETerm(lambda t, x, p: undamped().vector_field(t, x, jnp.zeros(1), p)),
+        diffrax.Tsit5(), 0, 1, 0.01, jnp.asarray([1.0, 0.0]), undamped().pack(None),
+        stepsize_controller=diffrax.ConstantStepSize(),
+    )  # fmt: skip
+    assert theirs.ys is not None
+    np.testing.assert_allclose(ours.x[-1], theirs.ys[-1], rtol=1e-11)
+
+
+def test_adaptive_steps_keep_the_energy():
+    sol = ac.simulate(undamped(), (0, 20), inputs=NO_FORCE, x0=AT_ONE, rtol=1e-10, atol=1e-12)
+    energy = M / 2 * sol["mass.v"] ** 2 + C / 2 * sol["mass.s"] ** 2
+    np.testing.assert_allclose(energy, C / 2, rtol=1e-7)
+    assert sol.t.shape == (500,)
+
+
+@pytest.mark.parametrize("solver", ["dopri8", "kvaerno5", diffrax.Dopri5()])
+def test_adaptive_solvers_agree(solver):
+    sol = ac.simulate(
+        plain(), (0, 2), inputs={"push.f": jnp.sin}, solver=solver, rtol=1e-9, atol=1e-11
+    )
+    reference = ac.simulate(plain(), (0, 2), dt=0.001, inputs={"push.f": jnp.sin})
+    assert float(sol["mass.s"][-1]) == pytest.approx(float(reference["mass.s"][-1]), rel=1e-7)
+
+
+def test_auto_takes_an_implicit_solver_for_a_stiff_model():
+    params = plain().parameters() | {"spring.d": 1e6, "mass.m": 1.0}  # modes at -1e6 and -5e-5 1/s
+    sol = ac.simulate(plain(), (0, 10), params=params, inputs=NO_FORCE, x0=AT_ONE, max_steps=1000)
+    assert float(sol["mass.s"][-1]) == pytest.approx(np.exp(-50e-6 * 10), rel=1e-6)
+    with pytest.raises(ac.SimulationError, match=r"after max_steps=1000\. Perhaps it is stiff"):
+        ac.simulate(
+            plain(),
+            (0, 10),
+            params=params,
+            inputs=NO_FORCE,
+            x0=AT_ONE,
+            max_steps=1000,
+            solver="tsit5",
+        )
+
+
+# -- inputs ------------------------------------------------------------------------------------------
+
+
+def test_sampled_inputs_equal_functions():
+    ends = np.linspace(0, 3, 301)
+    signal = ac.Signal(ends, force(ends))
+    ways = {
+        "samples": force(ends),
+        "pair": (ends, force(ends)),
+        "signal": signal,
+        "function": lambda t: signal(t),
+        "every second": (ends[::2], force(ends[::2])),
+        "every second, function": lambda t: ac.Signal(ends[::2], force(ends[::2]))(t),
+    }
+    x = {
+        n: ac.simulate(plain(), (0, 3), dt=0.01, inputs={"push.f": way}).x
+        for n, way in ways.items()
+    }
+    for name in ("pair", "signal", "function"):
+        np.testing.assert_allclose(x[name], x["samples"], rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(
+        x["every second, function"], x["every second"], rtol=1e-9, atol=1e-11
+    )
+
+
+def test_inputs_off_the_grid_are_read_at_stage_times():
+    odd = (np.linspace(0, 3, 77), force(np.linspace(0, 3, 77)))
+    fixed = ac.simulate(plain(), (0, 3), dt=1e-3, inputs={"push.f": odd})
+    adaptive = ac.simulate(plain(), (0, 3), inputs={"push.f": odd}, rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(fixed.x[-1], adaptive.x[-1], rtol=1e-5)
+
+
+def test_held_inputs_jump_where_they_jump():
+    """A step of the force at 1 s: the response is the shifted step response."""
+    step = ac.Signal([0.0, 1.0, 9.0], [0.0, 5.0, 5.0], "previous")
+    fixed = ac.simulate(undamped(), (0, 2), dt=0.01, inputs={"push.f": step})
+    adaptive = ac.simulate(undamped(), (0, 2), inputs={"push.f": step}, rtol=1e-10, atol=1e-12)
+    exact = 5 / C * (1 - np.cos(OMEGA))
+    assert float(fixed["mass.s"][-1]) == pytest.approx(exact, rel=1e-7)
+    assert float(adaptive["mass.s"][-1]) == pytest.approx(exact, rel=1e-8)
+    assert float(fixed["push.f"][99]) == 0
+    assert float(fixed["push.f"][100]) == 5
+
+
+def test_a_record_gives_the_inputs():
+    data = record(end=2.0)
+    sol = ac.simulate(plain(), (0, 2), dt=0.01, inputs=data)
+    np.testing.assert_allclose(sol["push.f"], data["push.f"])
+
+
+# -- results -----------------------------------------------------------------------------------------
+
+
+def test_any_variable_by_name(tmp_path):
+    sol = ac.simulate(plain(), (0, 1), dt=0.01, inputs={"push.f": 3.0})
+    np.testing.assert_allclose(sol["push.f"], 3)
+    np.testing.assert_allclose(M * sol["mass.a"], 3 - sol["spring.f"], atol=1e-12)
+    assert sol["mass.a"] is sol["mass.a"]
+    assert repr(sol) == f"Solution(101 points from 0 to 1 s, {len(plain().variables)} variables)"
+    with pytest.raises(ac.DataError, match=r"no variable 'mass\.b': did you mean 'mass"):
+        sol["mass.b"]
+    sol.to_csv(tmp_path / "run.csv", ["mass.s", "push.f"])
+    again = Data.from_csv(tmp_path / "run.csv")
+    assert again.units == {"mass.s": "m", "push.f": "N"}
+    np.testing.assert_array_equal(again["mass.s"], sol["mass.s"])
+
+
+def test_saving_less():
+    full = ac.simulate(plain(), (0, 1), dt=0.01, inputs={"push.f": jnp.sin})
+    some = ac.simulate(plain(), (0, 1), dt=0.01, inputs={"push.f": jnp.sin}, saveat=[0, 0.25, 1])
+    np.testing.assert_array_equal(some.x, full.x[np.array([0, 25, 100])])
+    np.testing.assert_allclose(some["push.f"], np.sin([0, 0.25, 1]))
+
+
+def test_a_plot_has_units():
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    sol = ac.simulate(plain(), (0, 1), dt=0.01, inputs=NO_FORCE, x0=AT_ONE)
+    figure = sol.plot("mass.s", "spring.s_rel", "mass.a")
+    assert [ax.get_ylabel() for ax in figure.axes] == ["in m", "mass.a in m/s2"]
+    assert figure.axes[-1].get_xlabel() == "time in s"
+    pyplot.close(figure)
+
+
+def test_a_data_frame_or_a_clear_word(monkeypatch):
+    sol = ac.simulate(plain(), (0, 1), dt=0.1, inputs=NO_FORCE)
+    monkeypatch.setitem(__import__("sys").modules, "pandas", None)
+    with pytest.raises(ac.DataError, match=r"needs pandas: pip install 'acausal\[dataframe\]'"):
+        sol.to_dataframe()
+
+
+def test_a_data_frame():
+    pytest.importorskip("pandas")
+    sol = ac.simulate(plain(), (0, 1), dt=0.1, inputs=NO_FORCE, x0=AT_ONE)
+    frame = sol.to_dataframe(["mass.s"])
+    assert frame.index.name == "time"
+    assert frame["mass.s"].iloc[0] == 1.0
+
+
+# -- derivatives, jit, vmap --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"dt": 0.01, "solver": "heun"},
+        {"dt": 0.01, "solver": "implicit_euler"},
+        {"solver": "tsit5", "rtol": 1e-12, "atol": 1e-12},
+    ],
+    ids=lambda how: how["solver"],
+)
+def test_gradients_by_parameters_and_starts(how):
+    ends = np.linspace(0, 1, 101)
+    push = (ends, force(ends)) if "dt" in how else jnp.cos  # kinks would make the difference rough
+    base = plain().parameters()
+
+    def loss(theta):
+        params = base | {"spring.c": theta[0], "mass.m": theta[1]}
+        sol = ac.simulate(
+            plain(), (0, 1), inputs={"push.f": push}, params=params,
+            x0={"mass.s": theta[2]}, saveat=[0.0, 0.5, 1.0], **how,
+        )  # fmt: skip
+        return jnp.sum(sol["mass.a"] ** 2)
+
+    theta = jnp.asarray([C, M, 0.3])
+    gradient = jax.grad(loss)(theta)
+    step = 1e-5 * theta
+    for i in range(3):
+        moved = jnp.zeros(3).at[i].set(step[i])
+        difference = (loss(theta + moved) - loss(theta - moved)) / (2 * step[i])
+        assert float(gradient[i]) == pytest.approx(float(difference), rel=1e-6)
+
+
+def test_gradient_by_samples_of_the_input():
+    def end(samples):
+        return ac.simulate(plain(), (0, 1), dt=0.1, inputs={"push.f": samples})["mass.s"][-1]
+
+    samples = jnp.ones(11)
+    weights = jax.grad(end)(samples)
+    assert float(weights @ samples) == pytest.approx(float(end(samples)))  # linear in the force
+
+
+def test_jit_and_vmap():
+    def end(c, s):
+        params = plain().parameters() | {"spring.c": c}
+        return ac.simulate(
+            plain(), (0, 1), dt=0.01, inputs=NO_FORCE, params=params, x0={"mass.s": s}
+        ).x[-1]
+
+    c, s = jnp.asarray([40.0, 50.0]), jnp.asarray([0.1, 0.2])
+    many = jax.jit(jax.vmap(end))(c, s)
+    np.testing.assert_allclose(many[1], end(50.0, 0.2), rtol=1e-12)
+    solution = jax.jit(
+        lambda s: ac.simulate(plain(), (0, 1), dt=0.1, inputs=NO_FORCE, x0={"mass.s": s})
+    )(0.5)
+    assert float(solution["mass.s"][0]) == 0.5
+
+
+def test_a_second_call_does_not_compile():
+    def run(c):
+        params = plain().parameters() | {"spring.c": c}
+        sol = ac.simulate(plain(), (0, 1), dt=0.02, inputs={"push.f": np.ones(51)}, params=params)
+        return sol["spring.f"].block_until_ready()
+
+    run(40.0)
+    with jax.log_compiles(), pytest.MonkeyPatch.context() as patch:
+        compiled = []
+        logger = __import__("logging").getLogger("jax._src.interpreters.pxla")
+        patch.setattr(logger, "handle", lambda record: compiled.append(record.getMessage()))
+        run(60.0)
+    assert not compiled
+
+
+# -- errors ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "kind", "sentence"),
+    [
+        ({}, ac.DataError, "No value for the model's input 'push.f': give inputs={'push.f': ...}."),
+        (
+            {"inputs": {"push.g": 1}},
+            ac.DataError,
+            "The model has no input 'push.g': did you mean 'push.f'?",
+        ),
+        (
+            {"inputs": {"push.f": np.ones(3)}},
+            ac.DataError,
+            "Input 'push.f' has samples but no times: give (times, samples), or dt for fixed steps.",
+        ),
+        (
+            {"inputs": {"push.f": np.ones(3)}, "dt": 0.1},
+            ac.DataError,
+            "Input 'push.f' has samples of shape (3,); the 10 steps from 0 to 1 s need 11.",
+        ),
+        (
+            {"inputs": {"push.f": lambda t: jnp.ones(2)}},
+            ac.DataError,
+            "Input 'push.f' is a function that returns shape (2,), no scalar.",
+        ),
+        (
+            {"inputs": {"push.f": lambda t: np.sin(t) if t > 0.5 else 0.0}},
+            ac.DataError,
+            (
+                "Input 'push.f' is a function that JAX cannot trace; write it with jax.numpy "
+                "(jnp.sin, jnp.where), or give samples: (times, values)."
+            ),
+        ),
+        ({"inputs": {"push.f": np.nan}}, ac.DataError, "Input 'push.f' is nan."),
+        (
+            {"inputs": NO_FORCE, "dt": 0.3},
+            ac.DataError,
+            "Steps of dt=0.3 s do not divide the 1 s from 0 to 1 s; choose dt=1/3, or end at 0.9 s.",
+        ),
+        (
+            {"inputs": NO_FORCE, "saveat": [0.5, 2]},
+            ac.DataError,
+            "saveat has 2 s; give times from 0 to 1 s.",
+        ),
+        (
+            {"inputs": NO_FORCE, "dt": 0.1, "saveat": [0.25]},
+            ac.DataError,
+            "saveat has 0.25 s, which is no step's end; save multiples of dt, or leave dt out for adaptive steps.",
+        ),
+        (
+            {"inputs": NO_FORCE, "solver": "tsit6"},
+            ac.SimulationError,
+            "No solver 'tsit6': did you mean 'tsit5'?",
+        ),
+        (
+            {"inputs": NO_FORCE, "solver": RK4()},
+            ac.SimulationError,
+            "RK4 has no error estimate: give dt for fixed steps, or choose solver='tsit5'.",
+        ),
+        (
+            {"inputs": NO_FORCE, "dt": 0.1, "solver": diffrax.LeapfrogMidpoint()},
+            ac.SimulationError,
+            f"LeapfrogMidpoint is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.",
+        ),
+        (
+            {"inputs": NO_FORCE, "x0": {"mass.s": np.nan}},
+            ac.SimulationError,
+            "The initial value of 'mass.s' is nan.",
+        ),
+    ],
+)
+def test_mistakes_get_one_sentence(arguments, kind, sentence):
+    with pytest.raises(kind) as found:
+        ac.simulate(plain(), (0, 1), **arguments)
+    assert str(found.value) == sentence
+
+
+@pytest.mark.parametrize("t", [(1, 1), (0, np.nan), 3, (0,), None, ("a", "b")])
+def test_what_is_no_span(t):
+    with pytest.raises(ac.DataError, match=r"^t=.* is no span of time"):
+        ac.simulate(plain(), t, inputs=NO_FORCE)
+
+
+@pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast"])
+def test_what_is_no_step(dt):
+    with pytest.raises(ac.DataError, match=r"^dt=.* is no step"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=dt)
+
+
+@pytest.mark.parametrize(
+    ("call", "function"),
+    [
+        (lambda m: ac.simulate(m, (0, 1)), "simulate"),
+        (lambda m: ac.fit(m, {"time": [0, 1]}, ["x"]), "fit"),
+        (ac.linearize, "linearize"),
+    ],
+)
+def test_a_model_that_is_not_compiled(call, function):
+    for what in (ac.Component(), ac.Component):
+        with pytest.raises(
+            ac.ModelError, match=f"^{function} needs a compiled model, got Component"
+        ):
+            call(what)
+
+
+def test_what_is_no_mapping():
+    with pytest.raises(ac.DataError, match=r"^params are numbers and networks by name"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, params=[1.0])
+    with pytest.raises(ac.DataError, match=r"^A record is "):
+        ac.fit(plain(), None, ["mass.s"])
+
+
+def test_steps_too_long_are_named_as_the_cause():
+    with pytest.raises(ac.SimulationError) as found:
+        ac.simulate(plain(), (0, 1000), dt=1.0, inputs=NO_FORCE, x0=AT_ONE)
+    message = str(found.value)
+    assert message.startswith("The simulation broke down after t = ")
+    assert "dt=1 s is too long for the model's fastest mode, 5 1/s at the start" in message
+
+
+def test_an_unstable_model_is_named_as_the_cause():
+    params = plain().parameters() | {"spring.c": -1e4}
+    with pytest.raises(ac.SimulationError, match=r"unstable: a mode grows by 70\.5 1/s"):
+        ac.simulate(plain(), (0, 20), dt=0.01, inputs=NO_FORCE, x0=AT_ONE, params=params)
+    with pytest.raises(ac.SimulationError, match="stopped at t = "):
+        ac.simulate(plain(), (0, 20), inputs=NO_FORCE, x0=AT_ONE, params=params, max_steps=500)

@@ -1,0 +1,67 @@
+"""The nonlinear equations of implicit steps: tolerances in the state's units, gradients."""
+
+from typing import Any
+
+import diffrax as dfx
+import jax
+import jax.numpy as jnp
+import pytest
+
+from acausal.simulation import solvers
+
+CAPACITY = 1e-7
+
+
+def clamped(t: Any, v: Any, knee: Any) -> Any:
+    """A capacitor of 0.1 uF behind 20 Ohm and a sine, clamped by an exponential characteristic."""
+    return ((10 * jnp.sin(30 * t) - v) / 20 - 1e-3 * jnp.exp((v - knee) / 0.05)) / CAPACITY
+
+
+def solve(solver: Any, knee: Any, rtol: float, steps: int = 1500) -> Any:
+    return dfx.diffeqsolve(
+        dfx.ODETerm(clamped),
+        solver,
+        0.0,
+        0.05,
+        None,
+        jnp.zeros(1),
+        knee,
+        stepsize_controller=dfx.PIDController(rtol=rtol, atol=1e-2 * rtol),
+        max_steps=steps,
+        throw=False,
+    )
+
+
+@pytest.mark.parametrize("name", ["kvaerno3", "kvaerno5"])
+def test_tight_tolerances_cost_few_steps_where_modes_are_fast(name: str) -> None:
+    found = solve(solvers.solver_named(name), 5.0, 1e-7)
+    assert bool(found.result == dfx.RESULTS.successful)
+    v, t = float(found.ys[-1, 0]), 0.05
+    assert abs(float(clamped(t, v, 5.0))) < 1e-3 * 10 / 20 / CAPACITY  # all but at rest
+    theirs = solve(dfx.Kvaerno5(), 5.0, 1e-7)  # tolerances of the slope, below its rounding
+    assert not bool(theirs.result == dfx.RESULTS.successful)
+
+
+def test_gradients_go_through_implicit_steps() -> None:
+    def end(knee: Any) -> Any:
+        return solve(solvers.solver_named("kvaerno5"), knee, 1e-7).ys[-1, 0]
+
+    slope = float(jax.grad(end)(5.0))
+    difference = float(end(5.001) - end(4.999)) / 0.002
+    assert slope == pytest.approx(difference, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["implicit_euler", "kvaerno3"])
+def test_fixed_steps_far_beyond_the_fastest_mode_are_found(name: str) -> None:
+    """With steps of 1 ms the slopes reach 1e7; the state is found to its tolerance all the same."""
+    found = dfx.diffeqsolve(
+        dfx.ODETerm(clamped),
+        solvers.for_fixed_steps(solvers.solver_named(name)),
+        0.0,
+        0.05,
+        1e-3,
+        jnp.zeros(1),
+        5.0,
+    )
+    assert found.ys is not None
+    assert abs(float(clamped(0.05, found.ys[-1, 0], 5.0))) < 1e-3 * 10 / 20 / CAPACITY

@@ -1,0 +1,267 @@
+"""What a record tells of laws and parameters, what is left over, and the page about it."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+import acausal as ac
+from acausal.components import translational as tl
+from acausal.training.uncertainty.confidence import _covariance  # pyright: ignore[reportPrivateUsage]
+from acausal.training.uncertainty.residuals import residuals
+from tests.support.oscillator import Oscillator, learned, plain, record
+
+CUBIC, NOISE = 80.0, 0.05
+
+
+def noisy(seed: int, cubic: float = CUBIC) -> ac.Data:
+    data, rng = record(cubic), np.random.default_rng(seed)
+    a = data["mass.a"] + NOISE * data["mass.a"].std() * rng.standard_normal(len(data))
+    return ac.Data(data.time, {"mass.a": a, "push.f": data["push.f"]})
+
+
+@cache
+def trained(seed: int = 0) -> ac.Fit:
+    return ac.fit(
+        learned(), noisy(seed), "mass.a", x0="model", strategy="whole_record", epochs=60,
+        modifiers=["mass.m"], solver="rk4", progress=False,
+    )  # fmt: skip
+
+
+def test_the_band_of_a_law_holds_the_truth():
+    fit = trained()
+    band = fit.confidence().laws["extra.net"]
+    low, high = (float(v[0]) for v in fit.seen["extra.net"].interval(1.5))
+    inside = (band.x > low) & (band.x < high)
+    miss = np.abs(band.law - CUBIC * band.x**3)
+    assert np.mean(miss[inside] < 2.5 * band.sigma[inside]) > 0.9
+    assert band.sigma[inside].max() < 0.2 * 20.0
+    middle, edge = band.sigma[len(band.sigma) // 2], band.sigma[0]
+    assert edge > 3 * middle  # nothing was seen there
+
+
+@pytest.mark.slow
+def test_bands_hold_the_truth_as_often_as_they_say():
+    """Over noises: two standard deviations are 95 % of a Gaussian; a band that is too wide would tell nothing."""
+    shares: list[float] = []
+    scores: list[float] = []
+    for seed in range(10):
+        fit = trained(seed)
+        band = fit.confidence().laws["extra.net"]
+        low, high = (float(v[0]) for v in fit.seen["extra.net"].interval(1.5))
+        inside = (band.x > low) & (band.x < high)
+        z = (band.law - CUBIC * band.x**3)[inside] / band.sigma[inside]
+        shares.append(float(np.mean(np.abs(z) < 2)))
+        scores.append(float(np.sqrt(np.mean(z**2))))
+    assert 0.85 < np.mean(shares) < 1
+    assert 0.6 < np.mean(scores) < 1.4
+
+
+def test_standard_deviations_are_those_of_repeated_measurements():
+    found, told = [], []
+    for seed in range(12):
+        fit = ac.fit(
+            plain(), noisy(seed, 0.0), "mass.a", x0="model", strategy="whole_record",
+            epochs=25, modifiers=["mass.m", "spring.c"], solver="rk4", progress=False,
+        )  # fmt: skip
+        found.append(list(fit.modifiers.values()))
+    told = list(fit.confidence().parameters.values())
+    np.testing.assert_allclose(np.std(found, axis=0), told, rtol=0.6)
+    assert np.all(np.abs(np.mean(found, axis=0)) < 3 * np.asarray(told) / np.sqrt(12) + 1e-5)
+
+
+def coloured(seed: int, keep: float = 0.9) -> ac.Data:
+    """A short record with noise of the first order, each sample ``keep`` times the one before and something new."""
+    data, rng = record(0.0, end=2.0), np.random.default_rng(seed)
+    fresh = np.sqrt(1 - keep**2) * rng.standard_normal(len(data) + 200)
+    noise = lfilter([1.0], [1.0, -keep], fresh)[200:]
+    a = data["mass.a"] + NOISE * data["mass.a"].std() * noise
+    return ac.Data(data.time, {"mass.a": a, "push.f": data["push.f"]})
+
+
+def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure():
+    """Standard deviations of white noise and a known start are an eighth of these."""
+    fits = [
+        ac.fit(
+            plain(), coloured(seed), "mass.a", x0="fit", strategy="whole_record", epochs=40,
+            modifiers=["mass.m", "spring.c"], solver="rk4", progress=False,
+        )
+        for seed in range(10)
+    ]  # fmt: skip
+    sure = [fit.confidence() for fit in fits[:3]]
+    found = np.std([list(fit.modifiers.values()) for fit in fits], axis=0, ddof=1)
+    told = np.mean([list(s.parameters.values()) for s in sure], axis=0)
+    np.testing.assert_allclose(told, found, rtol=0.5)
+    assert all(s.alike["mass.a"] > 4 for s in sure)
+    assert "which count as one here" in sure[0].words()[-1]
+
+
+def test_a_covariance_keeps_its_digits():
+    """Against fractions; the plain inverse of JᵀJ + 1 is off by its own size here."""
+    J = np.array([[1e9, 1e9], [1e9, 1e9 + 1.0]])
+    (a, b), (_, d) = ([Fraction(int(v)) for v in row] for row in J)
+    p, q, r = 2 * a * a + 1, a * b + a * d, b * b + d * d + 1
+    det = p * r - q * q
+    exact = np.array([[float(r / det), float(-q / det)], [float(-q / det), float(p / det)]])
+    np.testing.assert_allclose(_covariance(J, 1e20), exact, rtol=1e-6)
+
+
+def test_few_samples_make_less_sure_than_they_leave_over():
+    """A linear model of 4 numbers and 20 samples: the unbiased estimate divides by 16."""
+    J = 1e3 * np.random.default_rng(0).standard_normal((20, 4))
+    np.testing.assert_allclose(_covariance(J, 20.0), np.linalg.inv(J.T @ J) * 20 / 16, rtol=1e-4)
+    unseen = np.concatenate([J, np.zeros((20, 1))], axis=1)
+    assert _covariance(unseen, 20.0)[4, 4] == pytest.approx(1.0)
+
+
+class TwoSprings(ac.Component):
+    """A mass on two springs side by side, which no measurement of it can tell apart."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.fixed, self.push = tl.Fixed(), tl.Force()
+        self.one, self.other = tl.Spring(c=20.0), tl.SpringDamper(c=30.0, d=1.0)
+        self.mass = tl.Mass(m=2.0, s=ac.Start(0.0, fixed=True), v=ac.Start(0.0, fixed=True))
+        for spring in (self.one, self.other):
+            self.connect(self.fixed.flange, spring.flange_a)
+            self.connect(spring.flange_b, self.mass.flange_a)
+        self.connect(self.push.flange, self.mass.flange_b)
+
+
+def test_what_cannot_be_told_apart_is_said():
+    fit = ac.fit(
+        ac.compile(TwoSprings()), noisy(0, 0.0), "mass.a", x0="model", strategy="whole_record",
+        epochs=5, modifiers=["one.c", "other.c"], progress=False,
+    )  # fmt: skip
+    words = fit.confidence().words()
+    assert words[-1].startswith("The data can hardly tell 'other.c' from 'one.c' (correlation -")
+
+
+class Beside(ac.Component):
+    """Two oscillators that have nothing to do with each other."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.one, self.other = Oscillator(), Oscillator(learned=True)
+
+
+def test_what_no_target_depends_on_is_told_of():
+    data = noisy(0, 0.0)
+    twice = ac.Data(
+        data.time,
+        {
+            "one.mass.a": data["mass.a"],
+            "one.push.f": data["push.f"],
+            "other.push.f": data["push.f"],
+        },
+    )
+    told = (
+        r"^Training did not move 'other\.extra\.net', 'other\.mass\.m': no target depends on it\."
+    )
+    with pytest.warns(UserWarning, match=told):
+        fit = ac.fit(
+            ac.compile(Beside()), twice, "one.mass.a", x0="model", strategy="whole_record", epochs=5,
+            modifiers={"one.mass.m": 0.2, "other.mass.m": 0.2}, progress=False,
+        )  # fmt: skip
+    words = fit.confidence().words()
+    assert words[0].startswith("'one.mass.m' is known to ±")
+    assert words[1].startswith("The data tell nothing of 'other.mass.m'")
+
+
+# -- residuals ---------------------------------------------------------------------------------------
+
+
+def test_residuals_are_judged():
+    rng = np.random.default_rng(0)
+    white, u = rng.standard_normal((2, 4000))
+    slow = np.convolve(white, np.ones(5) / 5, mode="same")
+    driven = white + 0.3 * np.roll(u, 7)
+    quiet = residuals("y", white, {"u": u}, 1.0)
+    assert quiet.is_white
+    assert quiet.drivers == ()
+    assert "looks like white noise" in quiet.words()
+    assert not residuals("y", slow, {"u": u}, 1.0).is_white
+    follows = residuals("y", driven, {"u": u}, 1.0)
+    lag = int(np.argmax(np.abs(follows.inputs["u"]))) - len(follows.inputs["u"]) // 2
+    assert lag == 7
+    assert follows.inputs["u"].max() == pytest.approx(0.3 / np.sqrt(1.09), abs=0.05)
+
+
+def test_two_lags_are_enough_to_betray_colour():
+    white = np.random.default_rng(0).standard_normal(4000)
+    short = white[2:] + 0.8 * white[1:-1] + 0.5 * white[:-2]
+    assert not residuals("y", short, {}, 1.0).is_white
+
+
+def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
+    """Of 40 pairs that have nothing to do with each other; the bound of white noise would accuse most of them."""
+    rng = np.random.default_rng(0)
+    slow = lfilter([1.0], [1.0, -0.97], rng.standard_normal((2, 40, 4000)))
+    found = [residuals("y", y, {"u": u}, 1.0) for y, u in zip(*slow, strict=True)]
+    assert sum(bool(r.drivers) for r in found) <= 2
+    assert sum(np.max(np.abs(r.inputs["u"])) > r.bound for r in found) > 20
+    driven = residuals("y", slow[0, 0] + 0.7 * slow[1, 0], {"u": slow[1, 0]}, 1.0)
+    assert driven.drivers == ("u",)
+
+
+@pytest.mark.parametrize("count", [2, 3, 5, 12])
+def test_few_samples_tell_nothing(count: int):
+    found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0}, 1.0)
+    assert (
+        found.words() == f"'y': {count} samples are too few to tell what is left over from noise."
+    )
+
+
+def test_what_is_followed_exactly_leaves_nothing_to_learn():
+    u = np.sin(np.arange(1000) / 20)
+    found = residuals("y", 1e-9 * u, {"u": u}, 2.0)
+    assert found.drivers == ("u",)
+    assert found.words() == ("'y': what is left over is 4e-08 % of it; no more is to be learned.")
+
+
+def test_residuals_of_a_fit():
+    (found,) = trained().residuals()
+    assert found.target == "mass.a"
+    assert np.std(found.values) == pytest.approx(NOISE * record()["mass.a"].std(), rel=0.1)
+    assert len(found.own) == 50
+
+
+# -- the page ----------------------------------------------------------------------------------------
+
+
+def test_the_page_holds_everything_itself(tmp_path: Any):
+    path = trained().report(tmp_path / "out", "An oscillator")
+    text = path.read_text(encoding="utf-8")
+    assert path == tmp_path / "out" / "index.html"
+    for word in ("An oscillator", "extra.net", "mass.m", "What is left over", "mass.a"):
+        assert word in text
+    assert text.count("data:image/png;base64,") == 4
+    assert not re.search(r'(src|href)="(?!data:)', text)
+
+
+def test_a_page_about_a_model_that_diverges(tmp_path: Any):
+    """It has no laws to show, and says so; the curves stay by the measured ones."""
+    with pytest.warns(UserWarning, match="diverge"):
+        fit = ac.fit(
+            learned(), noisy(0), "mass.a", x0="model", params={"extra.net": lambda x: -1e4 * x**3},
+            train=[], modifiers=["mass.m"], strategy="whole_record", epochs=2, progress=False,
+        )  # fmt: skip
+    assert not np.isfinite(fit.loss)
+    text = fit.report(tmp_path).read_text(encoding="utf-8")
+    assert "The trained model diverges over the record" in text
+    assert text.count("data:image/png;base64,") == 2
+
+
+def test_a_learned_law_is_distilled():
+    found = trained().distill("extra.net", terms=2, tolerance=0.05)
+    assert "cube" in found.formula.terms
+    with pytest.raises(
+        ac.TrainingError, match=r"^There is no trained network 'extra': did you mean"
+    ):
+        trained().distill("extra")

@@ -1,0 +1,192 @@
+"""Gauss-Newton: slopes and curvatures of simulations, damped steps, and trainings that use them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from jax.flatten_util import ravel_pytree
+
+import acausal as ac
+from acausal.training import loop
+from acausal.training.objective.build_problem import over_whole_record, pose
+from acausal.training.objective.problem import Problem
+from acausal.training.optimizers.gradients import curvatures, gradients
+from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
+from tests.support.oscillator import C, learned, plain, record
+
+QUIET: dict[str, Any] = {"progress": False}
+
+
+# -- slopes ------------------------------------------------------------------------------------------
+
+
+def quartic(predicted: Any, measured: Any, sigma: Any) -> Any:
+    return jnp.mean(((predicted - measured) / sigma) ** 4)
+
+
+def posed(**wishes: Any) -> Problem:
+    """The learned oscillator, all that can be trained in it, and a second model beside it."""
+    system, given = learned(), {"loss": "nrmse", "regularizers": (), **wishes}
+    problem = pose(
+        system, record(end=2.0), ("mass.a", "mass.s"), system.parameters(0), train=None,
+        modifiers=["mass.m", "spring.c"], gamma=0.5, tolerances={"spring.d": 0.2},
+        sequence_length=None, batch_size=1, subsample=None, dt=None, solver="heun", x0="fit", **given,
+    )  # fmt: skip
+    return over_whole_record(problem)
+
+
+@pytest.mark.parametrize(
+    "wishes",
+    [{}, {"loss": quartic}, {"regularizers": (ac.ZeroCrossing(1.0),)}],
+    ids=["nrmse", "another loss", "regularizer"],
+)
+def test_both_ways_give_one_gradient(wishes: dict[str, Any]):
+    problem = posed(**wishes)
+    at = jax.tree.map(lambda a: a + 0.01, problem.start())
+    batch = problem.draw(jax.random.key(0))
+    back, forth = (eqx.filter_jit(way)(problem, at, batch) for way in (gradients, curvatures))
+    assert float(forth.total) == pytest.approx(float(back.total), rel=1e-12)
+    np.testing.assert_allclose(forth.losses, back.losses, rtol=1e-12)
+    a, b = (ravel_pytree(slope.gradient)[0] for slope in (forth, back))
+    np.testing.assert_allclose(a, b, rtol=1e-8, atol=1e-10 * float(jnp.abs(b).max()))
+
+
+def test_the_curvature_of_root_mean_squares_is_that_of_their_squares():
+    """``J' J / ℓ``, of normalised errors, by finite differences of the predictions."""
+    problem = posed()
+    start, unravel = ravel_pytree(problem.start())
+    predict = jax.jit(lambda z: problem.predictions(unravel(z)))
+    rows = np.random.default_rng(0).choice(len(start), 4, replace=False)
+    h = 1e-5
+    slopes = [(predict(start.at[i].add(h)) - predict(start.at[i].add(-h))) / (2 * h) for i in rows]
+    record, at = problem.record, predict(start)
+    losses = jax.vmap(problem.compare)(at)
+    J = jnp.stack(slopes) / record.sigma
+    expected = jnp.einsum("imnk,jmnk,m->ij", J, J, 1 / losses) / (len(record) * len(at))
+    found = eqx.filter_jit(curvatures)(problem, problem.start(), problem.draw(jax.random.key(0)))
+    np.testing.assert_allclose(
+        np.asarray(found.curvature)[np.ix_(rows, rows)], expected, rtol=1e-4, atol=1e-6
+    )
+
+
+# -- steps -------------------------------------------------------------------------------------------
+
+
+def descend(residuals: Callable[[Any], Any], start: Any, updates: int) -> Any:
+    """The method's state after updates of half the sum of squared residuals."""
+    method = levenberg_marquardt()
+
+    @jax.jit
+    def one(x: Any, state: Any) -> tuple[Any, Any]:
+        r, J = residuals(x), jax.jacfwd(residuals)(x)
+        value = jnp.where(jnp.isfinite(r).all(), 0.5 * r @ r, jnp.inf)
+        J, r = (jnp.where(jnp.isfinite(value), a, 0.0) for a in (J, r))
+        moves, state = method.update(J.T @ r, state, x, value=value, curvature=J.T @ J)
+        return x + moves, state
+
+    x, state = start, method.init(start)
+    for _ in range(updates):
+        x, state = one(x, state)
+    return state
+
+
+def test_it_follows_a_curved_valley():
+    def rosenbrock(x: Any) -> Any:
+        return jnp.concatenate([10 * (x[1:] - x[:-1] ** 2), 1 - x[:-1]])
+
+    state = descend(rosenbrock, jnp.asarray([-1.2, 1.0]), 30)
+    assert bool(state.converged)
+    np.testing.assert_allclose(state.point, 1.0, atol=1e-6)
+
+
+def test_it_takes_back_steps_to_where_there_is_no_value():
+    state = descend(lambda x: jnp.sqrt(x) - 0.2, jnp.full(3, 4.0), 40)
+    np.testing.assert_allclose(state.point, 0.04, rtol=1e-4)
+
+
+def test_it_ends_where_nothing_can_be_told():
+    """Two parameters of which only the sum matters: a curvature without an inverse."""
+    state = descend(lambda x: jnp.stack([x.sum() - 1.0, 2 * x.sum() - 1.0]), jnp.zeros(2), 20)
+    assert bool(state.converged)
+    assert float(state.point.sum()) == pytest.approx(0.6, rel=1e-6)
+
+
+# -- trainings ---------------------------------------------------------------------------------------
+
+
+def parameters(**wishes: Any) -> ac.Fit:
+    """A training of an oscillator's parameters, from wrong ones, from an acceleration alone."""
+    wrong = {**plain().parameters(), "spring.c": 1.3 * C, "mass.m": 1.5, "spring.d": 1.4}
+    return ac.fit(
+        plain(), true().select(["mass.a", "push.f"]), "mass.a", params=wrong, gamma=0.9, x0="fit",
+        modifiers=["spring.c", "mass.m", "spring.d"], strategy="gauss_newton", **QUIET, **wishes,
+    )  # fmt: skip
+
+
+def true() -> ac.Data:
+    ts = np.arange(0.0, 6.0, 0.01)
+    force = 5 * np.sin(3 * ts) + 3 * np.sin(7 * ts)
+    solution = ac.simulate(
+        plain(), (0.0, 5.99), dt=0.01, inputs={"push.f": ac.Signal(ts, force)},
+        x0={"mass.s": 0.2}, solver="heun",
+    )  # fmt: skip
+    signals = {n: np.asarray(solution[n]) for n in ("mass.a", "mass.s", "mass.v")}
+    return ac.Data(ts, {**signals, "push.f": force})
+
+
+def test_parameters_and_the_first_state_are_found_exactly():
+    fit = parameters()
+    assert fit.history.epochs < 40  # of 50: it ends by itself, at 5e-16
+    for name in ("spring.c", "mass.m", "spring.d"):
+        assert float(fit.params[name]) == pytest.approx(float(plain().parameters()[name]), rel=1e-6)
+    assert fit.x0["mass.s"] == pytest.approx(0.2, rel=1e-5)
+
+
+def test_a_training_ends_at_the_same_update_however_often_it_is_looked_at(monkeypatch):
+    whole = parameters()
+    monkeypatch.setattr(loop, "LOOK", 0.0)
+    each = parameters()
+    np.testing.assert_array_equal(each.history.loss, whole.history.loss)
+
+
+def test_networks_are_trained_with_a_leg_before():
+    fit = ac.fit(
+        learned(), record(end=5.0), "mass.a", strategy=("equation_error", "gauss_newton"),
+        epochs=(30, 10), x0="model", **QUIET,
+    )  # fmt: skip
+    first = fit.history.full_loss[fit.history.full_loss[:, 0] <= 30][-1, 1]
+    assert fit.loss < 0.5 * first
+
+
+def test_what_does_not_fit_into_memory_is_refused(monkeypatch):
+    monkeypatch.setattr("acausal.training.objective.build_problem.SLOPES", 1000)
+    with pytest.raises(ac.TrainingError) as error:
+        parameters()
+    assert str(error.value) == (
+        "The slopes of all predictions by 5 weights and parameters take 0.0 GB: take strategy='whole_record' "
+        "in place of 'gauss_newton', smaller networks, or a coarser record."
+    )
+
+
+def test_a_saddle_is_no_end():
+    """From where the curvature is indefinite, as a penalty's may be, to the minimum at (0, 1)."""
+
+    def loss(p: Any) -> Any:
+        return 2 + p[0] ** 2 / 2 + p[1] ** 4 / 4 - p[1] ** 2 / 2
+
+    method, point = levenberg_marquardt(), jnp.array([0.05, 0.3])
+    state = method.init(point)
+    for _ in range(40):
+        told = {"value": loss(point), "curvature": jax.hessian(loss)(point)}
+        step, state = method.update(jax.grad(loss)(point), state, point, **told)
+        if state.converged:
+            break
+        point = point + step
+    np.testing.assert_allclose(state.point, [0.0, 1.0], atol=1e-4)
+    assert state.converged
