@@ -9,10 +9,20 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 import sympy as sp
+from jax import Array
 
 from acausal._jax import floating
-from acausal.codegen import Packed, ParameterLayout, Program, generate, lay_out_parameters
+from acausal.codegen import (
+    Packed,
+    ParameterLayout,
+    Program,
+    Values,
+    explain_breakdown,
+    generate,
+    lay_out_parameters,
+)
 from acausal.errors import DataError, ModelError, nearest
 from acausal.flattening import FlatModel, flatten
 from acausal.initialization import Initialization, Initializer, initializer
@@ -150,21 +160,16 @@ class System:
         Returns:
             dx/dt, shape (n_states,).
         """
-        x, u = self._check_shapes(x, u)
-        return self.program.vector_field(t, x, u, self.pack(params))
+        return self.rates(self.values(t, x, u, params))
 
     def observe(self, name: str | Sequence[str], t: Any, x: Any, u: Any, params: Params) -> Any:
         """One variable (a scalar) or several (an array, in the order asked), by dotted name.
 
         ``der(name)`` gives a derivative that the model knows.
         """
-        x, u = self._check_shapes(x, u)
-        names = (name,) if isinstance(name, str) else tuple(name)
-        found = [self._find(n) for n in names]
-        values = self.program.values([node for node, _ in found], t, x, u, self.pack(params))
-        signs = [sign for _, sign in found]
-        signed = values if all(s == 1 for s in signs) else values * jnp.asarray(signs)
-        return signed[0] if isinstance(name, str) else signed
+        names = (name,) if isinstance(name, str) else name
+        read = self.read(names, self.values(t, x, u, params))
+        return read[0] if isinstance(name, str) else read
 
     def vector_field_and_observe(
         self, names: Sequence[str], t: Any, x: Any, u: Any, params: Params
@@ -174,11 +179,38 @@ class System:
         What both need is computed once, and once only where it is differentiated: twice as fast as
         `vector_field` and `observe` in the gradient of a loss.
         """
+        return self.rates_and_read(names, self.values(t, x, u, params))
+
+    # -- the same of values in one record: what simulation and training carry -------------------------
+
+    def values(self, t: Any, x: Any, u: Any, params: Params) -> Values:
+        """The record of what a model is evaluated at; arguments as those of `vector_field`.
+
+        Raises:
+            DataError: for states or inputs of another shape, or parameters that do not fit.
+        """
         x, u = self._check_shapes(x, u)
-        found = [self._find(n) for n in names]
-        dx, y = self.program.both([node for node, _ in found], t, x, u, self.pack(params))
-        signs = [sign for _, sign in found]
-        return dx, y if all(s == 1 for s in signs) else y * jnp.asarray(signs)
+        return Values(t, x, u, self.pack(params))
+
+    def rates(self, values: Values) -> Array:
+        """Derivatives of the states, shape (n_states,)."""
+        return self.program.rates(values)
+
+    def read(self, names: Sequence[str], values: Values) -> Array:
+        """Variables by dotted name, shape (len(names),)."""
+        nodes, signs = self._find_all(names)
+        read = self.program.read(nodes, values)
+        return read if (signs == 1).all() else read * signs
+
+    def rates_and_read(self, names: Sequence[str], values: Values) -> tuple[Array, Array]:
+        """Both, what they share computed once."""
+        nodes, signs = self._find_all(names)
+        rates, read = self.program.rates_and_read(nodes, values)
+        return rates, read if (signs == 1).all() else read * signs
+
+    def explain_nonfinite(self, values: Values) -> str | None:
+        """A sentence on the first equation of the model that has no finite value there, or None."""
+        return explain_breakdown(self.reduced, self.program, values)
 
     def initial_state(
         self,
@@ -265,6 +297,11 @@ class System:
                 )
             raise ModelError(f"the model has no variable '{name}'; {hint}")
         return self.reduced.resolve(index)
+
+    def _find_all(self, names: Sequence[str]) -> tuple[list[int], np.ndarray]:
+        """Nodes and signs of variables and known derivatives."""
+        found = [self._find(name) for name in names]
+        return [node for node, _ in found], np.asarray([sign for _, sign in found])
 
     def _check_shapes(self, x: Any, u: Any) -> tuple[Any, Any]:
         x = floating(x)

@@ -15,3 +15,4 @@ from acausal.codegen.parameters import (
     lay_out_parameters as lay_out_parameters,
 )
 from acausal.codegen.program import Program as Program
+from acausal.codegen.values import Values as Values

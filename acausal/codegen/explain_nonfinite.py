@@ -10,27 +10,22 @@ import numpy as np
 
 from acausal.codegen.dense_loop import SolveLoop
 from acausal.codegen.instructions import Accumulate, Evaluate
-from acausal.codegen.parameters import Packed
 from acausal.codegen.program import Program
 from acausal.codegen.sparse_loop import SolveMesh
+from acausal.codegen.values import Values
 from acausal.errors import listing
 from acausal.structure import ReducedModel
 
 
-def explain_breakdown(
-    reduced: ReducedModel, program: Program, t: Any, x: Any, u: Any, packed: Packed
-) -> str | None:
-    """A sentence on the first step of the model that has no finite value at a point, or None.
-
-    Arguments:
-        t: time [s]. x: states, shape (n_states,). u: inputs, shape (n_inputs,).
-    """
+def explain_breakdown(reduced: ReducedModel, program: Program, values: Values) -> str | None:
+    """A sentence on the first step of the model that has no finite value at a point, or None."""
+    t, x, u, packed = values
     arrays: list[Any] = [x, u, jnp.zeros(())]
     for first, instruction in zip(program.first, program.instructions, strict=True):
         results = instruction.run(t, arrays, packed)
         for offset, result in enumerate(results):
-            values = np.atleast_1d(np.asarray(result))
-            bad = np.flatnonzero(~np.isfinite(values))
+            found = np.atleast_1d(np.asarray(result))
+            bad = np.flatnonzero(~np.isfinite(found))
             if not len(bad):
                 continue
             row = int(bad[0])
@@ -39,11 +34,11 @@ def explain_breakdown(
                     names = [_name(reduced, program, first + i, row) for i in range(len(results))]
                     nearest = partial(instruction.nearest, row)
                 case SolveMesh():
-                    names = [_name(reduced, program, first, i) for i in range(len(values))]
+                    names = [_name(reduced, program, first, i) for i in range(len(found))]
                     nearest = instruction.nearest
                 case _:
                     name = _name(reduced, program, first + offset, row)
-                    return _formula(name, instruction, values[row])
+                    return _formula(name, instruction, found[row])
             if instruction.is_linear:
                 return _singular(names)
             return _stopped(names, instruction.origins, *nearest(t, arrays, packed))

@@ -82,10 +82,10 @@ def _derivative(function: Callable[..., Any], orders: tuple[int, ...]) -> Callab
     return function
 
 
-Values = Mapping[sp.Symbol, Any]
+SymbolValues = Mapping[sp.Symbol, Any]
 
 
-def evaluate(expression: sp.Expr, values: Values) -> Any:
+def evaluate(expression: sp.Expr, values: SymbolValues) -> Any:
     """Value of an expression for the values of its symbols (scalars or arrays of one length)."""
     memo: dict[sp.Basic, Any] = {**values}
 

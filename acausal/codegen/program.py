@@ -16,8 +16,8 @@ import numpy as np
 from acausal.codegen.dense_loop import SolveLoop
 from acausal.codegen.gather import Gather, gather
 from acausal.codegen.instructions import Accumulate, Evaluate
-from acausal.codegen.parameters import Packed
 from acausal.codegen.sparse_loop import SolveMesh
+from acausal.codegen.values import Values
 from acausal.flattening import Integers
 
 Instruction = Evaluate | Accumulate | SolveLoop | SolveMesh
@@ -31,7 +31,7 @@ class Program:
         source, index: (n_nodes,) in which array, and where in it, a node's value lies (-1: nowhere).
         instructions: in order; ``first[i]`` is the array that instruction i fills first.
         sizes: lengths of all arrays.
-        rates: where the derivatives of the states are read, and their signs; ``input_signs`` those of the inputs.
+        state_rates: where the derivatives of the states are read, and their signs; ``input_signs`` those of the inputs.
     """
 
     source: Integers
@@ -39,37 +39,42 @@ class Program:
     instructions: tuple[Instruction, ...]
     first: tuple[int, ...]
     sizes: tuple[int, ...]
-    rates: Gather | None
+    state_rates: Gather | None
     rate_signs: np.ndarray
     input_signs: np.ndarray
 
-    def vector_field(self, t: Any, x: Any, u: Any, packed: Packed) -> Any:
+    def rates(self, values: Values) -> Any:
         """Derivatives of the states, shape (n_states,)."""
-        if self.rates is None:
-            return jnp.zeros_like(x)
-        arrays = self._run(self.rates.sources, t, x, u, packed)
-        rates = jnp.broadcast_to(self.rates.read(arrays), x.shape)
+        if self.state_rates is None:
+            return jnp.zeros_like(values.x)
+        return self._rates(values, self._run(self.state_rates.sources, values))
+
+    def read(self, nodes: Sequence[int], values: Values) -> Any:
+        """Values of some nodes, shape (len(nodes),)."""
+        wanted = self.gather(nodes)
+        return jnp.broadcast_to(wanted.read(self._run(wanted.sources, values)), (len(nodes),))
+
+    def rates_and_read(self, nodes: Sequence[int], values: Values) -> tuple[Any, Any]:
+        """Derivatives of the states and values of some nodes, what they share computed once."""
+        wanted = self.gather(nodes)
+        rates = self.state_rates.sources if self.state_rates else ()
+        arrays = self._run({*wanted.sources, *rates}, values)
+        return self._rates(values, arrays), jnp.broadcast_to(wanted.read(arrays), (len(nodes),))
+
+    def gather(self, nodes: Sequence[int]) -> Gather:
+        """How nodes are read."""
+        chosen = np.asarray(nodes, dtype=np.int64)
+        return gather(self.source[chosen], self.index[chosen], self.sizes)
+
+    def _rates(self, values: Values, arrays: list[Any]) -> Any:
+        if self.state_rates is None:
+            return jnp.zeros_like(values.x)
+        rates = jnp.broadcast_to(self.state_rates.read(arrays), values.x.shape)
         return rates if (self.rate_signs == 1).all() else rates * self.rate_signs
 
-    def values(self, nodes: Sequence[int], t: Any, x: Any, u: Any, packed: Packed) -> Any:
-        """Values of some nodes, shape (len(nodes),)."""
-        chosen = np.asarray(nodes, dtype=np.int64)
-        wanted = gather(self.source[chosen], self.index[chosen], self.sizes)
-        arrays = self._run(wanted.sources, t, x, u, packed)
-        return jnp.broadcast_to(wanted.read(arrays), (len(nodes),))
-
-    def both(self, nodes: Sequence[int], t: Any, x: Any, u: Any, packed: Packed) -> tuple[Any, Any]:
-        """Derivatives of the states and values of some nodes, what they share computed once."""
-        chosen = np.asarray(nodes, dtype=np.int64)
-        wanted = gather(self.source[chosen], self.index[chosen], self.sizes)
-        rates = self.rates
-        arrays = self._run({*wanted.sources, *(rates.sources if rates else ())}, t, x, u, packed)
-        dx = jnp.broadcast_to(rates.read(arrays), x.shape) if rates else jnp.zeros_like(x)
-        dx = dx if (self.rate_signs == 1).all() else dx * self.rate_signs
-        return dx, jnp.broadcast_to(wanted.read(arrays), (len(nodes),))
-
-    def _run(self, wanted: Iterable[int], t: Any, x: Any, u: Any, packed: Packed) -> list[Any]:
+    def _run(self, wanted: Iterable[int], values: Values) -> list[Any]:
         """Run the instructions that the wanted arrays depend on."""
+        t, x, u, packed = values
         u = u if (self.input_signs == 1).all() else u * self.input_signs
         arrays: list[Any] = [x, u, jnp.zeros((), x.dtype), *[None] * (len(self.sizes) - 3)]
         needed = set(wanted)

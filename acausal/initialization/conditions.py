@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 import sympy as sp
 
-from acausal.codegen import Packed, ParameterLayout, Program, chosen_module, evaluate
+from acausal.codegen import Packed, ParameterLayout, Program, Values, chosen_module, evaluate
 from acausal.flattening import Binding, EquationGroup, FlatModel
 from acausal.modeling import time
 from acausal.structure import ReducedModel
@@ -83,10 +83,7 @@ class Conditions:
         self,
         starts: Sequence[FixedStart],
         resting: Sequence[int],
-        packed: Packed,
-        x: Any,
-        u: Any,
-        t0: Any,
+        at: Values,
     ) -> Any:
         """How far a state is from fixed starts, from the initial equations, and from rest in some states.
 
@@ -95,13 +92,13 @@ class Conditions:
         nominal = self.reduced.model.nominal
         parts: list[Any] = []
         if starts:
-            values = self.program.values([c.node for c in starts], t0, x, u, packed)
+            values = self.program.read([c.node for c in starts], at)
             signs = np.asarray([c.sign for c in starts])
-            wanted = self._starts(packed, [(c.variable, 1) for c in starts])
+            wanted = self._starts(at.packed, [(c.variable, 1) for c in starts])
             parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
-        parts += [self._initial(group, packed, x, u, t0) for group in self.reduced.model.initial]
+        parts += [self._initial(group, at) for group in self.reduced.model.initial]
         if resting:
-            rates = self.program.vector_field(t0, x, u, packed)
+            rates = self.program.rates(at)
             parts.append((rates / self.nominal)[np.asarray(resting)])
         return jnp.concatenate(parts)
 
@@ -125,44 +122,42 @@ class Conditions:
             x = x.at[rows].set(evaluate(expression, dict(zip(symbols, read.T, strict=True))))
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
-    def _initial(self, group: EquationGroup, packed: Packed, x: Any, u: Any, t0: Any) -> Any:
+    def _initial(self, group: EquationGroup, at: Values) -> Any:
         """Residuals of initial equations; derivatives are taken along the vector field."""
-        columns: dict[sp.Symbol, Any] = {time: jnp.asarray(t0)}
+        columns: dict[sp.Symbol, Any] = {time: jnp.asarray(at.t)}
         for i, (symbol, order) in enumerate(
             zip(group.template.variables, group.template.orders, strict=True)
         ):
-            columns[symbol] = self._variables(group.variables[:, i], order, packed, x, u, t0)
+            columns[symbol] = self._variables(group.variables[:, i], order, at)
         for i, symbol in enumerate(group.template.parameters):
             kept = self.parameters.position[group.parameters[:, i]] >= 0
             read = (
-                self.parameters.gather(group.parameters[kept, i]).read([packed.values])
+                self.parameters.gather(group.parameters[kept, i]).read([at.packed.values])
                 if kept.any()
                 else 0.0
             )
             columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(read)
         for i, symbol in enumerate(group.template.modules):
-            columns[symbol] = chosen_module(packed, self.parameters.chosen(group.modules[:, i]))
+            columns[symbol] = chosen_module(at.packed, self.parameters.chosen(group.modules[:, i]))
         return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
 
-    def _variables(
-        self, variables: Any, order: int, packed: Packed, x: Any, u: Any, t0: Any
-    ) -> Any:
+    def _variables(self, variables: Any, order: int, at: Values) -> Any:
         resolved = [self.reduced.resolve(int(v)) for v in variables]
         nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
 
         def value(t: Any, x: Any) -> Any:
-            return signs * self.program.values(nodes, t, x, u, packed)
+            return signs * self.program.read(nodes, at._replace(t=t, x=x))
 
         def along(function: Any) -> Any:
-            def slope(t: Any, x: Any) -> Any:
-                rate = self.program.vector_field(t, x, u, packed)
-                return jax.jvp(function, (t, x), (jnp.ones_like(t), rate))[1]
+            def rate(t: Any, x: Any) -> Any:
+                rates = self.program.rates(at._replace(t=t, x=x))
+                return jax.jvp(function, (t, x), (jnp.ones_like(t), rates))[1]
 
-            return slope
+            return rate
 
         for _ in range(order):
             value = along(value)
-        return value(jnp.asarray(t0, dtype=float), x)
+        return value(jnp.asarray(at.t, dtype=float), at.x)
 
 
 def initial_conditions(

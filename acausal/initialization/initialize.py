@@ -14,7 +14,7 @@ import numpy as np
 import optimistix as optx
 
 from acausal._jax import traced
-from acausal.codegen import Dense, Packed, ParameterLayout, Program, explain_breakdown, root
+from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_breakdown, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
 from acausal.structure import ReducedModel
@@ -106,9 +106,9 @@ class Initializer:
         """Initial states, shape (n_states,); see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
-        u, at = self._inputs(u0), jnp.asarray(t0, float)
         x, plan = self._posed(packed, x0 or {}, steady, least_squares)
-        return x if plan is None else self._found(plan, packed, x, u, at)[0]
+        at = Values(jnp.asarray(t0, float), x, self._inputs(u0), packed)
+        return x if plan is None else self._found(plan, at)[0]
 
     def report(
         self,
@@ -120,16 +120,16 @@ class Initializer:
         least_squares: bool = False,
     ) -> Initialization:
         """Initial states and how each was found; see `System.initialize`."""
-        u, at = self._inputs(u0), jnp.asarray(t0, float)
         x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        at = Values(jnp.asarray(t0, float), x, self._inputs(u0), packed)
         roles = [
             "given" if name in (x0 or {}) else "fixed" if fixed else "start"
             for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
         ]
         if plan is None:
             return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
-        x, rest, slopes = self._found(plan, packed, x, u, at)
-        for i, role in zip(plan.moved, _roles(plan, np.asarray(slopes)), strict=True):
+        x, rest, jacobian = self._found(plan, at)
+        for i, role in zip(plan.moved, _roles(plan, np.asarray(jacobian)), strict=True):
             roles[i] = role
         told = self.conditions.names(plan.starts, plan.resting)
         return Initialization(x, self.names, tuple(roles), tuple(told), np.asarray(rest))
@@ -187,60 +187,62 @@ class Initializer:
 
     # -- its solution ------------------------------------------------------------------------------
 
-    def _found(self, plan: Plan, packed: Packed, x: Any, u: Any, t0: Any) -> tuple[Any, Any, Any]:
-        """The states, what is left over of the conditions, and the conditions' slopes by what moved."""
-        x, rest, slopes = self._satisfied(plan, packed, x, u, t0)
+    def _found(self, plan: Plan, start: Values) -> tuple[Any, Any, Any]:
+        """The states, the residuals of the conditions, and their Jacobian by the states that moved."""
+        x, rest, jacobian = self._satisfied(plan, start)
         if not plan.least_squares and not traced(rest):
-            self._check(plan, packed, x, np.asarray(rest), u, t0)
-        return x, rest, slopes
+            self._check(plan, start._replace(x=x), np.asarray(rest))
+        return x, rest, jacobian
 
     @cached_property
     def _satisfied(self) -> Any:
         """`_satisfy`, compiled once for every plan."""
         return eqx.filter_jit(self._satisfy)
 
-    def _satisfy(self, plan: Plan, packed: Packed, x: Any, u: Any, t0: Any) -> tuple[Any, Any, Any]:
-        """States that satisfy the conditions, what is left over, and its slopes.
+    def _satisfy(self, plan: Plan, start: Values) -> tuple[Any, Any, Any]:
+        """States that satisfy the conditions, the residuals, and their Jacobian.
 
         The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
         """
         free = np.asarray(plan.moved, dtype=np.int64)
         nominal = self.conditions.nominal[free]
 
-        def residual(z: Any, packed: Packed, x: Any) -> Any:
-            at = x.at[free].set(z * nominal)
-            return self.conditions.residuals(plan.starts, plan.resting, packed, at, u, t0)
+        x = start.x
 
-        def stationary(z: Any, packed: Packed, x: Any) -> Any:
-            half = lambda z: jnp.sum(residual(z, packed, x) ** 2) / 2  # noqa: E731
+        def residual(z: Any, at: Values) -> Any:
+            moved = at._replace(x=at.x.at[free].set(z * nominal))
+            return self.conditions.residuals(plan.starts, plan.resting, moved)
+
+        def stationary(z: Any, at: Values) -> Any:
+            half = lambda z: jnp.sum(residual(z, at) ** 2) / 2  # noqa: E731
             return jax.grad(half)(z)
 
-        frozen, start = _stop_gradient((packed, x))
+        packed, frozen_x = _stop_gradient((start.packed, x))
+        frozen = start._replace(x=frozen_x, packed=packed)
         if not plan.moved:
-            rest = residual(jnp.zeros(0), frozen, start)
+            rest = residual(jnp.zeros(0), frozen)
             return x, rest, jnp.zeros((len(rest), 0))
         z0 = x[free] / nominal
         guess = jax.lax.stop_gradient(z0)
         least = _least_squares if plan.least_squares else _least_change
-        z = jax.lax.stop_gradient(least(lambda z: residual(z, frozen, start), guess))
+        z = jax.lax.stop_gradient(least(lambda z: residual(z, frozen), guess))
         vanishing = stationary if plan.least_squares else residual
-        slope = jax.jacfwd(lambda z: vanishing(z, frozen, start))(z)
+        jacobian = jax.jacfwd(lambda z: vanishing(z, frozen))(z)
         change = z0 - guess
-        z = z + change - _smallest(slope, vanishing(z, packed, x) + slope @ change)
+        z = z + change - _smallest(jacobian, vanishing(z, start) + jacobian @ change)
         at = jax.lax.stop_gradient(z)
-        rest = residual(at, frozen, start)
-        slopes = jax.jacfwd(lambda z: residual(z, frozen, start))(at)
-        return x.at[free].set(z * nominal), rest, slopes
+        rest = residual(at, frozen)
+        return x.at[free].set(z * nominal), rest, jax.jacfwd(lambda z: residual(z, frozen))(at)
 
     # -- what goes wrong ---------------------------------------------------------------------------
 
-    def _check(self, plan: Plan, packed: Packed, x: Any, rest: np.ndarray, u: Any, t0: Any) -> None:
+    def _check(self, plan: Plan, found: Values, rest: np.ndarray) -> None:
         wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
         if not len(wrong):
             return
         if not np.isfinite(rest).all():
-            start = self.conditions.starts(packed)
-            reason = explain_breakdown(self.reduced, self.conditions.program, t0, start, u, packed)
+            start = found._replace(x=self.conditions.starts(found.packed))
+            reason = explain_breakdown(self.reduced, self.conditions.program, start)
             raise InitializationError(
                 "no initial values were found: the model's equations have no finite values at its starts. "
                 + (reason or "Give start values nearer to the solution (ac.Start).")
@@ -248,10 +250,10 @@ class Initializer:
         names = self.conditions.names(plan.starts, plan.resting)
         off = [f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong]
         moved = [self.names[i] for i in plan.moved]
-        held = self._held(plan, packed, x, wrong, u, t0)
+        held = self._held(plan, found, wrong)
         told = [
             f"the initial conditions cannot all hold; left over: {listing(off)}",
-            f"they are {len(rest)}, and {len(moved)} states may move"
+            f"{len(rest)} conditions, but only {len(moved)} free states"
             + (f" ({listing(moved, 6)})" if moved else ""),
             *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
         ]
@@ -262,27 +264,25 @@ class Initializer:
             "(least_squares=True)."
         )
 
-    def _held(
-        self, plan: Plan, packed: Packed, x: Any, wrong: np.ndarray, u: Any, t0: Any
-    ) -> list[str]:
+    def _held(self, plan: Plan, found: Values, wrong: np.ndarray) -> list[str]:
         """States that may not move although conditions that are left over depend on them."""
 
         def residual(x: Any) -> Any:
-            return self.conditions.residuals(plan.starts, plan.resting, packed, x, u, t0)
+            return self.conditions.residuals(plan.starts, plan.resting, found._replace(x=x))
 
-        slopes = np.asarray(jax.jacfwd(residual)(x))[wrong]
-        hit = np.abs(slopes).max(axis=0, initial=0.0) > 0
+        jacobian = np.asarray(jax.jacfwd(residual)(found.x))[wrong]
+        hit = np.abs(jacobian).max(axis=0, initial=0.0) > 0
         return [n for i, n in enumerate(self.names) if hit[i] and i not in plan.moved]
 
 
-def _roles(plan: Plan, slopes: np.ndarray) -> list[str]:
+def _roles(plan: Plan, jacobian: np.ndarray) -> list[str]:
     """What determined each of the states that moved."""
     if plan.least_squares:
         return ["fitted"] * len(plan.moved)
-    _, sizes, rows = np.linalg.svd(slopes)
+    _, sizes, rows = np.linalg.svd(jacobian)
     rank = int((sizes > INDEPENDENT * sizes.max(initial=0.0)).sum())
     is_open = np.abs(rows[rank:]).max(axis=0, initial=0.0) > INDEPENDENT
-    touched = np.abs(slopes).max(axis=0) > 0
+    touched = np.abs(jacobian).max(axis=0) > 0
     return [
         "start" if not hit else "chosen" if undetermined else "computed"
         for hit, undetermined in zip(touched, is_open, strict=True)

@@ -12,7 +12,6 @@ from jax import Array
 from jax.typing import ArrayLike
 
 from acausal._jax import traced
-from acausal.codegen import explain_breakdown
 from acausal.errors import SimulationError
 from acausal.simulation import inputs
 
@@ -81,7 +80,7 @@ class Run(NamedTuple):
         slope = jnp.zeros_like(x)
         for h in (0.0, *(ahead * AHEAD)):
             point = t + h, x + h * slope, inputs.evaluate(self.drive, t + h), self.packed
-            reason = explain_breakdown(system.reduced, system.program, *point)
+            reason = system.explain_nonfinite(system.values(*point))
             if reason is not None:
                 return f" There {reason}"
             if h == 0.0:

@@ -15,6 +15,7 @@ import numpy as np
 from jax import Array
 
 import acausal as ac
+from acausal.codegen import Values
 from acausal.codegen.lower import ModuleValue, evaluate
 from acausal.codegen.parameters import Packed
 from acausal.flattening.template import EquationGroup, Integers
@@ -64,7 +65,9 @@ def trajectory(
         highest = max((n for g in system.flat.groups for n in g.template.orders), default=0)
 
     def every(t: Any, x: Array, u: Array) -> Array:
-        return signs * system.program.values(nodes, t, x, u, packed) if nodes else jnp.zeros(0)
+        return (
+            signs * system.program.read(nodes, Values(t, x, u, packed)) if nodes else jnp.zeros(0)
+        )
 
     t, x, u = (jnp.asarray(v, dtype=float) for v in (t, x, u))
     signals: list[Signal] = [every]
@@ -123,7 +126,7 @@ def _along(system: ac.System, packed: Packed, signal: Signal) -> Signal:
     """The derivative of a signal along the vector field."""
 
     def slope(t: Any, x: Array, u: Array) -> Array:
-        rates = system.program.vector_field(t, x, u, packed), _input_rates(system, u)
+        rates = system.program.rates(Values(t, x, u, packed)), _input_rates(system, u)
         return jax.jvp(signal, (t, x, u), (jnp.ones_like(t), *rates))[1]
 
     return slope
