@@ -19,15 +19,21 @@ from acausal.codegen import (
     ParameterLayout,
     Program,
     Values,
-    explain_breakdown,
+    default_parameters,
+    explain_nonfinite,
+    explicit_equations,
     generate,
     lay_out_parameters,
+    pack,
+    rates,
+    rates_and_read,
+    read,
 )
 from acausal.errors import DataError, ModelError, nearest
 from acausal.flattening import FlatModel, flatten
 from acausal.initialization import Initialization, Initializer, initializer
 from acausal.modeling import Component
-from acausal.structure import ReducedModel, explicit_equations, parameter_aliases, reduce
+from acausal.structure import ReducedModel, reduce
 from acausal.units import check_dimensions
 
 Params = Mapping[str, Any] | Packed
@@ -110,7 +116,7 @@ class System:
         Symbols bear dotted names; networks are functions named by their parameter. Unknowns of nonlinear
         loops keep their names, and the loops' equations follow at the end.
         """
-        return explicit_equations(self.reduced, parameter_aliases(self.flat), self.layout.module_of)
+        return explicit_equations(self.program, self.layout, self.reduced.name)
 
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""
@@ -138,7 +144,7 @@ class System:
             if key is None or isinstance(key, int)
             else key
         )
-        return self.layout.defaults(key)
+        return default_parameters(self.layout, key)
 
     def pack(self, params: Params | None = None) -> Packed:
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
@@ -148,7 +154,7 @@ class System:
         """
         if params is None:
             params = self.parameters()
-        return self.layout.pack(params)
+        return pack(self.layout, params)
 
     def vector_field(self, t: Any, x: Any, u: Any, params: Params) -> Any:
         """Derivatives of the states.
@@ -168,8 +174,8 @@ class System:
         ``der(name)`` gives a derivative that the model knows.
         """
         names = (name,) if isinstance(name, str) else name
-        read = self.read(names, self.values(t, x, u, params))
-        return read[0] if isinstance(name, str) else read
+        y = self.read(names, self.values(t, x, u, params))
+        return y[0] if isinstance(name, str) else y
 
     def vector_field_and_observe(
         self, names: Sequence[str], t: Any, x: Any, u: Any, params: Params
@@ -194,23 +200,23 @@ class System:
 
     def rates(self, values: Values) -> Array:
         """Derivatives of the states, shape (n_states,)."""
-        return self.program.rates(values)
+        return rates(self.program, values)
 
     def read(self, names: Sequence[str], values: Values) -> Array:
         """Variables by dotted name, shape (len(names),)."""
         nodes, signs = self._find_all(names)
-        read = self.program.read(nodes, values)
-        return read if (signs == 1).all() else read * signs
+        y = read(self.program, nodes, values)
+        return y if (signs == 1).all() else y * signs
 
     def rates_and_read(self, names: Sequence[str], values: Values) -> tuple[Array, Array]:
         """Both, what they share computed once."""
         nodes, signs = self._find_all(names)
-        rates, read = self.program.rates_and_read(nodes, values)
-        return rates, read if (signs == 1).all() else read * signs
+        dx, y = rates_and_read(self.program, nodes, values)
+        return dx, y if (signs == 1).all() else y * signs
 
     def explain_nonfinite(self, values: Values) -> str | None:
         """A sentence on the first equation of the model that has no finite value there, or None."""
-        return explain_breakdown(self.reduced, self.program, values)
+        return explain_nonfinite(self.program, values, self.reduced.name)
 
     def initial_state(
         self,

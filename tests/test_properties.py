@@ -21,7 +21,7 @@ from hypothesis import HealthCheck, assume, given, settings, strategies as st
 
 import acausal as ac
 from acausal.flattening.flat_model import flatten
-from acausal.structure.reduced_model import Loop
+from acausal.structure import TornLoop
 from tests.support import pencil
 from tests.support.interpret import in_numpy
 from tests.support.networks import FLOW, KINDS, Element, Network, networks
@@ -93,7 +93,7 @@ class Snapshot:
 
 def nonlinear(system: ac.System) -> bool:
     """Whether a loop is nonlinear, so that it may have no solution at some states."""
-    return any(isinstance(s, Loop) and not s.shape.is_linear for s in system.reduced.steps)
+    return any(isinstance(s, TornLoop) and not s.shape.is_linear for s in system.reduced.steps)
 
 
 def is_differentiated(system: ac.System, name: str) -> bool:

@@ -4,15 +4,21 @@ In: a `ReducedModel`. Out: a `Program` and the layout of its parameters.
 It knows nothing of initial values, time integration or data.
 """
 
-from acausal.codegen.explain_nonfinite import explain_breakdown as explain_breakdown
+from acausal.codegen.equations import explicit_equations as explicit_equations
+from acausal.codegen.explain_nonfinite import explain_nonfinite as explain_nonfinite
 from acausal.codegen.generator import generate as generate
-from acausal.codegen.instructions import chosen_module as chosen_module
+from acausal.codegen.interpreter import (
+    rates as rates,
+    rates_and_read as rates_and_read,
+    read as read,
+)
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
+from acausal.codegen.packing import default_parameters as default_parameters, pack as pack
 from acausal.codegen.parameters import (
-    Packed as Packed,
     ParameterLayout as ParameterLayout,
     lay_out_parameters as lay_out_parameters,
 )
 from acausal.codegen.program import Program as Program
-from acausal.codegen.values import Values as Values
+from acausal.codegen.reading import chosen_module as chosen_module, read_elements as read_elements
+from acausal.codegen.values import Packed as Packed, Values as Values

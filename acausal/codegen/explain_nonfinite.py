@@ -1,53 +1,60 @@
-"""Explain where a model's equations have no finite values: the loop or the formula, and what stands in it."""
+"""Explain where a model's equations have no finite values: the loop or the formula, and its values."""
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import jax.numpy as jnp
 import numpy as np
+from jax import Array
 
-from acausal.codegen.dense_loop import SolveLoop
-from acausal.codegen.instructions import Accumulate, Evaluate
+from acausal.codegen.dense_loop import nearest_of_torn_loop
+from acausal.codegen.instructions import Place, SolveSparseLoop, SolveTornLoop
+from acausal.codegen.interpreter import steps
 from acausal.codegen.program import Program
-from acausal.codegen.sparse_loop import SolveMesh
+from acausal.codegen.reading import Arrays
+from acausal.codegen.sparse_loop import nearest_of_sparse_loop
 from acausal.codegen.values import Values
 from acausal.errors import listing
-from acausal.structure import ReducedModel
+
+_NEAREST: dict[type, Callable[[Any, int, Values, Arrays], tuple[Array, Array]]] = {
+    SolveTornLoop: nearest_of_torn_loop,
+    SolveSparseLoop: nearest_of_sparse_loop,
+}
+"""Where the search for a loop's solution stopped."""
 
 
-def explain_breakdown(reduced: ReducedModel, program: Program, values: Values) -> str | None:
-    """A sentence on the first step of the model that has no finite value at a point, or None."""
-    t, x, u, packed = values
-    arrays: list[Any] = [x, u, jnp.zeros(())]
-    for first, instruction in zip(program.first, program.instructions, strict=True):
-        results = instruction.run(t, arrays, packed)
-        for offset, result in enumerate(results):
-            found = np.atleast_1d(np.asarray(result))
-            bad = np.flatnonzero(~np.isfinite(found))
-            if not len(bad):
-                continue
-            row = int(bad[0])
-            match instruction:
-                case SolveLoop():
-                    names = [_name(reduced, program, first + i, row) for i in range(len(results))]
-                    nearest = partial(instruction.nearest, row)
-                case SolveMesh():
-                    names = [_name(reduced, program, first, i) for i in range(len(found))]
-                    nearest = instruction.nearest
-                case _:
-                    name = _name(reduced, program, first + offset, row)
-                    return _formula(name, instruction, found[row])
-            if instruction.is_linear:
-                return _singular(names)
-            return _stopped(names, instruction.origins, *nearest(t, arrays, packed))
-        arrays += results
+def explain_nonfinite(program: Program, values: Values, name: Callable[[int], str]) -> str | None:
+    """A sentence on the first instruction that has no finite value at a point, or None.
+
+    Arguments:
+        name: of a node, for messages.
+    """
+    for i, instruction, results, arrays in steps(program, values):
+        place = _first_nonfinite(results)
+        if place is None:
+            continue
+        together = instruction.found_with(place)
+        names = [name(int(program.nodes[program.first[i] + array][row])) for array, row in together]
+        if not instruction.origins:
+            value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
+            return _formula(names[0], instruction.formula, value)
+        if instruction.is_linear:
+            return _singular(names)
+        nearest = _NEAREST[type(instruction)](instruction, place[1], values, arrays)
+        return _stopped(names, instruction.origins, *nearest)
     return None
 
 
-def _formula(name: str, instruction: Evaluate | Accumulate, value: float) -> str:
-    formula = f" = {instruction.expression}" if isinstance(instruction, Evaluate) else ", a sum,"
+def _first_nonfinite(results: Sequence[Array]) -> Place | None:
+    for array, result in enumerate(results):
+        bad = np.flatnonzero(~np.isfinite(np.atleast_1d(np.asarray(result))))
+        if len(bad):
+            return array, int(bad[0])
+    return None
+
+
+def _formula(name: str, formula: str, value: float) -> str:
     return (
         f"'{name}'{formula} is {value}: a division by zero, or a function outside its domain? "
         "Look at the parameters and values that stand in it."
@@ -61,18 +68,13 @@ def _singular(names: list[str]) -> str:
     )
 
 
-def _stopped(names: list[str], origins: list[str], values: Any, residuals: Any) -> str:
-    """What is said of nonlinear equations, from where the search for their solution ended."""
+def _stopped(names: list[str], origins: Sequence[str], values: Array, residuals: Array) -> str:
+    """A sentence on nonlinear equations, from where the search for their solution ended."""
     off = np.abs(np.asarray(residuals))
-    told = [f"{origins[i]} (off by {off[i]:.3g})" for i in np.argsort(-off, kind="stable")]
+    left = [f"{origins[i]} (off by {off[i]:.3g})" for i in np.argsort(-off, kind="stable")]
     at = ", ".join(f"{n} = {float(v):.6g}" for n, v in list(zip(names, values, strict=True))[:6])
     return (
         f"the equations for {listing(names)} have no solution that Newton's method finds; "
-        f"nearest is {at}, which leaves {listing(told, 6)}. "
+        f"nearest is {at}, which leaves {listing(left, 6)}. "
         "Give start values nearer to the solution (ac.Start), or look at the parameters."
     )
-
-
-def _name(reduced: ReducedModel, program: Program, array: int, row: int) -> str:
-    found = np.flatnonzero((program.source == array) & (program.index == row))
-    return reduced.name(int(found[0]))

@@ -1,18 +1,22 @@
-"""Gather: how a group of instances reads one argument out of arrays that earlier groups have made."""
+"""Gather: how a group of instances reads one argument out of arrays that earlier instructions have filled.
+
+This is data: where elements lie. `acausal.codegen.reading` reads them with JAX.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
-import jax.numpy as jnp
 import numpy as np
 
 from acausal.flattening import Integers
 
-Arrays = Sequence[Any]
 MAX_RUNS = 8
+"""Slices up to which they are read one by one; more are read by an index."""
+
+Positions = tuple[Integers, Integers]
+"""Of every element, in which array and where in it."""
 
 
 @dataclass(frozen=True)
@@ -22,15 +26,15 @@ class One:
     source: int
     index: int
 
-    def read(self, arrays: Arrays) -> Any:
-        """The argument's value, read from the arrays."""
-        array = arrays[self.source]
-        return array if jnp.ndim(array) == 0 else array[self.index]
-
     @property
     def sources(self) -> tuple[int, ...]:
         """The arrays that are read."""
         return (self.source,)
+
+    def positions(self, sizes: Sequence[int]) -> Positions:
+        """Where the element lies; ``sizes`` are the lengths of all arrays."""
+        del sizes
+        return np.asarray([self.source]), np.asarray([self.index])
 
 
 @dataclass(frozen=True)
@@ -39,19 +43,18 @@ class Runs:
 
     runs: tuple[tuple[int, int, int, int], ...]
 
-    def read(self, arrays: Arrays) -> Any:
-        """The argument's value, read from the arrays."""
-        pieces = [
-            _slice(arrays[source], start, step, length) for source, start, step, length in self.runs
-        ]
-        if not pieces:
-            return jnp.zeros(0)
-        return pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
-
     @property
     def sources(self) -> tuple[int, ...]:
         """The arrays that are read."""
         return tuple(dict.fromkeys(source for source, *_ in self.runs))
+
+    def positions(self, sizes: Sequence[int]) -> Positions:
+        """Where the elements lie; see `One.positions`."""
+        del sizes
+        sources = [np.full(length, source) for source, _, _, length in self.runs]
+        indices = [start + step * np.arange(length) for _, start, step, length in self.runs]
+        nothing = np.zeros(0, dtype=np.int64)
+        return np.concatenate([nothing, *sources]), np.concatenate([nothing, *indices])
 
 
 @dataclass(frozen=True)
@@ -63,14 +66,16 @@ class Interleaved:
 
     columns: tuple[Runs, ...]
 
-    def read(self, arrays: Arrays) -> Any:
-        """The argument's value, read from the arrays."""
-        return jnp.stack([column.read(arrays) for column in self.columns], axis=1).ravel()
-
     @property
     def sources(self) -> tuple[int, ...]:
         """The arrays that are read."""
         return tuple(dict.fromkeys(s for column in self.columns for s in column.sources))
+
+    def positions(self, sizes: Sequence[int]) -> Positions:
+        """Where the elements lie; see `One.positions`."""
+        columns = [column.positions(sizes) for column in self.columns]
+        sources, indices = (np.stack(side, axis=1).ravel() for side in zip(*columns, strict=True))
+        return sources, indices
 
 
 @dataclass(frozen=True)
@@ -80,24 +85,15 @@ class Take:
     sources: tuple[int, ...]
     index: Integers
 
-    def read(self, arrays: Arrays) -> Any:
-        """The argument's value, read from the arrays."""
-        pieces = [jnp.atleast_1d(arrays[s]) for s in self.sources]
-        whole = pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
-        return jnp.take(
-            whole, self.index, axis=0, unique_indices=len(np.unique(self.index)) == len(self.index)
-        )
+    def positions(self, sizes: Sequence[int]) -> Positions:
+        """Where the elements lie; see `One.positions`."""
+        ends = np.cumsum([sizes[s] for s in self.sources])
+        place = np.searchsorted(ends, self.index, side="right")
+        begins = ends - [sizes[s] for s in self.sources]
+        return np.asarray(self.sources)[place], self.index - begins[place]
 
 
 Gather = One | Runs | Interleaved | Take
-
-
-def _slice(array: Any, start: int, step: int, length: int) -> Any:
-    if jnp.ndim(array) == 0:
-        return array[None]
-    if step == 1 and start == 0 and length == array.shape[0]:
-        return array
-    return array[start : start + step * (length - 1) + 1 : step]
 
 
 def gather(source: Integers, index: Integers, sizes: Sequence[int]) -> Gather:

@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 import sympy as sp
 
-from acausal.codegen.dense_loop import SolveLoop, external, module, parameter
 from acausal.codegen.gather import Gather, gather
-from acausal.codegen.instructions import Accumulate, Arguments, Evaluate
+from acausal.codegen.instructions import (
+    Accumulate,
+    Arguments,
+    Balances,
+    BlockFormula,
+    Evaluate,
+    Instruction,
+    SolveSparseLoop,
+    SolveTornLoop,
+    SparseFormula,
+    external,
+    module,
+    parameter,
+)
 from acausal.codegen.parameters import ParameterLayout
-from acausal.codegen.program import Instruction, Program
-from acausal.codegen.sparse import SparseMatrix
-from acausal.codegen.sparse_loop import Balances, Formula, SolveMesh
+from acausal.codegen.program import Program
 from acausal.flattening import Integers
 from acausal.structure import (
     Accumulation,
     Assignment,
-    Loop,
-    Mesh,
-    MeshGroup,
+    BlockEquation,
     ReducedModel,
-    Step,
-    symbolic as derive,
+    SparseGroup,
+    SparseLoop,
+    TornLoop,
 )
 
 
@@ -35,29 +45,19 @@ class _Generator:
         self.parameters = parameters
         self.source = np.full(len(reduced.derivative), -1, dtype=np.int64)
         self.index = np.full(len(reduced.derivative), -1, dtype=np.int64)
+        self.nodes: list[Integers] = []
         self.sizes: list[int] = []
 
     def place(self, nodes: Integers) -> None:
         """Lay the nodes' values out in the next array."""
-        self.source[nodes] = len(self.sizes)
+        self.source[nodes] = len(self.nodes)
         self.index[nodes] = np.arange(len(nodes))
+        self.nodes.append(nodes)
         self.sizes.append(len(nodes))
 
     def values(self, nodes: Integers) -> Gather:
         """How to read values that are laid out."""
         return gather(self.source[nodes], self.index[nodes], self.sizes)
-
-    def instruction(self, step: Step) -> Instruction:
-        """What computes a step."""
-        match step:
-            case Assignment():
-                return self._evaluate(step)
-            case Accumulation():
-                return self._accumulate(step)
-            case Loop():
-                return self._solve_loop(step)
-            case Mesh():
-                return self._solve_mesh(step)
 
     def _arguments(
         self,
@@ -72,8 +72,9 @@ class _Generator:
             tuple((s, self.parameters.chosen(m)) for s, m in modules),
         )
 
-    def _evaluate(self, step: Assignment) -> Evaluate:
-        expression = derive.solve(step.template, step.column)
+    def evaluate(self, step: Assignment) -> Evaluate:
+        """One expression for all instances."""
+        expression = step.template.solved(step.column)
         assert expression is not None
         present = expression.free_symbols
         tables = (
@@ -84,25 +85,43 @@ class _Generator:
         columns = ([(s, v) for s, v in _columns(*table) if s in present] for table in tables)
         return Evaluate(expression, self._arguments(*columns), len(step.variables))
 
-    def _accumulate(self, step: Accumulation) -> Accumulate:
+    def accumulate(self, step: Accumulation) -> Accumulate:
+        """Sums of equally many terms."""
         terms = self.values(step.terms.T.ravel())
         weights, signs = step.weights.T, np.unique(step.weights)
         return Accumulate(terms, weights if len(signs) > 1 else signs, *step.terms.T.shape)
 
-    def _solve_loop(self, loop: Loop) -> SolveLoop:
+    def solve_torn_loop(self, loop: TornLoop) -> SolveTornLoop:
+        """Torn loops of one shape."""
+        shape, torn = loop.shape, loop.shape.torn
         arguments = self._arguments(
             ((external(i), v) for i, v in enumerate(loop.externals.T)),
             ((parameter(i), p) for i, p in enumerate(loop.parameters.T)),
             ((module(i), m) for i, m in enumerate(loop.modules.T)),
         )
-        tears = loop.unknowns[:, list(loop.shape.torn.tears)]
-        guess, scale = self.reduced.start_guess(tears), self.reduced.nominal(tears)
-        return SolveLoop(loop.shape, arguments, guess, scale, len(loop.unknowns))
+        tears = loop.unknowns[:, list(torn.tears)]
+        stated = [shape.equations[e] for e, _ in torn.assigned]
+        solved = [
+            (unknown, one.template.solved(one.variables.index(unknown)), one)
+            for (_, unknown), one in zip(torn.assigned, stated, strict=True)
+        ]
+        return SolveTornLoop(
+            tuple(_block_formula(e.template.residual, e) for e in shape.equations),
+            tuple(torn.residuals),
+            tuple((unknown, _block_formula(formula, e)) for unknown, formula, e in solved),
+            tuple(torn.tears),
+            shape.is_linear,
+            arguments,
+            self.reduced.start_guess(tears),
+            self.reduced.nominal(tears),
+            len(loop.unknowns),
+            tuple(shape.equations[e].template.origin for e in torn.residuals),
+        )
 
-    def _solve_mesh(self, mesh: Mesh) -> SolveMesh:
-        formulas = tuple(self._formula(mesh, g) for g in mesh.groups)
-        places = mesh.places(mesh.sums.nodes)
-        inside, outside = mesh.sums.chosen(places >= 0), mesh.sums.chosen(places < 0)
+    def solve_sparse_loop(self, loop: SparseLoop) -> SolveSparseLoop:
+        """A large loop."""
+        places = loop.places(loop.sums.nodes)
+        inside, outside = loop.sums.chosen(places >= 0), loop.sums.chosen(places < 0)
         balances = Balances(
             inside.rows,
             places[places >= 0],
@@ -110,13 +129,18 @@ class _Generator:
             outside.rows,
             self.values(outside.nodes),
             outside.factors,
-            mesh.sums.origins,
+            loop.sums.origins,
         )
-        guess, scale = self.reduced.start_guess(mesh.unknowns), self.reduced.nominal(mesh.unknowns)
-        matrix = SparseMatrix(mesh.pattern)
-        return SolveMesh(formulas, balances, matrix, mesh.is_linear, guess, scale)
+        return SolveSparseLoop(
+            tuple(self._sparse_formula(loop, g) for g in loop.groups),
+            balances,
+            loop.pattern,
+            loop.is_linear,
+            self.reduced.start_guess(loop.unknowns),
+            self.reduced.nominal(loop.unknowns),
+        )
 
-    def _formula(self, mesh: Mesh, group: MeshGroup) -> Formula:
+    def _sparse_formula(self, loop: SparseLoop, group: SparseGroup) -> SparseFormula:
         template = group.template
         slots = list(enumerate(_columns(template.variables, group.variables)))
         arguments = self._arguments(
@@ -124,13 +148,23 @@ class _Generator:
             _columns(template.parameters, group.parameters),
             _columns(template.modules, group.modules),
         )
-        return Formula(
-            template,
-            tuple(derive.slope(template, c) for c in group.inner),
+        return SparseFormula(
+            template.residual,
+            tuple(template.partial(c) for c in group.inner),
             arguments,
-            tuple((s, mesh.places(v)) for c, (s, v) in slots if c in group.inner),
+            tuple((s, loop.places(v)) for c, (s, v) in slots if c in group.inner),
             len(group.variables),
+            template.origin,
         )
+
+
+_INSTRUCTION: dict[type, Callable[[_Generator, Any], Instruction]] = {
+    Assignment: _Generator.evaluate,
+    Accumulation: _Generator.accumulate,
+    TornLoop: _Generator.solve_torn_loop,
+    SparseLoop: _Generator.solve_sparse_loop,
+}
+"""What computes a step."""
 
 
 def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
@@ -141,19 +175,29 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
     instructions: list[Instruction] = []
     first: list[int] = []
     for step in reduced.steps:
-        first.append(len(generator.sizes))
-        instructions.append(generator.instruction(step))
-        for nodes in step.unknowns.T if isinstance(step, Loop) else step.unknowns[None]:
+        first.append(len(generator.nodes))
+        instructions.append(_INSTRUCTION[type(step)](generator, step))
+        for nodes in step.results:
             generator.place(nodes)
     return Program(
-        generator.source,
-        generator.index,
+        tuple(generator.nodes),
         tuple(instructions),
         tuple(first),
-        tuple(generator.sizes),
         generator.values(reduced.rates) if len(reduced.rates) else None,
         reduced.rate_signs,
         reduced.input_signs,
+    )
+
+
+def _block_formula(expression: sp.Expr | None, stated: BlockEquation) -> BlockFormula:
+    """An expression in the slots of an equation of a block."""
+    assert expression is not None
+    template = stated.template
+    return BlockFormula(
+        expression,
+        tuple(zip(template.variables, stated.variables, strict=True)),
+        tuple(zip(template.parameters, stated.parameters, strict=True)),
+        tuple(zip(template.modules, stated.modules, strict=True)),
     )
 
 

@@ -1,27 +1,28 @@
-"""Instructions: what a program is made of, each one array operation over all instances of a formula."""
+"""Instructions: what a program is made of, each one operation over all instances of a formula.
+
+They are data: what is computed, and where its arguments lie. `acausal.codegen.interpreter` runs them with JAX,
+`acausal.codegen.explicit_equations` writes them down with sympy.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
 
-import jax.numpy as jnp
 import numpy as np
 import sympy as sp
 
 from acausal.codegen.gather import Gather
-from acausal.codegen.lower import ModuleValue, collect, evaluate
-from acausal.codegen.parameters import Packed
-from acausal.modeling import time
+from acausal.flattening import Integers
+from acausal.structure import Pattern
 
-STATE = 0
-"""Where the states lie among a program's arrays."""
+Place = tuple[int, int]
+"""Which of the arrays that an instruction fills, and where in it."""
 
 
 @dataclass(frozen=True)
 class Arguments:
-    """What fills the slots of a step's formula, by symbol."""
+    """What fills the slots of a formula, by symbol: for one instance, or for each."""
 
     variables: tuple[tuple[sp.Symbol, Gather], ...]
     parameters: tuple[tuple[sp.Symbol, Gather], ...]
@@ -31,14 +32,6 @@ class Arguments:
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return {s for _, g in self.variables for s in g.sources}
-
-    def read(self, t: Any, arrays: Sequence[Any], packed: Packed) -> dict[sp.Symbol, Any]:
-        """Values of the slots."""
-        values: dict[sp.Symbol, Any] = {time: t}
-        values |= {symbol: g.read(arrays) for symbol, g in self.variables}
-        values |= {symbol: g.read([packed.values]) for symbol, g in self.parameters}
-        values |= {symbol: chosen_module(packed, chosen) for symbol, chosen in self.modules}
-        return values
 
 
 @dataclass(frozen=True)
@@ -50,16 +43,21 @@ class Evaluate:
     size: int
 
     outputs = 1
+    origins: tuple[str, ...] = ()
 
     @property
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return self.arguments.sources
 
-    def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
-        """The step's results, one array each."""
-        value = jnp.asarray(evaluate(self.expression, self.arguments.read(t, arrays, packed)))
-        return [value if self.size == 1 else jnp.broadcast_to(value, (self.size,))]
+    @property
+    def formula(self) -> str:
+        """The right-hand side in words."""
+        return f" = {self.expression}"
+
+    def found_with(self, place: Place) -> list[Place]:
+        """The values that are computed together with one: none but itself."""
+        return [place]
 
 
 @dataclass(frozen=True)
@@ -77,22 +75,164 @@ class Accumulate:
     size: int
 
     outputs = 1
+    origins: tuple[str, ...] = ()
+    formula = ", a sum,"
 
     @property
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return set(self.values.sources)
 
-    def run(self, t: Any, arrays: Sequence[Any], packed: Packed) -> list[Any]:
-        """The sums, as one array."""
-        values = jnp.broadcast_to(self.values.read(arrays), (self.terms * self.size,))
-        weights = jnp.asarray(self.weights, values.dtype)
-        total = (values.reshape(self.terms, self.size) * weights).sum(axis=0)
-        return [total[0] if self.size == 1 else total]
+    def found_with(self, place: Place) -> list[Place]:
+        """The values that are computed together with one: none but itself."""
+        return [place]
 
 
-def chosen_module(packed: Packed, chosen: Sequence[int]) -> ModuleValue:
-    """The module of one instance or of all; those of several instances side by side."""
-    if len(set(chosen)) == 1:
-        return ModuleValue(packed.modules[chosen[0]])
-    return collect([packed.modules[i] for i in chosen])
+@dataclass(frozen=True)
+class BlockFormula:
+    """An expression of a torn loop; its slots are filled from the loop.
+
+    Attributes:
+        variables: by symbol the number of an unknown (>= 0), or -1 - i: the external i.
+        parameters, modules: by symbol the number of a parameter or module of the loop.
+    """
+
+    expression: sp.Expr
+    variables: tuple[tuple[sp.Symbol, int], ...]
+    parameters: tuple[tuple[sp.Symbol, int], ...]
+    modules: tuple[tuple[sp.Symbol, int], ...]
+
+
+@dataclass(frozen=True)
+class SolveTornLoop:
+    """Solve ``size`` algebraic loops of one shape, linear or not.
+
+    For given tearing variables the other unknowns follow one by one, and residuals are left.
+
+    Attributes:
+        equations: ``expression = 0`` of the loop, in order; ``residual_rows`` are those that leave residuals.
+        assigned: in order of computation, an unknown and the expression that gives it.
+        tears: the tearing variables, as numbers of unknowns.
+        arguments: what fills `external`, `parameter` and `module` slots.
+        guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
+        origins: the equations that leave residuals, as they were written.
+    """
+
+    equations: tuple[BlockFormula, ...]
+    residual_rows: tuple[int, ...]
+    assigned: tuple[tuple[int, BlockFormula], ...]
+    tears: tuple[int, ...]
+    is_linear: bool
+    arguments: Arguments
+    guess: np.ndarray
+    scale: np.ndarray
+    size: int
+    origins: tuple[str, ...]
+
+    @property
+    def sources(self) -> set[int]:
+        """The arrays that are read."""
+        return self.arguments.sources
+
+    @property
+    def outputs(self) -> int:
+        """How many arrays are filled: one for every unknown."""
+        return len(self.equations)
+
+    @property
+    def residuals(self) -> tuple[BlockFormula, ...]:
+        """What is left over for given tearing variables."""
+        return tuple(self.equations[row] for row in self.residual_rows)
+
+    def found_with(self, place: Place) -> list[Place]:
+        """The values that are computed together with one: all unknowns of its loop."""
+        return [(array, place[1]) for array in range(self.outputs)]
+
+
+@dataclass(frozen=True)
+class SparseFormula:
+    """An equation ``residual = 0`` of ``size`` instances in a sparse loop, and its partial derivatives.
+
+    Attributes:
+        partials: by the unknowns, which fill the slots ``inner`` from their places.
+        arguments: what fills the other slots.
+    """
+
+    residual: sp.Expr
+    partials: tuple[sp.Expr, ...]
+    arguments: Arguments
+    inner: tuple[tuple[sp.Symbol, Integers], ...]
+    size: int
+    origin: str
+
+
+@dataclass(frozen=True)
+class Balances:
+    """Equations ``sum(factors * unknowns[places]) + sum(outer_factors * outer) = 0`` by row, from ``origins``."""
+
+    rows: Integers
+    places: Integers
+    factors: np.ndarray
+    outer_rows: Integers
+    outer: Gather
+    outer_factors: np.ndarray
+    origins: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class SolveSparseLoop:
+    """Solve a large algebraic loop by Newton's method, or at once if it is linear.
+
+    Attributes:
+        formulas: equations in order of rows, then the ``balances``.
+        pattern: where the Jacobian's entries stand, in the same order.
+        guess, scale: start values and magnitudes of the unknowns, shape (size,).
+    """
+
+    formulas: tuple[SparseFormula, ...]
+    balances: Balances
+    pattern: Pattern
+    is_linear: bool
+    guess: np.ndarray
+    scale: np.ndarray
+
+    outputs = 1
+
+    @property
+    def size(self) -> int:
+        """The number of unknowns."""
+        return len(self.guess)
+
+    @cached_property
+    def sources(self) -> set[int]:
+        """The arrays that are read."""
+        own = {s for f in self.formulas for s in f.arguments.sources}
+        return own | set(self.balances.outer.sources)
+
+    @cached_property
+    def origins(self) -> tuple[str, ...]:
+        """The equations as they were written, row by row."""
+        own = [origin for f in self.formulas for origin in [f.origin] * f.size]
+        return (*own, *self.balances.origins)
+
+    def found_with(self, place: Place) -> list[Place]:
+        """The values that are computed together with one: all unknowns."""
+        return [(place[0], i) for i in range(self.size)]
+
+
+Instruction = Evaluate | Accumulate | SolveTornLoop | SolveSparseLoop
+
+
+def external(i: int) -> sp.Symbol:
+    """Slot of a variable that a loop's equations read besides its unknowns."""
+    return sp.Symbol(f"e{i}")
+
+
+def parameter(i: int) -> sp.Symbol:
+    """Slot of a parameter of a loop."""
+    return sp.Symbol(f"p{i}")
+
+
+def module(i: int) -> sp.Symbol:
+    """Slot of a callable parameter of a loop."""
+    return sp.Symbol(f"m{i}")

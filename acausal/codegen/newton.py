@@ -34,33 +34,33 @@ Residual = Callable[[Any], Any]
 """From unknowns (m,) to residuals (k,)."""
 
 
-class Slopes(Protocol):
-    """The slopes (k, m) of residuals at a point, in whatever form."""
+class Jacobian(Protocol):
+    """The Jacobian (k, m) of residuals at a point, in whatever form."""
 
     def reach(self, sizes: Any) -> Any:
         """How far residuals may move, (k,), when unknowns move by up to ``sizes``, (m,)."""
         ...
 
     def step(self, r: Any, column: Any, row: Any) -> Any:
-        """``z`` (m + 1,) with ``slopes @ z[:-1] + column * z[-1] = r`` and ``row @ z = 0``."""
+        """``z`` (m + 1,) with ``jacobian @ z[:-1] + column * z[-1] = r`` and ``row @ z = 0``."""
         ...
 
 
-class Equations(Protocol):
+class Residuals(Protocol):
     """Equations whose root is looked for."""
 
     def residual(self, z: Any, /) -> Any:
         """From unknowns (m,) to residuals (k,)."""
         ...
 
-    def linearized(self, z: Any, /) -> tuple[Any, Slopes]:
-        """The residuals and their slopes."""
+    def linearized(self, z: Any, /) -> tuple[Any, Jacobian]:
+        """The residuals and their Jacobian."""
         ...
 
 
 @dataclass(frozen=True)
 class Dense:
-    """Equations whose slopes are a matrix, found by differentiation.
+    """Equations whose Jacobian is a matrix, found by differentiation.
 
     Attributes:
         residual: of the equations. ``solve``: solves linear equations, of which there are as many as unknowns,
@@ -71,29 +71,29 @@ class Dense:
     solve: Callable[[Any, Any], Any]
 
     def linearized(self, z: Any) -> tuple[Any, Matrix]:
-        """The residuals and their slopes, which share their evaluation."""
+        """The residuals and their Jacobian, which share their evaluation."""
 
         def doubled(z: Any) -> tuple[Any, Any]:
             r = self.residual(z)
             return r, r
 
-        slopes, r = jax.lax.optimization_barrier(jax.jacfwd(doubled, has_aux=True)(z))
-        return r, Matrix(slopes, self.solve)
+        jacobian, r = jax.lax.optimization_barrier(jax.jacfwd(doubled, has_aux=True)(z))
+        return r, Matrix(jacobian, self.solve)
 
 
 @dataclass(frozen=True)
 class Matrix:
-    """Slopes as a matrix."""
+    """A Jacobian as a matrix."""
 
     values: Any
     solve: Callable[[Any, Any], Any]
 
     def reach(self, sizes: Any) -> Any:
-        """See `Slopes`."""
+        """See `Jacobian`."""
         return jnp.abs(self.values) @ sizes
 
     def step(self, r: Any, column: Any, row: Any) -> Any:
-        """See `Slopes`."""
+        """See `Jacobian`."""
         above = jnp.concatenate([self.values, column[:, None]], axis=1)
         return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
 
@@ -113,7 +113,7 @@ class _Walk(NamedTuple):
 
 
 def root(
-    equations: Equations, guess: Any, scale: Any = 1.0, max_steps: int = 300
+    equations: Residuals, guess: Any, scale: Any = 1.0, max_steps: int = 300
 ) -> tuple[Any, Any]:
     """A root near a guess, and whether it was reached.
 
@@ -131,11 +131,11 @@ def root(
         return equations.residual(point[:-1] * unit) - (1 - point[-1]) * first
 
     def linearized(point: Any, direction: Any) -> tuple[Any, Any, Any]:
-        r, slopes = equations.linearized(point[:-1] * unit)
+        r, jacobian = equations.linearized(point[:-1] * unit)
         rest = r - (1 - point[-1]) * first
         sizes = units * (jnp.abs(point) + 1.0)
-        reach = slopes.reach(sizes[:-1]) + jnp.abs(first) * sizes[-1]
-        return rest, reach, slopes.step(rest, first, direction / units) / units
+        reach = jacobian.reach(sizes[:-1]) + jnp.abs(first) * sizes[-1]
+        return rest, reach, jacobian.step(rest, first, direction / units) / units
 
     def go_on(w: _Walk) -> _Walk:
         walking = w.phase == ON_THE_WAY
@@ -179,11 +179,11 @@ def _newton(
     """A root near a guess by Newton's method, and whether it was reached.
 
     A step that does not make the residual smaller is halved until it does; what is smaller is judged with
-    every equation divided by its slopes, so that units do not matter. Where no part of the step helps, but
+    every equation divided by its partial derivatives, so that units do not matter. Where no part of the step helps, but
     the step is small, rounding is all that is left; otherwise the method is stuck.
 
     Arguments:
-        linearized: from a point to the residuals, how far each may move, and the step that the slopes ask for.
+        linearized: from a point to the residuals, how far each may move, and the Newton step.
     """
 
     def advance(state: Any) -> Any:

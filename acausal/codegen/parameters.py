@@ -1,8 +1,4 @@
-"""Parameters at run time: a flat dict for the user, a few arrays for the program.
-
-`ParameterLayout.pack` turns ``{"body.m": 350.0, ..., "spring_nn.net": module}`` into a `Packed`, in which
-equal parameters of equal components lie side by side and bound parameters are computed.
-"""
+"""Where parameters lie at run time: few arrays, in which equal parameters of equal components are neighbours."""
 
 from __future__ import annotations
 
@@ -11,33 +7,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import equinox as eqx
-import jax
-import jax.numpy as jnp
 import numpy as np
 import sympy as sp
 
 from acausal.codegen.gather import Gather, gather
-from acausal.codegen.lower import evaluate
 from acausal.errors import DataError, DeclarationError, listing, nearest
 from acausal.flattening import Binding, FlatModel, Integers
 from acausal.structure import parameter_aliases
 
 
-class Packed(eqx.Module):
-    """All parameters of a model, bound ones computed: a pytree with few leaves.
-
-    Attributes:
-        values: (n,) numbers, in the program's order.
-        modules: the callable parameters.
-    """
-
-    values: Any
-    modules: tuple[Any, ...]
-
-
 @dataclass(frozen=True)
-class _BoundGroup:
+class BoundGroup:
     """Bound parameters with one expression: computed side by side from earlier ones."""
 
     expression: sp.Expr
@@ -61,7 +41,7 @@ class ParameterLayout:
     free: Integers
     order: Integers
     position: Integers
-    bound: tuple[_BoundGroup, ...]
+    bound: tuple[BoundGroup, ...]
     module_of: Integers
 
     @cached_property
@@ -72,79 +52,19 @@ class ParameterLayout:
     @cached_property
     def module_names(self) -> tuple[str, ...]:
         """Names of the modules that are not references to others."""
-        return tuple(self.model.layout.module(int(i)) for i in self._own_modules)
+        return tuple(self.model.layout.module(int(i)) for i in self.own_modules)
 
     @cached_property
-    def _own_modules(self) -> list[int]:
+    def own_modules(self) -> list[int]:
+        """The modules that are not references to others."""
         return [i for i, m in enumerate(self.module_of) if m == i]
 
-    def defaults(self, key: Any) -> dict[str, Any]:
-        """The model's own parameter values; modules are made with keys split from ``key``."""
-        values: dict[str, Any] = dict(zip(self.names, self.model.value[self.free], strict=True))
-        own = self._own_modules
-        keys = jax.random.split(key, max(len(own), 1))
-        for name, index, k in zip(self.module_names, own, keys, strict=False):
-            values[name] = self._make(name, self.model.module_values[index], k)
-        return values
-
-    def _make(self, name: str, value: Any, key: Any) -> Any:
-        if isinstance(value, eqx.Module):
-            return value
-        try:
-            module = value(key)
-        except TypeError as error:
-            raise DeclarationError(
-                f"'{name}': a function is called with a key and gives a module, but this one fails "
-                f"({str(error).splitlines()[0]}); give a law of your own as an equinox module"
-            ) from error
-        if not callable(module):
-            raise DeclarationError(
-                f"'{name}': the function gave {type(module).__name__}, not a callable module"
-            )
-        return module
-
-    def pack(self, params: Mapping[str, Any] | Packed) -> Packed:
-        """Collect a parameter dict into arrays; numbers that it lacks keep the model's values.
+    def check_names(self, params: Mapping[str, Any]) -> None:
+        """Refuse unknown names and missing modules.
 
         Raises:
-            DataError: for an unknown name, a missing module or what is not a number.
+            DataError: that names them.
         """
-        if isinstance(params, Packed):
-            return params
-        if not isinstance(params, Mapping):
-            raise DataError(f"params are numbers and networks by name, not {params!r:.80}")
-        self._check_names(params)
-        own = self.model.value[self.free]
-        given = [params.get(name, value) for name, value in zip(self.names, own, strict=True)]
-        wrong = [n for n, v in zip(self.names, given, strict=True) if not _is_number(v)]
-        if wrong:
-            raise DataError(f"params: {listing(wrong)} must be numbers, got {params[wrong[0]]!r}")
-        if any(isinstance(v, jax.Array) for v in given):
-            free = (
-                jnp.stack([jnp.asarray(given[i], dtype=float) for i in self.order])
-                if given
-                else jnp.zeros(0)
-            )
-        else:
-            free = jnp.asarray(np.asarray(given, dtype=float)[self.order])
-        values = free
-        for group in self.bound:
-            arguments = {symbol: g.read([values]) for symbol, g in group.arguments}
-            computed = jnp.broadcast_to(
-                jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
-            )
-            values = jnp.concatenate([values, computed])
-        laws = [n for n in self.module_names if not callable(params[n])]
-        if laws:
-            raise DataError(
-                f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}"
-            )
-        modules = {
-            i: params[name] for i, name in zip(self._own_modules, self.module_names, strict=True)
-        }
-        return Packed(values, tuple(modules[int(m)] for m in self.module_of))
-
-    def _check_names(self, params: Mapping[str, Any]) -> None:
         missing = [name for name in self.module_names if name not in params]
         if missing:
             raise DataError(f"params lacks {listing(missing)}; start from system.parameters(key)")
@@ -183,15 +103,15 @@ class ParameterLayout:
         position = self.position[parameters]
         return gather(np.zeros_like(position), position, [int(self.position.max(initial=-1)) + 1])
 
+    @cached_property
+    def name_at(self) -> dict[int, str]:
+        """By position in ``Packed.values`` the parameter that lies there."""
+        own = np.flatnonzero(parameter_aliases(self.model) == np.arange(len(self.position)))
+        return {int(self.position[p]): self.model.layout.parameter(int(p)) for p in own}
+
     def chosen(self, modules: Integers) -> tuple[int, ...]:
         """The modules that a column of module slots refers to."""
         return tuple(int(m) for m in self.module_of[modules])
-
-
-def _is_number(value: Any) -> bool:
-    if isinstance(value, float | int):
-        return True
-    return isinstance(value, np.ndarray | np.number | jax.Array) and np.ndim(value) == 0
 
 
 def lay_out_parameters(model: FlatModel) -> ParameterLayout:
@@ -208,7 +128,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     rank = np.lexsort((free, *_kind(model, free)))
     position = np.full(n, -1, dtype=np.int64)
     position[free[rank]] = np.arange(len(free))
-    groups: list[_BoundGroup] = []
+    groups: list[BoundGroup] = []
     filled = len(free)
     waiting = [
         b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]
@@ -236,7 +156,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
                 for i, s in enumerate(members[0].symbols)
                 if s in expression.free_symbols
             )
-            groups.append(_BoundGroup(expression, arguments, len(members)))
+            groups.append(BoundGroup(expression, arguments, len(members)))
             position[[b.target for b in members]] = filled + np.arange(len(members))
             filled += len(members)
         done = {b.target for b in ready}

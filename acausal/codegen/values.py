@@ -4,8 +4,21 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import equinox as eqx
 from jax import Array
 from jax.typing import ArrayLike
+
+
+class Packed(eqx.Module):
+    """All parameters of a model, bound ones computed: a pytree with few leaves.
+
+    Attributes:
+        values: numbers, shape (n_parameters,), in the program's order.
+        modules: the callable parameters.
+    """
+
+    values: Array
+    modules: tuple[Any, ...]
 
 
 class Values(NamedTuple):
@@ -15,10 +28,10 @@ class Values(NamedTuple):
         t: time [s].
         x: states, shape (n_states,).
         u: inputs, shape (n_inputs,).
-        packed: parameters, from `ParameterLayout.pack`.
+        packed: parameters.
     """
 
     t: ArrayLike
     x: Array
     u: Array
-    packed: Any
+    packed: Packed

@@ -5,13 +5,8 @@ It knows declarations; neither JAX nor what is reduced later.
 """
 
 from acausal.flattening.attributes import tiled as tiled
+from acausal.flattening.equation_group import Binding as Binding, EquationGroup as EquationGroup
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
 from acausal.flattening.layout import Layout as Layout
-from acausal.flattening.sums import Statement as Statement, Total as Total, balance as balance
-from acausal.flattening.template import (
-    Binding as Binding,
-    EquationGroup as EquationGroup,
-    Integers as Integers,
-    Template as Template,
-    interned as interned,
-)
+from acausal.flattening.sums import Statement as Statement
+from acausal.flattening.template import Integers as Integers, Template as Template

@@ -9,8 +9,9 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError
+from acausal.flattening.equation_group import Binding
 from acausal.flattening.layout import Form, Layout, members_of_forms
-from acausal.flattening.template import Binding, Integers
+from acausal.flattening.template import Integers
 from acausal.modeling import (
     STATE_SELECT,
     Component,

@@ -15,8 +15,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from acausal.errors import ConnectionError
+from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.sums import Statement, balance
-from acausal.flattening.template import EquationGroup, Integers, Template, slot
+from acausal.flattening.template import Integers, Template, slot
 from acausal.modeling import Component, Connector, Flow, Input, Output, endpoint_label
 
 if TYPE_CHECKING:

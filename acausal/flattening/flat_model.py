@@ -9,9 +9,10 @@ import numpy as np
 
 from acausal.flattening.attributes import module_values, parameter_values, variable_attributes
 from acausal.flattening.connections import connection_groups, connection_sets, model_inputs
+from acausal.flattening.equation_group import Binding, EquationGroup
 from acausal.flattening.instances import instantiate
 from acausal.flattening.layout import Layout, lay_out
-from acausal.flattening.template import Binding, EquationGroup, Integers
+from acausal.flattening.template import Integers
 from acausal.modeling import Component
 
 

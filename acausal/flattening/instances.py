@@ -12,8 +12,9 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError
+from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.layout import Form, Layout, members_of_forms
-from acausal.flattening.template import EquationGroup, Integers, Template, slot
+from acausal.flattening.template import Integers, Template, slot
 from acausal.modeling import (
     COMPUTABLE,
     Component,

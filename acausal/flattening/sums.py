@@ -1,7 +1,7 @@
-"""Totals: sums of so many variables that integers stand for them, not sympy.
+"""Sums of so many variables that integers state them, not sympy.
 
-Where thousands of flows meet in one node, an expression with a term for each would cost sympy and XLA as
-much as thousands of formulas. A `Total` answers with integers what is asked of a `Template`.
+Where thousands of flows meet in one node, an expression with a term for each would cost sympy and XLA as much as
+thousands of formulas. A `Sum` answers with integers what a `Template` answers with expressions.
 """
 
 from __future__ import annotations
@@ -11,27 +11,28 @@ from functools import cached_property, lru_cache
 
 import sympy as sp
 
-from acausal.flattening.template import Template, slot
+from acausal.flattening.template import Kept, Template, slot
 
 FEW = 8
-"""Up to so many terms a sum is a formula like any other."""
+"""A sum of up to so many terms is a formula like any other."""
 
 
 @dataclass(frozen=True)
-class Total:
+class Sum:
     """The equation ``sum(coefficients[i] * slot[i]) = 0``; no coefficient is zero.
 
-    It is spelled out as a template's ``residual`` over ``variables`` where somebody wants to read it.
+    It has the interface of a `Template`; ``residual`` over ``variables`` spells it out for people and messages.
     """
 
-    coefficients: tuple[int, ...]
+    factors: tuple[int, ...]
     origin: str
 
     parameters = modules = ()
+    is_void = False
 
     @cached_property
     def _hash(self) -> int:
-        return hash(self.coefficients)
+        return hash(self.factors)
 
     def __hash__(self) -> int:
         """Computed once, as a template's."""
@@ -40,43 +41,88 @@ class Total:
     @property
     def orders(self) -> tuple[int, ...]:
         """No slot is a derivative."""
-        return (0,) * len(self.coefficients)
+        return (0,) * len(self.factors)
 
     @cached_property
     def variables(self) -> tuple[sp.Symbol, ...]:
         """Slot symbols."""
-        return tuple(slot(f"f{i}") for i in range(1, len(self.coefficients) + 1))
+        return tuple(slot(f"f{i}") for i in range(1, len(self.factors) + 1))
 
     @cached_property
     def residual(self) -> sp.Expr:
         """The sum, spelled out."""
-        terms = zip(self.coefficients, self.variables, strict=True)
+        terms = zip(self.factors, self.variables, strict=True)
         return sp.Add(*(factor * symbol for factor, symbol in terms))
 
-    @cached_property
-    def derivative(self) -> Total:
-        """The same sum of derivatives."""
-        return Total(self.coefficients, f"derivative of {self.origin}")
-
-    def specialised(self, pattern: tuple[int, ...]) -> tuple[Template | Total, list[int]]:
-        """The sum with slots merged (a code ``±(1 + j)``: plus or minus slot j) or zero (0), and the slots left."""
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Statement, Kept]:
+        """See `Template.specialised`."""
         merged: dict[int, int] = {}
-        for factor, code in zip(self.coefficients, pattern, strict=True):
+        for factor, code in zip(self.factors, pattern, strict=True):
             if code:
-                slot = abs(code) - 1
-                merged[slot] = merged.get(slot, 0) + (factor if code > 0 else -factor)
-        left = [slot for slot, factor in sorted(merged.items()) if factor]
-        return balance(tuple(merged[slot] for slot in left), self.origin), left
+                target = abs(code) - 1
+                merged[target] = merged.get(target, 0) + (factor if code > 0 else -factor)
+        left = [target for target, factor in sorted(merged.items()) if factor]
+        return balance(tuple(merged[target] for target in left), self.origin), (left, [], [])
+
+    def differentiated(self) -> tuple[Sum, tuple[tuple[int, bool], ...]]:
+        """The same sum of derivatives; see `Template.differentiated`."""
+        sources = tuple((i, True) for i in range(len(self.factors)))
+        return Sum(self.factors, f"derivative of {self.origin}"), sources
+
+    def has_prescribed(self) -> bool:
+        """No signal stands in a sum."""
+        return False
+
+    def with_signals(self) -> tuple[Sum, tuple[int, ...]]:
+        """The sum as it is; see `Template.with_signals`."""
+        return self, tuple(range(len(self.factors)))
+
+    def coefficients(self) -> tuple[int, ...]:
+        """The numbers that slots are multiplied by."""
+        return self.factors
+
+    def alias(self) -> None:
+        """A sum has more than two terms."""
+
+    def partial(self, column: int) -> sp.Expr:
+        """A slot's coefficient."""
+        return sp.Integer(self.factors[column])
+
+    def is_solvable(self, column: int) -> bool:
+        """Every slot can be computed from the others."""
+        del column
+        return True
+
+    is_safely_solvable = is_solvable
+
+    def is_linear(self, columns: tuple[int, ...]) -> bool:
+        """A sum is linear in all slots."""
+        del columns
+        return True
+
+    def weights(self, column: int) -> tuple[float, ...]:
+        """Weights whose sum over the other slots is this one."""
+        return tuple(f / -self.factors[column] for i, f in enumerate(self.factors) if i != column)
+
+    def split(self, inside: tuple[bool, ...]) -> Statement | None:
+        """The sum over the slots ``inside`` of a loop and one more that holds the sum of the others.
+
+        None if there are not two others.
+        """
+        kept = [f for f, is_inside in zip(self.factors, inside, strict=True) if is_inside]
+        if len(self.factors) - len(kept) < 2:
+            return None
+        return balance((*kept, 1), self.origin)
 
 
 @lru_cache(maxsize=256)
-def balance(coefficients: tuple[int, ...], origin: str) -> Template | Total:
+def balance(coefficients: tuple[int, ...], origin: str) -> Template | Sum:
     """``sum(coefficients[i] * slot[i]) = 0``, as a template where the terms are few."""
-    total = Total(coefficients, origin)
+    total = Sum(coefficients, origin)
     if len(coefficients) > FEW:
         return total
     return Template(total.residual, total.variables, total.orders, (), (), origin)
 
 
-Statement = Template | Total
+Statement = Template | Sum
 """What an equation says, whichever variables fill its slots."""

@@ -1,21 +1,26 @@
 """Equation templates: one equation of one class, written once in slots, used by any number of instances.
 
-sympy works on templates only; the graph works on the integers that fill their slots.
+sympy works on templates only, once per template; the graph works on the integers that fill their slots. A `Template` is
+an expression; a `Sum` (in `sums`) answers the same questions with integers.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.core.relational import Relational
 
-if TYPE_CHECKING:
-    from acausal.flattening.sums import Statement
+from acausal.errors import StructureError
+from acausal.modeling import Prescribed, time
 
 Integers = np.ndarray[Any, np.dtype[np.int64]]
+
+Kept = tuple[list[int], list[int], list[int]]
+"""The columns of the slots that remain: variables, parameters, modules."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +28,7 @@ class Template:
     """The equation ``residual = 0`` over slots.
 
     Attributes:
-        residual: expression in the slot symbols and `acausal.modeling.declarations.time`.
+        residual: expression in the slot symbols and `acausal.time`.
         variables: slot symbols of variables; ``orders`` says how often each is differentiated.
         parameters: slot symbols of parameters. ``modules``: slot symbols of callable parameters.
         origin: the equation as its author wrote it, for messages.
@@ -52,51 +57,197 @@ class Template:
         counts = (len(self.variables), len(self.parameters), len(self.modules))
         return self.residual.xreplace(canonical), self.orders, counts
 
+    # -- rewriting ---------------------------------------------------------------------------------
+
+    @cache
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Template, Kept]:
+        """The template with slots merged, negated or set to zero, and the columns of the slots that remain.
+
+        Arguments:
+            pattern: for every variable slot 0 (zero), or ``±(1 + j)``: plus or minus slot j; for every parameter
+                slot whether it is zero.
+
+        Raises:
+            StructureError: if something is divided by zero.
+        """
+        n = len(self.variables)
+        replaced: dict[sp.Symbol, Any] = {}
+        for symbol, code in zip(self.variables, pattern[:n], strict=True):
+            merged = sp.sign(code) * self.variables[abs(code) - 1]
+            replaced[symbol] = sp.S.Zero if code == 0 else merged
+        for symbol, is_zero in zip(self.parameters, pattern[n:], strict=True):
+            if is_zero:
+                replaced[symbol] = sp.S.Zero
+        replaced = {s: r for s, r in replaced.items() if s != r}
+        residual: Any = self.residual.xreplace(replaced) if replaced else self.residual
+        if residual.has(sp.zoo, sp.nan, sp.oo):
+            zeros = [s.name for s, r in replaced.items() if r == 0 and s in self.parameters]
+            raise StructureError(
+                f"{self.origin}: division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
+            )
+        present = residual.free_symbols
+        variables, parameters, modules = (
+            [i for i, s in enumerate(slots) if s in present]
+            for slots in (self.variables, self.parameters, self.modules)
+        )
+        special = Template(
+            residual,
+            tuple(self.variables[i] for i in variables),
+            (0,) * len(variables),
+            tuple(self.parameters[i] for i in parameters),
+            tuple(self.modules[i] for i in modules),
+            self.origin,
+        )
+        return interned(special), (variables, parameters, modules)
+
+    @cache
+    def differentiated(self) -> tuple[Template, tuple[tuple[int, bool], ...]]:
+        """The total time derivative, and where its slots come from.
+
+        Returns:
+            The new template and, per variable slot, (column of this template, whether differentiated).
+        """
+        slots = list(self.variables)
+        taken = set(slots)
+        rates = [_fresh(f"der({s.name})", taken) for s in slots]
+        terms = [self.residual.diff(time)]
+        terms += [self.partial(i) * r for i, r in enumerate(rates)]
+        residual = sp.Add(*terms)
+        present = residual.free_symbols
+        kept = [(i, False) for i, s in enumerate(slots) if s in present]
+        kept += [(i, True) for i, r in enumerate(rates) if r in present]
+        variables = tuple(rates[i] if raised else slots[i] for i, raised in kept)
+        derivative = Template(
+            residual,
+            variables,
+            (0,) * len(variables),
+            self.parameters,
+            self.modules,
+            f"derivative of {self.origin}",
+        )
+        return derivative, tuple(kept)
+
+    @cache
+    def has_prescribed(self) -> bool:
+        """Whether the equation is given the derivatives of a signal."""
+        return bool(self.residual.has(Prescribed))
+
+    @cache
+    def with_signals(self) -> tuple[Template, tuple[int, ...]]:
+        """The equation with signals in the place of `Prescribed`, for when it is not differentiated any more.
+
+        Returns:
+            The new template and, per variable slot, the column of this one: signals that only stand for further
+            derivatives are gone.
+        """
+        residual = self.residual.replace(Prescribed, lambda order, _, *signals: signals[int(order)])
+        present = residual.free_symbols
+        kept = tuple(c for c, s in enumerate(self.variables) if s in present)
+        variables = tuple(self.variables[c] for c in kept)
+        orders = tuple(self.orders[c] for c in kept)
+        return replace(self, residual=residual, variables=variables, orders=orders), kept
+
+    # -- what it says --------------------------------------------------------------------------------
+
+    @property
+    def is_void(self) -> bool:
+        """Whether it says nothing: ``0 = 0``."""
+        return self.residual == 0
+
+    @cache
+    def coefficients(self) -> tuple[Any, ...] | None:
+        """The numbers that slots are multiplied by, where the residual is the sum of that; else None."""
+        if self.parameters or self.modules or not self.variables:
+            return None
+        factors = [self.residual.diff(s) for s in self.variables]
+        if not all(f.is_number and f != 0 for f in factors):
+            return None
+        terms = (f * s for f, s in zip(factors, self.variables, strict=True))
+        return tuple(factors) if sp.expand(self.residual - sp.Add(*terms)) == 0 else None
+
+    @cache
+    def alias(self) -> tuple[int, ...] | None:
+        """``(s,)`` if it states ``first = s * second``, ``()`` if it states ``first = 0``, else None."""
+        if len(self.variables) > 2:
+            return None
+        match self.coefficients():
+            case (_,):
+                return ()
+            case (first, second) if -second / first in (1, -1):
+                return (int(-second / first),)
+            case _:
+                return None
+
+    @cache
+    def partial(self, column: int) -> sp.Expr:
+        """Partial derivative of the residual with respect to a variable slot."""
+        symbol = self.variables[column]
+        return sp.Add(*(term.diff(symbol) for term in self._terms()[symbol]))
+
+    @cache
+    def solved(self, column: int) -> sp.Expr | None:
+        """The slot as an explicit expression of the others; None where the residual is not linear in it."""
+        symbol, factor = self.variables[column], self.partial(column)
+        if factor == 0 or symbol in factor.free_symbols or symbol in self._deciding():
+            return None
+        rest: Any = self.residual.xreplace({symbol: sp.S.Zero})
+        if rest.has(sp.nan, sp.zoo, sp.oo):
+            rest = sp.expand(self.residual - factor * symbol)
+        return -rest / factor
+
+    def is_solvable(self, column: int) -> bool:
+        """Whether the slot can be computed from the others by an expression."""
+        return self.solved(column) is not None
+
+    @cache
+    def is_safely_solvable(self, column: int) -> bool:
+        """Whether the slot stands linearly with a coefficient that cannot vanish while a simulation runs.
+
+        Numbers and products of parameters count as safe, anything that depends on variables, time or cases does not.
+        """
+        if not self.is_solvable(column):
+            return False
+        factor = self.partial(column)
+        unsafe = factor.free_symbols & {*self.variables, time}
+        return not unsafe and not factor.has(sp.Piecewise, sp.Function)
+
+    @cache
+    def is_linear(self, columns: tuple[int, ...]) -> bool:
+        """Whether the residual is affine in these slots together."""
+        symbols = {self.variables[c] for c in columns}
+        if symbols & self._deciding():
+            return False
+        return not any(self.partial(c).free_symbols & symbols for c in columns)
+
+    def weights(self, column: int) -> tuple[float, ...] | None:
+        """Weights whose sum over the other slots is this one; None, as an expression computes it: `solved`."""
+        del column
+        return None
+
+    def split(self, inside: tuple[bool, ...]) -> None:
+        """A template reads what is outside of a loop slot by slot: nothing is added up before. See `Sum.split`."""
+        del inside
+
+    @cache
+    def _terms(self) -> dict[Any, list[sp.Expr]]:
+        """The terms of the residual that each symbol stands in."""
+        found: dict[Any, list[sp.Expr]] = {s: [] for s in self.variables}
+        for term in sp.Add.make_args(self.residual):
+            for symbol in term.free_symbols:
+                found.setdefault(symbol, []).append(term)
+        return found
+
+    @cache
+    def _deciding(self) -> set[Any]:
+        """The symbols that decide a case or a step: there the residual jumps, and no derivative tells."""
+        places = self.residual.atoms(Relational, sp.Function)
+        return set().union(*(p.free_symbols for p in places if not isinstance(p, sp.Piecewise)))
+
 
 @cache
 def interned(template: Template) -> Template:
     """The first template equal to this one: equality of what is interned is identity, whatever its size."""
     return template
-
-
-@dataclass(frozen=True)
-class EquationGroup:
-    """The instances of one template: row ``i`` of each array fills the slots of instance ``i``.
-
-    Attributes:
-        variables: (n, slots) variable indices; ``parameters`` and ``modules`` likewise.
-        components: (n,) index of the component that states each instance; for a connection, -1 minus the index of
-            a variable that it joins.
-    """
-
-    template: Statement
-    variables: Integers
-    parameters: Integers
-    modules: Integers
-    components: Integers
-
-    def __len__(self) -> int:
-        return len(self.components)
-
-    def rows(self, chosen: Any) -> EquationGroup:
-        """The group restricted to some rows (a mask or indices)."""
-        return EquationGroup(
-            self.template,
-            self.variables[chosen],
-            self.parameters[chosen],
-            self.modules[chosen],
-            self.components[chosen],
-        )
-
-
-@dataclass(frozen=True)
-class Binding:
-    """A parameter or a start value given by an expression of parameters: ``target = expression(arguments)``."""
-
-    target: int
-    expression: sp.Expr
-    symbols: tuple[sp.Symbol, ...]
-    arguments: tuple[int, ...]
 
 
 def slot(path: str, order: int = 0) -> sp.Symbol:
@@ -105,3 +256,9 @@ def slot(path: str, order: int = 0) -> sp.Symbol:
     for _ in range(order):
         name = f"der({name})"
     return sp.Symbol(name, real=True)
+
+
+def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:
+    """A slot of that name, or nearly: the derivative in a slot may stand there with the other sign."""
+    symbol = sp.Symbol(name, real=True)
+    return _fresh(f"{name}'", taken) if symbol in taken else symbol

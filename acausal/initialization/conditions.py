@@ -12,7 +12,17 @@ import jax.numpy as jnp
 import numpy as np
 import sympy as sp
 
-from acausal.codegen import Packed, ParameterLayout, Program, Values, chosen_module, evaluate
+from acausal.codegen import (
+    Packed,
+    ParameterLayout,
+    Program,
+    Values,
+    chosen_module,
+    evaluate,
+    rates,
+    read,
+    read_elements,
+)
 from acausal.flattening import Binding, EquationGroup, FlatModel
 from acausal.modeling import time
 from acausal.structure import ReducedModel
@@ -92,14 +102,14 @@ class Conditions:
         nominal = self.reduced.model.nominal
         parts: list[Any] = []
         if starts:
-            values = self.program.read([c.node for c in starts], at)
+            values = read(self.program, [c.node for c in starts], at)
             signs = np.asarray([c.sign for c in starts])
             wanted = self._starts(at.packed, [(c.variable, 1) for c in starts])
             parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
         parts += [self._initial(group, at) for group in self.reduced.model.initial]
         if resting:
-            rates = self.program.rates(at)
-            parts.append((rates / self.nominal)[np.asarray(resting)])
+            dx = rates(self.program, at)
+            parts.append((dx / self.nominal)[np.asarray(resting)])
         return jnp.concatenate(parts)
 
     @cached_property
@@ -118,8 +128,8 @@ class Conditions:
         for (expression, symbols), found in groups.items():
             rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
             position = self.parameters.position[arguments]  # -1: folded, or bound to what is folded
-            read = jnp.where(position >= 0, packed.values[position], 0.0)
-            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, read.T, strict=True))))
+            found = jnp.where(position >= 0, packed.values[position], 0.0)
+            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, found.T, strict=True))))
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
     def _initial(self, group: EquationGroup, at: Values) -> Any:
@@ -131,12 +141,12 @@ class Conditions:
             columns[symbol] = self._variables(group.variables[:, i], order, at)
         for i, symbol in enumerate(group.template.parameters):
             kept = self.parameters.position[group.parameters[:, i]] >= 0
-            read = (
-                self.parameters.gather(group.parameters[kept, i]).read([at.packed.values])
+            found = (
+                read_elements(self.parameters.gather(group.parameters[kept, i]), [at.packed.values])
                 if kept.any()
                 else 0.0
             )
-            columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(read)
+            columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(found)
         for i, symbol in enumerate(group.template.modules):
             columns[symbol] = chosen_module(at.packed, self.parameters.chosen(group.modules[:, i]))
         return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
@@ -146,12 +156,12 @@ class Conditions:
         nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
 
         def value(t: Any, x: Any) -> Any:
-            return signs * self.program.read(nodes, at._replace(t=t, x=x))
+            return signs * read(self.program, nodes, at._replace(t=t, x=x))
 
         def along(function: Any) -> Any:
             def rate(t: Any, x: Any) -> Any:
-                rates = self.program.rates(at._replace(t=t, x=x))
-                return jax.jvp(function, (t, x), (jnp.ones_like(t), rates))[1]
+                dx = rates(self.program, at._replace(t=t, x=x))
+                return jax.jvp(function, (t, x), (jnp.ones_like(t), dx))[1]
 
             return rate
 

@@ -14,7 +14,7 @@ import numpy as np
 import optimistix as optx
 
 from acausal._jax import traced
-from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_breakdown, root
+from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
 from acausal.structure import ReducedModel
@@ -242,7 +242,7 @@ class Initializer:
             return
         if not np.isfinite(rest).all():
             start = found._replace(x=self.conditions.starts(found.packed))
-            reason = explain_breakdown(self.reduced, self.conditions.program, start)
+            reason = explain_nonfinite(self.conditions.program, start, self.reduced.name)
             raise InitializationError(
                 "no initial values were found: the model's equations have no finite values at its starts. "
                 + (reason or "Give start values nearer to the solution (ac.Start).")

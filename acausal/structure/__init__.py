@@ -4,18 +4,13 @@ In: a `FlatModel`. Out: a frozen `ReducedModel`: states, inputs and steps.
 It knows integers and templates; no JAX. Its graph algorithms know integers alone.
 """
 
-from acausal.structure.algebraic_loops import BlockShape as BlockShape, Loop as Loop
+from acausal.structure.algebraic_loops import BlockEquation as BlockEquation, TornLoop as TornLoop
 from acausal.structure.aliases import parameter_aliases as parameter_aliases
-from acausal.structure.blocks import (
-    Accumulation as Accumulation,
-    Assignment as Assignment,
-    Step as Step,
-)
+from acausal.structure.blocks import Accumulation as Accumulation, Assignment as Assignment
 from acausal.structure.elimination_order import (
     SETTINGS as SETTINGS,
     THRESHOLD as THRESHOLD,
     Pattern as Pattern,
 )
-from acausal.structure.explicit import explicit_equations as explicit_equations
 from acausal.structure.reduced_model import ReducedModel as ReducedModel, reduce as reduce
-from acausal.structure.sparse_loops import Mesh as Mesh, MeshGroup as MeshGroup
+from acausal.structure.sparse_loops import SparseGroup as SparseGroup, SparseLoop as SparseLoop

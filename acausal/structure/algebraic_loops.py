@@ -9,9 +9,9 @@ import numpy as np
 
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Statement
-from acausal.structure import graph, symbolic as derive
+from acausal.structure import graph
 from acausal.structure.equations import Equations
-from acausal.structure.jacobian import Point, constant, slopes
+from acausal.structure.jacobian import Point, is_constant, partials
 from acausal.structure.rank import singular
 
 
@@ -41,13 +41,13 @@ class BlockShape:
     def is_linear(self) -> bool:
         """Whether the loop is linear in its unknowns."""
         return all(
-            derive.is_linear(e.template, tuple(c for c, v in enumerate(e.variables) if v >= 0))
+            e.template.is_linear(tuple(c for c, v in enumerate(e.variables) if v >= 0))
             for e in self.equations
         )
 
 
 @dataclass(frozen=True)
-class Loop:
+class TornLoop:
     """Algebraic loops of one shape, side by side: (n, m) unknowns follow from externals together."""
 
     shape: BlockShape
@@ -55,6 +55,11 @@ class Loop:
     externals: Integers
     parameters: Integers
     modules: Integers
+
+    @property
+    def results(self) -> tuple[Integers, ...]:
+        """The unknowns, array by array as they are computed."""
+        return tuple(self.unknowns.T)
 
 
 @dataclass(frozen=True)
@@ -98,7 +103,7 @@ def block_of(
     return Block(tuple(equations), tuple(stated), unknowns, list(externals), parameters, modules)
 
 
-def loop_of(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) -> Loop:
+def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) -> TornLoop:
     """Equal blocks side by side, torn.
 
     Raises:
@@ -110,15 +115,15 @@ def loop_of(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) 
     def solvable(equation: int, unknown: int) -> bool:
         stated = equations[equation]
         column = stated.variables.index(unknown)
-        return column not in stated.vanishing and derive.is_safely_solvable(stated.template, column)
+        return column not in stated.vanishing and stated.template.is_safely_solvable(column)
 
     nonlinear = {
         code
         for e in equations
         for column, code in enumerate(e.variables)
-        if code >= 0 and not derive.is_solvable(e.template, column)
+        if code >= 0 and not e.template.is_solvable(column)
     }  # Newton's method finds these best where it moves them itself
-    loop = Loop(
+    loop = TornLoop(
         BlockShape(
             equations,
             n_unknowns,
@@ -151,8 +156,8 @@ def _explain(system: Equations, block: Block) -> str:
     )
 
 
-def _singular(loop: Loop, parameters: np.ndarray) -> int | None:
-    """The first of the loops whose equations depend on each other, as far as the slopes are constant."""
+def _singular(loop: TornLoop, parameters: np.ndarray) -> int | None:
+    """The first of the loops whose equations depend on each other, as far as their Jacobians are constant."""
     shape, n = loop.shape, len(loop.unknowns)
     if not shape.is_linear:
         return None
@@ -164,13 +169,13 @@ def _singular(loop: Loop, parameters: np.ndarray) -> int | None:
         for column, code in enumerate(e.variables):
             if code < 0:
                 continue
-            if not constant(e.template, column):
+            if not is_constant(e.template, column):
                 return None
             variables = np.zeros((n, len(e.variables)), dtype=np.int64)
             own = loop.parameters[:, list(e.parameters)]
             rows.append(i)
             columns.append(code)
-            values.append(slopes(e.template, column, variables, own, nowhere))
+            values.append(partials(e.template, column, variables, own, nowhere))
     each = np.stack(values, axis=1).tolist()
     size = shape.n_unknowns
     return next((i for i, own in enumerate(each) if singular(rows, columns, own, size)), None)

@@ -15,7 +15,6 @@ import numpy as np
 
 from acausal.errors import StructureError
 from acausal.flattening import EquationGroup, FlatModel, Integers, Template
-from acausal.structure import symbolic as derive
 
 MAX_DOUBLINGS = 64
 
@@ -62,8 +61,8 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
         ]
         pending, changed = [], False
         for piece in pieces:
-            alias = derive.alias(piece.template)
-            if derive.is_void(piece.template):
+            alias = piece.template.alias()
+            if piece.template.is_void:
                 redundant += [(piece.template.origin, int(c)) for c in piece.components]
             elif alias is None:
                 pending.append(piece)
@@ -260,7 +259,7 @@ def specialise(
         kinds, which = kinds[order], np.argsort(order)[which.ravel()]
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        template, columns = derive.specialised(group.template, tuple(int(k) for k in kind))
+        template, columns = group.template.specialised(tuple(int(k) for k in kind))
         rows = np.flatnonzero(which == number)
         pieces.append(
             EquationGroup(
@@ -283,8 +282,8 @@ def _fold(group: EquationGroup, parameters: Integers, folded: np.ndarray) -> lis
     as_it_is = tuple(range(1, len(group.template.variables) + 1))
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        template, columns = derive.specialised(group.template, (*as_it_is, *(int(k) for k in kind)))
-        assert isinstance(template, Template)  # a total has no derivatives
+        template, columns = group.template.specialised((*as_it_is, *(int(k) for k in kind)))
+        assert isinstance(template, Template)  # a sum has no derivatives
         orders = tuple(group.template.orders[c] for c in columns[0])
         rows = group.rows(which.ravel() == number)
         pieces.append(
@@ -413,7 +412,7 @@ def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
         pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(
             group.template.parameters
         )
-        template, _ = derive.specialised(group.template, pattern)
+        template, _ = group.template.specialised(pattern)
         rows = group.rows(which.ravel() == number)
         pieces.append(
             EquationGroup(template, rows.variables, rows.parameters, rows.modules, rows.components)

@@ -1,20 +1,25 @@
-"""Steps: what is computed at one level by one formula, side by side; in solving order."""
+"""Blocks: strongly connected components in solving order become steps, equal ones side by side.
+
+A block of one equation that can be solved for its unknown is an assignment, or a sum; any other is an algebraic loop.
+"""
 
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from acausal.errors import StructureError, listing
-from acausal.flattening import Integers, Template, Total, balance
-from acausal.structure import graph, symbolic as derive
-from acausal.structure.algebraic_loops import Loop, block_of, loop_of, matrix
+from acausal.flattening import Integers, Template
+from acausal.structure import graph
+from acausal.structure.algebraic_loops import TornLoop, block_of, matrix, torn_loop
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import parameter_values
-from acausal.structure.sparse_loops import LARGE, Mesh, mesh_of
+from acausal.structure.sparse_loops import LARGE, SparseLoop, sparse_loop
 
 
 @dataclass(frozen=True)
@@ -32,6 +37,11 @@ class Assignment:
         """The unknown that each instance is solved for."""
         return self.variables[:, self.column]
 
+    @property
+    def results(self) -> tuple[Integers, ...]:
+        """The unknowns, array by array as they are computed."""
+        return (self.unknowns,)
+
 
 @dataclass(frozen=True)
 class Accumulation:
@@ -41,8 +51,25 @@ class Accumulation:
     terms: Integers
     weights: np.ndarray
 
+    @property
+    def results(self) -> tuple[Integers, ...]:
+        """The unknowns, array by array as they are computed."""
+        return (self.unknowns,)
 
-Step = Assignment | Accumulation | Loop | Mesh
+
+Step = Assignment | Accumulation | TornLoop | SparseLoop
+
+
+@dataclass(frozen=True)
+class _Pending:
+    """Equal blocks of one level, and what makes one step of them."""
+
+    level: int
+    make: Callable[[list[Any]], Step]
+    members: list[Any] = field(default_factory=list[Any])
+
+
+_Groups = dict[Hashable, _Pending]
 
 
 def order_steps(
@@ -50,7 +77,7 @@ def order_steps(
 ) -> tuple[Step, ...]:
     """Group what can be computed at the same level by the same formula.
 
-    Of a loop's equations that are totals, what lies outside of the loop becomes one variable, summed before.
+    What sums of a loop read outside of the loop becomes one variable, added up before.
 
     Raises:
         StructureError: for an equation that is to be divided by zero, or a loop that is singular.
@@ -59,39 +86,39 @@ def order_steps(
     bounds = np.flatnonzero(np.diff(blocks.block[order], prepend=-1, append=-1))
     values = parameter_values(system.model)
     vanishing = system.vanishing(values)
-    sums: dict[tuple[int, int], list[_Sum]] = {}
-    found: dict[Any, list[Any]] = {}
-    meshes: dict[int, list[int]] = {}
+    sums: _Groups = {}
+    formulas: _Groups = {}
+    large: _Groups = {}
+
+    def collect(
+        groups: _Groups, key: Hashable, make: Callable[[list[Any]], Step], *new: Any
+    ) -> None:
+        groups.setdefault((level, key), _Pending(level, make)).members.extend(new)
+
     for a, b in itertools.pairwise(bounds):
         equations = order[a:b].tolist()
         level = int(blocks.level[blocks.block[equations[0]]])
-        e, unknown = equations[0], variable_of[equations[0]]
-        template, column = system.template[e], system.variables[e].index(unknown)
+        unknowns = [variable_of[e] for e in equations]
+        e = equations[0]
+        template, column = system.template[e], system.variables[e].index(unknowns[0])
         if len(equations) > LARGE:
-            meshes.setdefault(level, []).extend(equations)
-        elif len(equations) > 1 or not derive.is_solvable(template, column):
-            for outside in _close(system, equations, [variable_of[e] for e in equations]):
-                sums.setdefault((level, len(outside.terms)), []).append(outside)
-            block = block_of(system, equations, [variable_of[e] for e in equations], vanishing)
-            found.setdefault((level, block.equations, len(equations)), []).append(block)
-        elif isinstance(template, Total):
-            total = _solved(template, system.variables[e], column)
-            sums.setdefault((level, len(total.terms)), []).append(total)
+            pairs = zip(equations, unknowns, strict=True)
+            collect(large, None, partial(sparse_loop, system, parameters=values), *pairs)
+        elif len(equations) > 1 or not template.is_solvable(column):
+            for outside in _add_up_outside(system, equations, unknowns):
+                collect(sums, len(outside.terms), _accumulation, outside)
+            block = block_of(system, equations, unknowns, vanishing)
+            make = partial(torn_loop, system, parameters=values)
+            collect(formulas, (block.equations, len(equations)), make, block)
+        elif (weights := template.weights(column)) is not None:
+            terms = [v for i, v in enumerate(system.variables[e]) if i != column]
+            collect(sums, len(terms), _accumulation, _Sum(unknowns[0], terms, weights))
         elif (e, column) in vanishing:
             raise StructureError(_no_divisor(system, e, column))
         else:
-            found.setdefault((level, template, column), []).append(e)
-    steps: list[tuple[int, Step]] = [(key[0], _accumulation(rows)) for key, rows in sums.items()]
-    steps += [
-        (key[0], _assignment(system, key[1], key[2], members))
-        if isinstance(key[1], Template)
-        else (key[0], loop_of(system, members, values))
-        for key, members in found.items()
-    ]
-    steps += [
-        (level, mesh_of(system, members, [variable_of[e] for e in members], values))
-        for level, members in meshes.items()
-    ]
+            collect(formulas, (template, column), partial(_assignment, system, template, column), e)
+    groups = [*sums.values(), *formulas.values(), *large.values()]
+    steps = [(g.level, g.make(g.members)) for g in groups]
     return tuple(step for _, step in sorted(steps, key=lambda s: s[0]))
 
 
@@ -101,32 +128,25 @@ class _Sum:
 
     unknown: int
     terms: list[int]
-    weights: list[float]
+    weights: tuple[float, ...]
 
 
-def _solved(total: Total, variables: list[int], column: int) -> _Sum:
-    divisor = -total.coefficients[column]
-    rest = [i for i in range(len(variables)) if i != column]
-    weights = [total.coefficients[i] / divisor for i in rest]
-    return _Sum(variables[column], [variables[i] for i in rest], weights)
-
-
-def _close(system: Equations, equations: list[int], unknowns: list[int]) -> list[_Sum]:
-    """Let the totals of a loop read one variable for all that they sum outside of the loop."""
+def _add_up_outside(system: Equations, equations: list[int], unknowns: list[int]) -> list[_Sum]:
+    """Let the sums of a loop read one variable for all that they add up outside of the loop."""
     inside = set(unknowns)
     sums: list[_Sum] = []
     for e in equations:
-        total, variables = system.template[e], system.variables[e]
-        if not isinstance(total, Total):
+        template, variables = system.template[e], system.variables[e]
+        is_inside = tuple(v in inside for v in variables)
+        closed = template.split(is_inside)
+        if closed is None:
             continue
-        pairs = list(zip(variables, total.coefficients, strict=True))
-        outside = [(v, c) for v, c in pairs if v not in inside]
-        if len(outside) > 1:
-            kept = [(v, c) for v, c in pairs if v in inside]
-            rest = system.new_node()
-            sums.append(_Sum(rest, [v for v, _ in outside], [float(c) for _, c in outside]))
-            system.template[e] = balance((*(c for _, c in kept), 1), total.origin)
-            system.variables[e] = [*(v for v, _ in kept), rest]
+        pairs = list(zip(variables, template.coefficients() or (), is_inside, strict=True))
+        outside = [(v, c) for v, c, own in pairs if not own]
+        rest = system.new_node()
+        sums.append(_Sum(rest, [v for v, _ in outside], tuple(float(c) for _, c in outside)))
+        system.template[e] = closed
+        system.variables[e] = [*(v for v, _, own in pairs if own), rest]
     return sums
 
 

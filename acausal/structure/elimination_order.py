@@ -27,7 +27,7 @@ SETTINGS = {"SymmetricMode": True}
 """SuperLU then prefers the diagonal, where the order has put the pivots."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pattern:
     """Where the entries of a square matrix stand: entry ``k`` in row ``rows[k]`` and column ``columns[k]``.
 

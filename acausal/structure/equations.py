@@ -9,9 +9,9 @@ import numpy as np
 
 from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers, Statement
-from acausal.structure import graph, symbolic as derive
+from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
-from acausal.structure.jacobian import Point, constant, slopes
+from acausal.structure.jacobian import Point, is_constant, partials
 from acausal.structure.singularity import equation_name
 
 
@@ -124,36 +124,38 @@ class Equations:
             return self.model.layout.variable(node)
         return f"der({self.name(self.base[node])})"
 
-    def slopes(self, chosen: Sequence[int], point: Point) -> tuple[Integers, Integers, np.ndarray]:
-        """Slopes of some equations as a sparse matrix: row in ``chosen``, node, value."""
+    def jacobian(
+        self, chosen: Sequence[int], point: Point
+    ) -> tuple[Integers, Integers, np.ndarray]:
+        """The Jacobian of some equations as a sparse matrix: row in ``chosen``, node, value."""
         entries: list[tuple[Integers, Integers, np.ndarray]] = []
         for template, members in self._by_template(chosen):
             variables = np.asarray([self.variables[chosen[i]] for i in members])
             parameters = np.asarray([self.parameters[chosen[i]] for i in members], dtype=np.int64)
             entries += [
-                (np.asarray(members), nodes, slopes(template, c, variables, parameters, point))
+                (np.asarray(members), nodes, partials(template, c, variables, parameters, point))
                 for c, nodes in enumerate(variables.T)
             ]
         rows, columns, values = zip(*entries, strict=True)
         return np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
 
     def vanishing(self, parameters: np.ndarray) -> set[tuple[int, int]]:
-        """(equation, column) where a slope is zero for these parameters, though not for others."""
+        """(equation, column) where a partial derivative is zero for these parameters, though not for others."""
         found: set[tuple[int, int]] = set()
         at = Point(np.ones(1), parameters)
         for template, members in self._by_template(range(len(self.template))):
             for column in range(len(template.variables)) if template.parameters else ():
-                if constant(template, column) and not derive.slope(template, column).is_Number:
+                if is_constant(template, column) and not template.partial(column).is_Number:
                     own = np.asarray([self.parameters[e] for e in members], dtype=np.int64)
                     nowhere = np.zeros((len(members), len(template.variables)), dtype=np.int64)
-                    zero = np.flatnonzero(slopes(template, column, nowhere, own, at) == 0)
+                    zero = np.flatnonzero(partials(template, column, nowhere, own, at) == 0)
                     found.update((members[i], column) for i in zero.tolist())
         return found
 
     def divisors(self, equation: int, column: int) -> list[int]:
-        """The parameters in the slope of a slot."""
+        """The parameters in the partial derivative by a slot."""
         template = self.template[equation]
-        symbols = derive.slope(template, column).free_symbols
+        symbols = template.partial(column).free_symbols
         slots = zip(template.parameters, self.parameters[equation], strict=True)
         return [p for s, p in slots if s in symbols]
 
@@ -182,7 +184,7 @@ class Equations:
 
     def differentiate(self, equation: int) -> list[int]:
         """Append the derivative of an equation; returns its unknowns."""
-        template, sources = derive.differentiate(self.template[equation])
+        template, sources = self.template[equation].differentiated()
         row = self.variables[equation]
         nodes: list[int] = []
         codes: list[int] = []
@@ -192,9 +194,8 @@ class Equations:
             nodes.append(node)
             place = first.setdefault(node, len(nodes))
             codes.append(0 if node == self.aliases.zero else sign * place)
-        special, (columns, kept, used) = derive.specialised(
-            template, (*codes, *[0] * len(template.parameters))
-        )
+        pattern = (*codes, *[0] * len(template.parameters))
+        special, (columns, kept, used) = template.specialised(pattern)
         self.template.append(special)
         self.variables.append([nodes[c] for c in columns])
         self.parameters.append([self.parameters[equation][c] for c in kept])
@@ -202,11 +203,11 @@ class Equations:
         self.component.append(self.component[equation])
         return [v for v in _read(special, self.variables[-1]) if v not in self.known]
 
-    def settle(self) -> None:
+    def insert_signals(self) -> None:
         """Put signals in the place of `Prescribed`; nothing is differentiated after this."""
         for e, template in enumerate(self.template):
-            if derive.has_prescribed(template):
-                self.template[e], columns = derive.settled(template)
+            if template.has_prescribed():
+                self.template[e], columns = template.with_signals()
                 self.variables[e] = [self.variables[e][c] for c in columns]
 
     def new_node(self) -> int:
@@ -228,6 +229,6 @@ class Equations:
 
 def _read(template: Statement, row: list[int]) -> list[int]:
     """The variables that an equation's value depends on."""
-    if not derive.has_prescribed(template):
+    if not template.has_prescribed():
         return row
-    return [row[c] for c in derive.settled(template)[1]]
+    return [row[c] for c in template.with_signals()[1]]

@@ -17,11 +17,9 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.flattening import Statement, Template, Total
-from acausal.structure import symbolic as derive
+from acausal.flattening import Statement, Template
 from acausal.structure.equations import Equations
 from acausal.structure.rank import cancelling, crowded
-from acausal.structure.symbolic import specialised
 
 PRIME = 2**61 - 1
 RESIDUES = sp.GF(PRIME)
@@ -56,7 +54,7 @@ def _highest(system: Equations) -> dict[int, Columns]:
     found: dict[int, Columns] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
         columns = {v: c for c, v in enumerate(row) if derivative[v] < 0 and v not in known}
-        if columns and (isinstance(template, Total) or _are_constant(template, columns.values())):
+        if columns and (template.coefficients() or _are_constant(template, columns.values())):
             found[e] = columns
     return found
 
@@ -68,9 +66,9 @@ def _are_constant(template: Template, columns: Iterable[int]) -> bool:
 @cache
 def _factor(template: Statement, column: int) -> Any:
     """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
-    if not derive.is_solvable(template, column):
+    if not template.is_solvable(column):
         return None
-    slope = derive.slope(template, column)
+    slope = template.partial(column)
     if not slope.free_symbols <= {*template.parameters} or not slope.is_rational_function():
         return None
     return slope.xreplace({f: sp.Rational(f) for f in slope.atoms(sp.Float)})
@@ -148,7 +146,7 @@ def _replace(
         modules += system.modules[e]
     template = _combined(tuple(parts), len(numbers), system.template[target].origin)
     codes = [nodes.index(v) + 1 for v in nodes]
-    special, (columns, used, called) = specialised(template, (*codes, *[0] * len(numbers)))
+    special, (columns, used, called) = template.specialised((*codes, *[0] * len(numbers)))
     every = list(numbers)
     system.template[target] = special
     system.variables[target] = [nodes[c] for c in columns]

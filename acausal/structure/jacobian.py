@@ -1,4 +1,4 @@
-"""Slopes in numbers: partial derivatives of equations at a point, for questions that structure cannot answer."""
+"""The Jacobian in numbers: partial derivatives of equations at a point, for questions that structure cannot answer."""
 
 from __future__ import annotations
 
@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.flattening import FlatModel, Integers, Statement, Total
+from acausal.flattening import FlatModel, Integers, Statement
 from acausal.modeling import ModuleCall, Prescribed, time
-from acausal.structure import symbolic as derive
 
 TIME = 0.37
 
@@ -25,16 +24,14 @@ class Point:
     parameters: np.ndarray
 
 
-def slopes(
+def partials(
     template: Statement, column: int, variables: Integers, parameters: Integers, point: Point
 ) -> np.ndarray:
     """Partial derivatives with respect to one slot, for all rows of ``variables`` and ``parameters``.
 
-    What has no finite value there, or depends on a callable parameter, is taken for some number but zero.
+    Where one is not finite, or depends on a callable parameter, it is some number other than zero.
     """
-    if isinstance(template, Total):
-        return np.full(len(variables), float(template.coefficients[column]))
-    expression = derive.slope(template, column)
+    expression = template.partial(column)
     if expression.is_Number:
         return np.full(len(variables), float(expression))
     values = [point.variables[variables].T, point.parameters[parameters].T]
@@ -48,12 +45,10 @@ def slopes(
     return np.where(np.isfinite(result), result, 1.0)
 
 
-def constant(template: Statement, column: int) -> bool:
-    """Whether the slope depends on parameters and numbers only."""
-    if isinstance(template, Total):
-        return True
-    slope = derive.slope(template, column)
-    return not (slope.free_symbols - {*template.parameters} or slope.has(ModuleCall))
+def is_constant(template: Statement, column: int) -> bool:
+    """Whether the partial derivative depends on parameters and numbers only."""
+    partial = template.partial(column)
+    return not (partial.free_symbols - {*template.parameters} or partial.has(ModuleCall))
 
 
 def parameter_values(model: FlatModel) -> np.ndarray:

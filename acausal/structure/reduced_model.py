@@ -13,26 +13,12 @@ import numpy as np
 from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers
 from acausal.structure import graph
-from acausal.structure.algebraic_loops import BlockEquation, BlockShape, Loop
 from acausal.structure.aliases import AliasFree, eliminate_aliases
-from acausal.structure.blocks import Accumulation, Assignment, Step, order_steps
+from acausal.structure.blocks import Step, order_steps
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
-from acausal.structure.sparse_loops import Mesh
 from acausal.structure.state_selection import select_states
-
-__all__ = [
-    "Accumulation",
-    "Assignment",
-    "BlockEquation",
-    "BlockShape",
-    "Loop",
-    "Mesh",
-    "ReducedModel",
-    "Step",
-    "reduce",
-]
 
 OFF_ZERO = 1e-3
 
@@ -92,7 +78,7 @@ class ReducedModel:
     def start_guess(self, nodes: Integers) -> np.ndarray:
         """Start values of nodes as far as they are numbers; a little off zero where nobody gave one.
 
-        At zero itself many slopes vanish, and Newton's method would not find away from there.
+        At zero itself many derivatives vanish, and Newton's method would stall.
         """
         model = self.model
         member, sign = (a[nodes] for a in self.start_members)
@@ -129,7 +115,7 @@ def reduce(model: FlatModel) -> ReducedModel:
     if problem is not None:
         raise StructureError(problem)
     system.reduce_index()
-    system.settle()
+    system.insert_signals()
     states = select_states(system)
     return _order(system, states)
 

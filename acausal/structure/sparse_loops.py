@@ -1,26 +1,26 @@
-"""Meshes: algebraic loops of so many unknowns that only arrays and sparse matrices can hold them."""
+"""Sparse loops: algebraic loops of so many unknowns that only arrays and sparse matrices can hold them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Template
-from acausal.structure import symbolic as derive
 from acausal.structure.algebraic_loops import matrix
 from acausal.structure.elimination_order import Pattern, analyse
 from acausal.structure.equations import Equations
-from acausal.structure.jacobian import Point, random_values, slopes
+from acausal.structure.jacobian import Point, partials, random_values
 
 LARGE = 100
-"""A loop of more unknowns is a mesh."""
+"""A loop of more unknowns is neither torn nor written out."""
 
 
 @dataclass(frozen=True)
-class MeshGroup:
-    """Equations of one template in which the same slots (``inner``) hold unknowns of the mesh."""
+class SparseGroup:
+    """Equations of one template in which the same slots (``inner``) hold unknowns of the loop."""
 
     template: Template
     inner: tuple[int, ...]
@@ -30,7 +30,7 @@ class MeshGroup:
 
 
 @dataclass(frozen=True)
-class Sums:
+class LinearRows:
     """Equations ``sum(factors * nodes) = 0``, all in one list: ``rows`` tells which equation a term belongs to.
 
     Attributes:
@@ -42,29 +42,34 @@ class Sums:
     factors: np.ndarray
     origins: tuple[str, ...]
 
-    def chosen(self, which: np.ndarray) -> Sums:
+    def chosen(self, which: np.ndarray) -> LinearRows:
         """Some of the terms."""
-        return Sums(self.rows[which], self.nodes[which], self.factors[which], self.origins)
+        return LinearRows(self.rows[which], self.nodes[which], self.factors[which], self.origins)
 
 
 @dataclass(frozen=True)
-class Mesh:
+class SparseLoop:
     """Large algebraic loops of one level, solved together: their unknowns, and as many equations.
 
     Attributes:
         groups: equations in order of rows; ``sums``: those that come after, by row among them.
-        pattern: where the slopes by the unknowns stand: group by group and slot by slot, then those of the sums.
+        pattern: where the entries of the Jacobian stand: group by group and slot by slot, then those of the sums.
     """
 
     unknowns: Integers
-    groups: tuple[MeshGroup, ...]
-    sums: Sums
+    groups: tuple[SparseGroup, ...]
+    sums: LinearRows
     pattern: Pattern
+
+    @property
+    def results(self) -> tuple[Integers, ...]:
+        """The unknowns, array by array as they are computed."""
+        return (self.unknowns,)
 
     @property
     def is_linear(self) -> bool:
         """Whether the equations are linear in the unknowns."""
-        return all(derive.is_linear(g.template, g.inner) for g in self.groups)
+        return all(g.template.is_linear(g.inner) for g in self.groups)
 
     @property
     def externals(self) -> Integers:
@@ -78,16 +83,20 @@ class Mesh:
         return _places(self.unknowns, nodes)
 
 
-def mesh_of(
-    system: Equations, equations: list[int], unknowns: list[int], parameters: np.ndarray
-) -> Mesh:
+def sparse_loop(
+    system: Equations, members: Sequence[tuple[int, int]], parameters: np.ndarray
+) -> SparseLoop:
     """Group the equations of large loops, and find an order of elimination for the model's ``parameters``.
+
+    Arguments:
+        members: equations, each with an unknown.
 
     Raises:
         StructureError: if the equations depend on each other.
     """
+    equations, unknowns = [e for e, _ in members], [v for _, v in members]
     nodes = np.asarray(unknowns, dtype=np.int64)
-    summing = [e for e in equations if derive.coefficients(system.template[e]) is not None]
+    summing = [e for e in equations if system.template[e].coefficients() is not None]
     groups = _groups(system, equations, set(unknowns))
     sums = _sums(system, summing)
     offset = sum(len(g.variables) for g in groups)
@@ -100,7 +109,7 @@ def mesh_of(
         for column in g.inner:
             rows.append(first + np.arange(len(g.variables)))
             columns.append(_places(nodes, g.variables[:, column]))
-            values.append(slopes(g.template, column, g.variables, g.parameters, point))
+            values.append(partials(g.template, column, g.variables, g.parameters, point))
         first += len(g.variables)
     inside = _places(nodes, sums.nodes)
     rows.append(offset + sums.rows[inside >= 0])
@@ -111,7 +120,7 @@ def mesh_of(
         pattern = analyse(*entries, len(nodes))
     except np.linalg.LinAlgError:
         raise StructureError(_singular(system, equations, unknowns)) from None
-    return Mesh(nodes, groups, sums, pattern)
+    return SparseLoop(nodes, groups, sums, pattern)
 
 
 def _places(unknowns: Integers, nodes: Integers) -> Integers:
@@ -120,16 +129,16 @@ def _places(unknowns: Integers, nodes: Integers) -> Integers:
     return np.where(unknowns[order][found] == nodes, order[found], -1)
 
 
-def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[MeshGroup, ...]:
+def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[SparseGroup, ...]:
     """The equations that are more than sums, by template and by the slots that are unknown."""
     found: dict[tuple[Template, tuple[int, ...]], list[int]] = {}
     for e in equations:
         template = system.template[e]
-        if isinstance(template, Template) and derive.coefficients(template) is None:
+        if template.coefficients() is None:
             inner = tuple(c for c, v in enumerate(system.variables[e]) if v in unknowns)
             found.setdefault((template, inner), []).append(e)
     return tuple(
-        MeshGroup(
+        SparseGroup(
             template,
             inner,
             matrix([system.variables[e] for e in members]),
@@ -140,10 +149,10 @@ def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tupl
     )
 
 
-def _sums(system: Equations, equations: list[int]) -> Sums:
+def _sums(system: Equations, equations: list[int]) -> LinearRows:
     lengths = [len(system.variables[e]) for e in equations]
-    factors = [c for e in equations for c in derive.coefficients(system.template[e]) or ()]
-    return Sums(
+    factors = [c for e in equations for c in system.template[e].coefficients() or ()]
+    return LinearRows(
         np.repeat(np.arange(len(equations)), lengths),
         np.asarray([v for e in equations for v in system.variables[e]], dtype=np.int64),
         np.asarray(factors, dtype=float),

@@ -19,8 +19,8 @@ DEFAULT = float(STATE_SELECT.index("default"))
 def select_states(system: Equations) -> list[int]:
     """Choose dummy derivatives (Mattsson & Soderlind 1993), sparing the variables most wanted as states.
 
-    The differentiated constraints determine the dummies if their slopes are independent. That is looked at in
-    numbers: first where the model starts, as far as somebody said where, then at a point without relations.
+    The differentiated constraints determine the dummies if their Jacobian has full rank. Numbers decide that: first
+    those at which the model starts, as far as they are given, then random ones.
 
     Raises:
         StructureError: if the constraints depend on each other.
@@ -53,7 +53,7 @@ def _independent(
     """Candidates that the constraints determine, as many as there are constraints."""
     left: list[int] = []
     for point in points:
-        rows, columns, values = system.slopes(constraints, point)
+        rows, columns, values = system.jacobian(constraints, point)
         shape = len(constraints), len(system.structure.derivative)
         chosen, left = choose_columns(csr_array((values, (rows, columns)), shape=shape), candidates)
         if not left:
@@ -66,7 +66,7 @@ def _independent(
 
 
 def _points(system: Equations) -> tuple[Point, Point]:
-    """Where slopes are looked at: the given starts, else random values; and random values alone."""
+    """Where the Jacobian is evaluated: at the given starts, else random values; and at random values alone."""
     model = system.model
     anywhere = random_values(len(system.structure.derivative))
     start = np.array(anywhere)

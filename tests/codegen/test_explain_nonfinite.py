@@ -55,3 +55,18 @@ def test_a_singular_linear_loop():
     system = ac.compile(component)
     with pytest.raises(ac.SimulationError, match="linear equations for 'y', 'z' are singular"):
         ac.simulate(system, (0, 1), dt=0.1, x0={"x": 1.0}, params={**system.parameters(), "p": 1.0})
+
+
+def test_inputs_with_the_other_sign_are_read_as_the_program_reads_them():
+    """v = der(-u) is 4 where der(u) is -4: its root exists, and 1/x is to blame."""
+
+    def stated(s):
+        rates = [Eq(der(s.x), ac.sqrt(s.v)), Eq(der(s.y), 1 / s.x)]
+        return [Eq(s.p, -s.u), Eq(s.v, der(s.p)), *rates]
+
+    system = ac.compile(Equations("p v x y", stated, inputs="u"))
+    assert system.inputs == ("u", "der(u)")
+    point = system.values(0.0, [0.0, 0.0], [1.0, -4.0], system.parameters())
+    told = system.explain_nonfinite(point)
+    assert told is not None
+    assert told.startswith("'der(y)' = 1/x is inf")

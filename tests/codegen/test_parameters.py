@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.codegen.parameters import Packed
+from acausal.codegen import Packed
 from tests.support.oscillator import learned
 from tests.support.parts import Capacitor, Equations, Ground, Mass, Model, Resistor, model
 

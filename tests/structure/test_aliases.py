@@ -7,7 +7,6 @@ import acausal as ac
 from acausal.flattening.flat_model import flatten
 from acausal.flattening.template import Template, slot
 from acausal.structure.aliases import eliminate_aliases, parameter_aliases
-from acausal.structure.symbolic import specialised
 from tests.support.oracle import worst
 from tests.support.parts import Equations, Fixed, Mass, SpringDamper, model
 
@@ -210,10 +209,10 @@ def test_a_variable_over_a_zero_default_is_told():
 def test_specialised_templates():
     a, b, c, p = (slot(n) for n in "abcp")
     template = Template(a * p + b - c**2, (a, b, c), (0, 0, 0), (p,), (), "stated")
-    merged, (variables, parameters, _) = specialised(template, (1, -1, 3, 0))
+    merged, (variables, parameters, _) = template.specialised((1, -1, 3, 0))
     assert merged.residual == a * p - a - c**2
     assert (variables, parameters) == ([0, 2], [0])
-    without, (variables, parameters, _) = specialised(template, (1, 2, 0, 1))
+    without, (variables, parameters, _) = template.specialised((1, 2, 0, 1))
     assert without.residual == b
     assert (variables, parameters) == ([1], [])
 

@@ -11,10 +11,10 @@ from acausal.modeling.declarations import ModuleCall, time
 from acausal.structure.jacobian import (
     TIME,
     Point,
-    constant,
+    is_constant,
     parameter_values,
+    partials,
     random_values,
-    slopes,
 )
 from tests.support.parts import Equations
 
@@ -25,7 +25,7 @@ AT = Point(np.array([2.0, 3.0, -1.0]), np.array([10.0, 20.0]))
 def slope(residual, column=0):
     template = Template(residual, (x, y), (0, 0), (p, q), (net,), "stated")
     rows = np.array([[0, 1], [2, 0]])
-    return slopes(template, column, rows, np.array([[0, 1], [1, 0]]), AT)
+    return partials(template, column, rows, np.array([[0, 1], [1, 0]]), AT)
 
 
 @pytest.mark.parametrize(
@@ -57,9 +57,9 @@ def test_modules_have_some_slope_but_zero():
     [(p * x + y**2, True), (3 * x, True), (x * y, False), (x * time, False), (x**2, False)],
 )
 def test_constant(residual, expected):
-    assert constant(Template(residual, (x, y), (0, 0), (p, q), (), "stated"), 0) == expected
+    assert is_constant(Template(residual, (x, y), (0, 0), (p, q), (), "stated"), 0) == expected
     with_net = Template(ModuleCall(net, sp.Tuple(0), p) * x, (x,), (0,), (p,), (net,), "stated")
-    assert not constant(with_net, 0)
+    assert not is_constant(with_net, 0)
 
 
 def test_bound_parameters_have_values():

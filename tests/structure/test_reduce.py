@@ -13,7 +13,7 @@ import pytest
 
 import acausal as ac
 from acausal.flattening.flat_model import flatten
-from acausal.structure.reduced_model import Assignment, Loop, reduce
+from acausal.structure import Assignment, TornLoop, reduce
 from tests.structure.test_sparse_loops import Train
 from tests.support.oracle import worst
 from tests.support.parts import (
@@ -42,7 +42,7 @@ Eq, der = ac.Eq, ac.der
 
 
 def loops(system):
-    return [s for s in system.reduced.steps if isinstance(s, Loop)]
+    return [s for s in system.reduced.steps if isinstance(s, TornLoop)]
 
 
 def sizes(system):

@@ -11,8 +11,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import electrical as el, rotational as rot
-from acausal.structure import blocks as steps
-from acausal.structure.reduced_model import Loop, Mesh
+from acausal.structure import SparseLoop, TornLoop, blocks as steps
 from tests.support.parts import Equations
 
 
@@ -81,8 +80,8 @@ def both(request):
             patch.setattr(steps, "LARGE", large)
             compiled.append(ac.compile(MODELS[request.param]()))
     mesh, dense = compiled
-    assert any(isinstance(s, Mesh) for s in mesh.reduced.steps)
-    assert any(isinstance(s, Loop) for s in dense.reduced.steps)
+    assert any(isinstance(s, SparseLoop) for s in mesh.reduced.steps)
+    assert any(isinstance(s, TornLoop) for s in dense.reduced.steps)
     return mesh, dense
 
 
@@ -139,7 +138,7 @@ def test_second_derivatives(both):
 
 def test_the_equations_of_a_mesh_can_be_read(both):
     mesh, _ = both
-    loop = next(s for s in mesh.reduced.steps if isinstance(s, Mesh))
+    loop = next(s for s in mesh.reduced.steps if isinstance(s, SparseLoop))
     assert len(mesh.equations) == len(mesh.states) + len(loop.unknowns)
 
 
@@ -156,7 +155,7 @@ def test_meshes_that_nothing_joins_are_solved_together():
             self.other = Net(6, lambda k: el.Conductor(G=2.0))
 
     system, alone = ac.compile(Two()), ac.compile(Net(6, lambda k: el.Conductor(G=1.0)))
-    assert sum(isinstance(s, Mesh) for s in system.reduced.steps) == 1
+    assert sum(isinstance(s, SparseLoop) for s in system.reduced.steps) == 1
     x = jnp.asarray([1.0, -1.0, 1.0, -1.0])
     found = system.vector_field(0.0, x, jnp.asarray([3.0, 3.0]), system.pack())
     expected = alone.vector_field(0.0, x[:2], jnp.asarray([3.0]), alone.pack())
@@ -188,7 +187,7 @@ def mesh_from_ten(monkeypatch):
 @pytest.mark.usefixtures("mesh_from_ten")
 def test_a_root_that_newtons_method_alone_does_not_find():
     system = ac.compile(ring(lambda y: y**3 - 2 * y + 2))
-    assert any(isinstance(s, Mesh) for s in system.reduced.steps)
+    assert any(isinstance(s, SparseLoop) for s in system.reduced.steps)
     assert system.vector_field(0.0, [0.0], None, None)[0] == pytest.approx(-1.7692923542)
 
 

@@ -15,10 +15,10 @@ import numpy as np
 from jax import Array
 
 import acausal as ac
-from acausal.codegen import Values
+from acausal.codegen import Packed, Values, rates, read
 from acausal.codegen.lower import ModuleValue, evaluate
-from acausal.codegen.parameters import Packed
-from acausal.flattening.template import EquationGroup, Integers
+from acausal.flattening.equation_group import EquationGroup
+from acausal.flattening.template import Integers
 from acausal.modeling.declarations import time
 
 Signal = Callable[[Any, Array, Array], Array]
@@ -66,7 +66,7 @@ def trajectory(
 
     def every(t: Any, x: Array, u: Array) -> Array:
         return (
-            signs * system.program.read(nodes, Values(t, x, u, packed)) if nodes else jnp.zeros(0)
+            signs * read(system.program, nodes, Values(t, x, u, packed)) if nodes else jnp.zeros(0)
         )
 
     t, x, u = (jnp.asarray(v, dtype=float) for v in (t, x, u))
@@ -126,8 +126,8 @@ def _along(system: ac.System, packed: Packed, signal: Signal) -> Signal:
     """The derivative of a signal along the vector field."""
 
     def slope(t: Any, x: Array, u: Array) -> Array:
-        rates = system.program.rates(Values(t, x, u, packed)), _input_rates(system, u)
-        return jax.jvp(signal, (t, x, u), (jnp.ones_like(t), *rates))[1]
+        tangents = rates(system.program, Values(t, x, u, packed)), _input_rates(system, u)
+        return jax.jvp(signal, (t, x, u), (jnp.ones_like(t), *tangents))[1]
 
     return slope
 

@@ -1,0 +1,215 @@
+"""Write a program down as sympy equations, for people to read.
+
+Every derivative of a state is written in states, inputs and parameters; what cannot be written so, the unknowns of
+nonlinear loops, keeps its name and its equations follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.codegen.gather import Gather
+from acausal.codegen.instructions import (
+    Accumulate,
+    Arguments,
+    BlockFormula,
+    Evaluate,
+    Place,
+    SolveSparseLoop,
+    SolveTornLoop,
+    external,
+    module,
+    parameter,
+)
+from acausal.codegen.parameters import ParameterLayout
+from acausal.codegen.program import INPUTS, STATES, ZERO, Program
+from acausal.flattening import Integers
+from acausal.modeling import ModuleCall, primes, time as internal_time
+
+MAX_LOOP = 6
+"""Linear loops of more unknowns are not solved on paper."""
+
+time = sp.Symbol("time")
+
+Slots = dict[sp.Symbol, sp.Expr]
+
+
+def explicit_equations(
+    program: Program, parameters: ParameterLayout, name: Callable[[int], str]
+) -> tuple[sp.Equality, ...]:
+    """``der(state) = ...`` for every state, in order, then the equations of loops left implicit.
+
+    Arguments:
+        name: of a node.
+    """
+    if program.state_rates is None:
+        return ()
+    writer = _Writer(program, parameters, name)
+    states = [writer.symbol((STATES, i)) for i in range(program.sizes[STATES])]
+    places = zip(*writer.places(program.state_rates, len(states)), strict=True)
+    rates: list[Any] = [
+        sp.Eq(sp.Derivative(state, time), int(sign) * writer.value(place), evaluate=False)
+        for state, place, sign in zip(states, places, program.rate_signs, strict=True)
+    ]
+    return (*rates, *writer.implicit)
+
+
+class _Writer:
+    """Writes values as expressions, each once."""
+
+    def __init__(
+        self, program: Program, parameters: ParameterLayout, name: Callable[[int], str]
+    ) -> None:
+        self.program, self.parameters, self.name = program, parameters, name
+        self.implicit: list[Any] = []
+        self._values: dict[Place, sp.Expr] = {(ZERO, 0): sp.S.Zero}
+
+    def symbol(self, place: Place) -> sp.Symbol:
+        return sp.Symbol(self.name(int(self.program.nodes[place[0]][place[1]])))
+
+    def value(self, place: Place) -> sp.Expr:
+        """A value in terms of states, inputs and parameters (without recursion: chains may be long)."""
+        stack = [place]
+        while stack:
+            current = stack[-1]
+            if current in self._values:
+                stack.pop()
+            elif current[0] in (STATES, INPUTS):
+                self._values[current] = self.symbol(current)
+            else:
+                i = self.program.filled_by[current[0]]
+                instruction = self.program.instructions[i]
+                needs, write = _RULES[type(instruction)]
+                missing = [p for p in needs(self, instruction, current) if p not in self._values]
+                if missing:
+                    stack += missing
+                else:
+                    write(self, instruction, current)
+        return self._values[place]
+
+    # -- where arguments lie ---------------------------------------------------------------------------
+
+    def places(self, gather: Gather, size: int) -> tuple[list[int], list[int]]:
+        """Arrays and rows that a gather reads, for each of ``size`` instances."""
+        source, index = gather.positions(self.program.sizes)
+        return np.broadcast_to(source, size).tolist(), np.broadcast_to(index, size).tolist()
+
+    def _place(self, gather: Gather, size: int, row: int) -> Place:
+        source, index = gather.positions(self.program.sizes)
+        i = row if len(source) == size else 0
+        return int(source[i]), int(index[i])
+
+    def _read(self, arguments: Arguments, size: int, row: int) -> list[Place]:
+        return [self._place(g, size, row) for _, g in arguments.variables]
+
+    def _slots(self, arguments: Arguments, size: int, row: int) -> Slots:
+        """What fills the slots of one instance."""
+        names: Slots = {internal_time: time}
+        for symbol, gather in arguments.variables:
+            names[symbol] = self._values[self._place(gather, size, row)]
+        for symbol, gather in arguments.parameters:
+            names[symbol] = sp.Symbol(self.parameters.name_at[self._place(gather, size, row)[1]])
+        for symbol, chosen in arguments.modules:
+            one = chosen[row if len(chosen) == size else 0]
+            names[symbol] = sp.Symbol(self.parameters.model.layout.module(one))
+        return names
+
+    # -- rules: what an instruction needs for one value, and how that value is written ------------------
+
+    def evaluate_needs(self, one: Evaluate, place: Place) -> list[Place]:
+        return self._read(one.arguments, one.size, place[1])
+
+    def evaluate(self, one: Evaluate, place: Place) -> None:
+        names = self._slots(one.arguments, one.size, place[1])
+        self._values[place] = _readable(one.expression.xreplace(names))
+
+    def accumulate_needs(self, one: Accumulate, place: Place) -> list[Place]:
+        sources, indices = self.places(one.values, one.terms * one.size)
+        return list(zip(sources, indices, strict=True))[place[1] :: one.size]
+
+    def accumulate(self, one: Accumulate, place: Place) -> None:
+        weights = np.broadcast_to(one.weights, (one.terms, one.size))[:, place[1]].tolist()
+        pairs = zip(weights, self.accumulate_needs(one, place), strict=True)
+        self._values[place] = sp.Add(*(sp.nsimplify(w) * self._values[p] for w, p in pairs))
+
+    def torn_loop_needs(self, loop: SolveTornLoop, place: Place) -> list[Place]:
+        return self._read(loop.arguments, loop.size, place[1])
+
+    def torn_loop(self, loop: SolveTornLoop, place: Place) -> None:
+        array, row = place
+        first = self.program.first[self.program.filled_by[array]]
+        unknowns = [(first + i, row) for i in range(loop.outputs)]
+        own = [self.symbol(p) for p in unknowns]
+        filled = self._slots(loop.arguments, loop.size, row)
+        residuals = [_written(formula, own, filled) for formula in loop.equations]
+        is_small = loop.is_linear and len(own) <= MAX_LOOP
+        solved = sp.solve(residuals, own, dict=True) if is_small else []
+        if solved:
+            self._values.update({p: solved[0][s] for p, s in zip(unknowns, own, strict=True)})
+        else:
+            self._values.update(dict(zip(unknowns, own, strict=True)))
+            self.implicit += [sp.Eq(r, 0, evaluate=False) for r in residuals]
+
+    def sparse_loop_needs(self, loop: SolveSparseLoop, place: Place) -> list[Place]:
+        del place
+        gathers = [(g, f.size) for f in loop.formulas for _, g in f.arguments.variables]
+        gathers.append((loop.balances.outer, len(loop.balances.outer_rows)))
+        pairs = [self.places(g, size) for g, size in gathers]
+        return list(dict.fromkeys(p for s, i in pairs for p in zip(s, i, strict=True)))
+
+    def sparse_loop(self, loop: SolveSparseLoop, place: Place) -> None:
+        own = [self.symbol((place[0], i)) for i in range(loop.size)]
+        self._values.update({(place[0], i): s for i, s in enumerate(own)})
+        for formula in loop.formulas:
+            for row in range(formula.size):
+                names = self._slots(formula.arguments, formula.size, row)
+                names |= {s: own[int(places[row])] for s, places in formula.inner}
+                residual = _readable(formula.residual.xreplace(names))
+                self.implicit.append(sp.Eq(residual, 0, evaluate=False))
+        b = loop.balances
+        outer = zip(*self.places(b.outer, len(b.outer_rows)), strict=True)
+        terms: list[list[sp.Expr]] = [[] for _ in b.origins]
+        _add(terms, b.rows, b.factors, (own[int(p)] for p in b.places))
+        _add(terms, b.outer_rows, b.outer_factors, (self._values[p] for p in outer))
+        self.implicit += [sp.Eq(sp.Add(*parts), 0, evaluate=False) for parts in terms]
+
+
+_RULES: dict[type, tuple[Callable[..., list[Place]], Callable[..., None]]] = {
+    Evaluate: (_Writer.evaluate_needs, _Writer.evaluate),
+    Accumulate: (_Writer.accumulate_needs, _Writer.accumulate),
+    SolveTornLoop: (_Writer.torn_loop_needs, _Writer.torn_loop),
+    SolveSparseLoop: (_Writer.sparse_loop_needs, _Writer.sparse_loop),
+}
+
+
+def _add(
+    terms: list[list[sp.Expr]], rows: Integers, factors: np.ndarray, values: Iterable[sp.Expr]
+) -> None:
+    for row, factor, value in zip(rows.tolist(), factors.tolist(), values, strict=True):
+        terms[row].append(sp.nsimplify(factor) * value)
+
+
+def _written(formula: BlockFormula, unknowns: Sequence[sp.Symbol], filled: Slots) -> sp.Expr:
+    """A formula of a torn loop in the names of its unknowns and of what fills the loop's slots."""
+    names: Slots = {internal_time: time}
+    for symbol, code in formula.variables:
+        names[symbol] = unknowns[code] if code >= 0 else filled[external(-1 - code)]
+    names |= {symbol: filled[parameter(i)] for symbol, i in formula.parameters}
+    names |= {symbol: filled[module(i)] for symbol, i in formula.modules}
+    return _readable(formula.expression.xreplace(names))
+
+
+def _readable(expression: Any) -> Any:
+    """Modules as ordinary functions named by their parameter."""
+    calls = {c: _function(c) for c in expression.atoms(ModuleCall)}
+    return expression.xreplace(calls) if calls else expression
+
+
+def _function(call: Any) -> Any:
+    module_name, orders, *args = call.args
+    plain = sp.Function(f"{module_name}{primes(orders)}")
+    return plain(*(_readable(a) for a in args))

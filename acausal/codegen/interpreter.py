@@ -1,0 +1,117 @@
+"""Run a program with JAX: instruction by instruction while JAX traces, those that are needed only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from acausal.codegen.dense_loop import solve_torn_loops
+from acausal.codegen.instructions import (
+    Accumulate,
+    Evaluate,
+    Instruction,
+    SolveSparseLoop,
+    SolveTornLoop,
+)
+from acausal.codegen.lower import evaluate
+from acausal.codegen.program import INPUTS, STATES, ZERO, Program
+from acausal.codegen.reading import Arrays, read_arguments, read_elements
+from acausal.codegen.sparse_loop import solve_sparse_loop
+from acausal.codegen.values import Values
+
+
+def rates(program: Program, values: Values) -> Float[Array, " n_states"]:
+    """Derivatives of the states."""
+    if program.state_rates is None:
+        return jnp.zeros_like(values.x)
+    return _rates(program, values, _run(program, program.state_rates.sources, values))
+
+
+def read(program: Program, nodes: Sequence[int], values: Values) -> Float[Array, " n_nodes"]:
+    """Values of some nodes."""
+    wanted = program.gather(nodes)
+    arrays = _run(program, wanted.sources, values)
+    return jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
+
+
+def rates_and_read(
+    program: Program, nodes: Sequence[int], values: Values
+) -> tuple[Float[Array, " n_states"], Float[Array, " n_nodes"]]:
+    """Derivatives of the states and values of some nodes, what they share computed once."""
+    wanted = program.gather(nodes)
+    needed = program.state_rates.sources if program.state_rates else ()
+    arrays = _run(program, {*wanted.sources, *needed}, values)
+    found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
+    return _rates(program, values, arrays), found
+
+
+def steps(
+    program: Program, values: Values
+) -> Iterator[tuple[int, Instruction, list[Array], Arrays]]:
+    """All instructions one after the other: number, instruction, its results, the arrays before it."""
+    arrays = _known(program, values)
+    for i, instruction in enumerate(program.instructions):
+        results = execute(instruction, values, arrays)
+        yield i, instruction, results, arrays
+        _fill(program, arrays, i, results)
+
+
+def execute(instruction: Instruction, values: Values, arrays: Arrays) -> list[Array]:
+    """The results of an instruction, one array each, from the arrays filled before."""
+    return _EXECUTE[type(instruction)](instruction, values, arrays)
+
+
+def _run(program: Program, wanted: Iterable[int], values: Values) -> list[Any]:
+    """The arrays after the instructions that the wanted ones depend on."""
+    arrays = _known(program, values)
+    for i in program.needed(wanted):
+        _fill(program, arrays, i, execute(program.instructions[i], values, arrays))
+    return arrays
+
+
+def _known(program: Program, values: Values) -> list[Any]:
+    """The arrays before the first instruction: states, inputs with their signs, a zero; the others are empty."""
+    signs = program.input_signs
+    arrays: list[Any] = [None] * len(program.nodes)
+    arrays[STATES] = values.x
+    arrays[INPUTS] = values.u if (signs == 1).all() else values.u * signs
+    arrays[ZERO] = jnp.zeros((), values.x.dtype)
+    return arrays
+
+
+def _fill(program: Program, arrays: list[Any], i: int, results: list[Array]) -> None:
+    first = program.first[i]
+    arrays[first : first + len(results)] = results
+
+
+def _rates(program: Program, values: Values, arrays: list[Any]) -> Array:
+    if program.state_rates is None:
+        return jnp.zeros_like(values.x)
+    found = jnp.broadcast_to(read_elements(program.state_rates, arrays), values.x.shape)
+    return found if (program.rate_signs == 1).all() else found * program.rate_signs
+
+
+def _evaluate(instruction: Evaluate, values: Values, arrays: Arrays) -> list[Array]:
+    filled = read_arguments(instruction.arguments, values, arrays)
+    value = jnp.asarray(evaluate(instruction.expression, filled))
+    return [value if instruction.size == 1 else jnp.broadcast_to(value, (instruction.size,))]
+
+
+def _accumulate(instruction: Accumulate, values: Values, arrays: Arrays) -> list[Array]:
+    del values
+    terms, size = instruction.terms, instruction.size
+    found = jnp.broadcast_to(read_elements(instruction.values, arrays), (terms * size,))
+    weights = jnp.asarray(instruction.weights, found.dtype)
+    total = (found.reshape(terms, size) * weights).sum(axis=0)
+    return [total[0] if size == 1 else total]
+
+
+_EXECUTE: dict[type, Callable[[Any, Values, Arrays], list[Array]]] = {
+    Evaluate: _evaluate,
+    Accumulate: _accumulate,
+    SolveTornLoop: solve_torn_loops,
+    SolveSparseLoop: solve_sparse_loop,
+}

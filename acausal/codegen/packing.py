@@ -1,0 +1,95 @@
+"""Pack parameters: a flat dict for the user, a few arrays for the program.
+
+`pack` turns ``{"body.m": 350.0, ..., "spring_nn.net": module}`` into a `Packed`, in which equal parameters of equal
+components lie side by side and bound parameters are computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array
+
+from acausal.codegen.lower import evaluate
+from acausal.codegen.parameters import ParameterLayout
+from acausal.codegen.reading import read_elements
+from acausal.codegen.values import Packed
+from acausal.errors import DataError, DeclarationError, listing
+
+
+def default_parameters(layout: ParameterLayout, key: Array) -> dict[str, Any]:
+    """The model's own parameter values; modules are made with keys split from ``key``."""
+    values: dict[str, Any] = dict(zip(layout.names, layout.model.value[layout.free], strict=True))
+    own = layout.own_modules
+    keys = jax.random.split(key, max(len(own), 1))
+    for name, index, k in zip(layout.module_names, own, keys, strict=False):
+        values[name] = _make(name, layout.model.module_values[index], k)
+    return values
+
+
+def _make(name: str, value: Any, key: Array) -> Any:
+    if isinstance(value, eqx.Module):
+        return value
+    try:
+        module = value(key)
+    except TypeError as error:
+        raise DeclarationError(
+            f"'{name}': a function is called with a key and gives a module, but this one fails "
+            f"({str(error).splitlines()[0]}); give a law of your own as an equinox module"
+        ) from error
+    if not callable(module):
+        raise DeclarationError(
+            f"'{name}': the function gave {type(module).__name__}, not a callable module"
+        )
+    return module
+
+
+def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
+    """Collect a parameter dict into arrays; numbers that it lacks keep the model's values.
+
+    Raises:
+        DataError: for an unknown name, a missing module or what is not a number.
+    """
+    if isinstance(params, Packed):
+        return params
+    if not isinstance(params, Mapping):
+        raise DataError(f"params are numbers and networks by name, not {params!r:.80}")
+    layout.check_names(params)
+    own = layout.model.value[layout.free]
+    given = [params.get(name, value) for name, value in zip(layout.names, own, strict=True)]
+    wrong = [n for n, v in zip(layout.names, given, strict=True) if not _is_number(v)]
+    if wrong:
+        raise DataError(f"params: {listing(wrong)} must be numbers, got {params[wrong[0]]!r}")
+    if any(isinstance(v, jax.Array) for v in given):
+        free = (
+            jnp.stack([jnp.asarray(given[i], dtype=float) for i in layout.order])
+            if given
+            else jnp.zeros(0)
+        )
+    else:
+        free = jnp.asarray(np.asarray(given, dtype=float)[layout.order])
+    values = free
+    for group in layout.bound:
+        arguments = {symbol: read_elements(g, [values]) for symbol, g in group.arguments}
+        computed = jnp.broadcast_to(
+            jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
+        )
+        values = jnp.concatenate([values, computed])
+    laws = [n for n in layout.module_names if not callable(params[n])]
+    if laws:
+        raise DataError(f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}")
+    modules = {
+        i: params[name] for i, name in zip(layout.own_modules, layout.module_names, strict=True)
+    }
+    return Packed(values, tuple(modules[int(m)] for m in layout.module_of))
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, float | int):
+        return True
+    return isinstance(value, np.ndarray | np.number | jax.Array) and np.ndim(value) == 0
