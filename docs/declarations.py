@@ -1,12 +1,13 @@
-"""Reference pages: the declarations of a component as one table instead of an entry for each attribute.
+"""Reference pages: the names that a package re-exports, and the declarations of a component as one table.
 
-An extension of griffe, which reads the sources for mkdocstrings (mkdocs.yml names it).
+Two extensions of griffe, which reads the sources for mkdocstrings (mkdocs.yml names this file).
 """
 
 from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import griffe
@@ -14,6 +15,59 @@ import griffe
 KINDS = ("Parameter", "Option", "Module", "Input", "Output", "Potential", "Flow", "Variable")
 """What a declaration may be, in the order of the table; connectors come before inputs."""
 Row = tuple[str, str, str, str]
+
+
+class Exports(griffe.Extension):
+    """Shows what a package re-exports, ``from .room import Name as Name`` in `__init__.py` or `__init__.pyi`."""
+
+    def on_package(self, *, pkg: griffe.Module, **kwargs: Any) -> None:
+        """Called when griffe has read a package."""
+        for package in _packages(pkg):
+            assert isinstance(package.filepath, Path)
+            stub = package.filepath.with_suffix(".pyi")
+            source = stub if stub.exists() else package.filepath
+            found = exported(source.read_text(encoding="utf-8"), package.path)
+            if found:
+                package.exports = [*found]
+            for name, target in found.items():
+                if _is_module_of_that_name(pkg, target, name):
+                    _redirect(package, name, f"{target}.{name}")
+
+
+def exported(source: str, package: str) -> dict[str, str]:
+    """The names that a package's file imports as themselves, and where from."""
+    found: dict[str, str] = {}
+    for node in ast.parse(source).body:
+        if isinstance(node, ast.ImportFrom):
+            base = f"{package}.{node.module or ''}".rstrip(".") if node.level else node.module
+            found |= {n.name: f"{base}.{n.name}" for n in node.names if n.name == n.asname}
+    return found
+
+
+def _is_module_of_that_name(pkg: griffe.Module, path: str, name: str) -> bool:
+    """Whether a path leads to a module that defines something of its own name, such as `fit.fit`."""
+    if not path.startswith(f"{pkg.path}."):
+        return False
+    found = pkg
+    for part in path.removeprefix(f"{pkg.path}.").split("."):
+        if part not in found.members or not isinstance(found.members[part], griffe.Module):
+            return False
+        found = found.members[part]
+    return name in found.members and not found.members[name].is_alias
+
+
+def _redirect(package: griffe.Module, name: str, target: str) -> None:
+    """Griffe finds the module where a package imports the function of the same name."""
+    line = package.members[name].lineno if package.members[name].is_alias else None
+    package.members[name] = griffe.Alias(name, target, lineno=line, parent=package)
+
+
+def _packages(module: griffe.Module) -> Iterator[griffe.Module]:
+    if module.is_init_module:
+        yield module
+    for member in module.members.values():
+        if isinstance(member, griffe.Module):
+            yield from _packages(member)
 
 
 class Declarations(griffe.Extension):

@@ -18,13 +18,13 @@ PAGE = Path(__file__).with_name("modelica-coverage.md")
 HEAD = """\
 # Coverage of the Modelica Standard Library
 
-The classes that the Modelica Standard Library 4.1.0 has in our domains, and where they are here, below
-`acausal.components`. This page is made by `docs/make_coverage.py`.
+The classes of the Modelica Standard Library 4.1.0 in our domains, and their names here, below `acausal.components`.
+`docs/make_coverage.py` writes this page.
 
 - A Python path: the class is there.
-- *discrete*: the class needs discrete states (it remembers, or waits for events), which acausal does not have yet;
-  making one says so.
-- A dash: it is not there. Many of these are bases that only serve classes of Modelica's own.
+- *discrete*: the class needs discrete states (it remembers, or waits for events), which acausal does not have yet.
+  If you make one, an error says so.
+- A dash: the class is not there. Many of these are bases for Modelica's own classes only.
 """
 
 

@@ -8,6 +8,7 @@ word by word, numbers to within two units of their last digit; a line ``...`` st
 """
 
 import contextlib
+import importlib.util
 import io
 import re
 import sys
@@ -21,6 +22,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import pytest
 
+import acausal as ac
 from tests.support.paths import ROOT
 
 PAGES = [*ROOT.glob("README.md"), *sorted((ROOT / "docs").rglob("*.md"))]
@@ -160,3 +162,41 @@ def test_how_it_works_names_modules_that_exist() -> None:
 )
 def test_outputs_are_compared(shown: str, printed: str, same: bool) -> None:
     assert agree(shown, printed) is same
+
+
+def script(path: str) -> ModuleType:
+    """The module of a script in docs/."""
+    spec = importlib.util.spec_from_file_location(Path(path).stem, ROOT / "docs" / path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    # Registered while it runs: dataclasses look up the module of the class they are applied to.
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(sys.modules, spec.name, module)
+        spec.loader.exec_module(module)
+    return module
+
+
+def test_the_picture_of_the_rooms_is_up_to_date() -> None:
+    house = script("images/make_house.py")
+    drawn = (ROOT / "docs" / "images" / "house.svg").read_text(encoding="utf-8")
+    assert drawn == house.draw(), "run: python docs/images/make_house.py"
+
+
+def test_the_picture_shows_every_room() -> None:
+    house = script("images/make_house.py")
+    shown = {room.name for floor in house.floors() for room in floor}
+    folders = {f"{p.parent.name}/" for p in (ROOT / "acausal").glob("*/__init__.py")}
+    assert shown == (folders - {"components/"}) | {"errors.py", "system.py"}
+
+
+def test_the_reference_lists_the_public_names() -> None:
+    """Names that packages re-export, from stubs too, and functions named as the module that defines them."""
+    griffe = pytest.importorskip("griffe")
+    extensions = griffe.load_extensions(str(ROOT / "docs" / "declarations.py"))
+    kernel = griffe.load("acausal", search_paths=[str(ROOT)], extensions=extensions)
+    listed = {name: member for name, member in kernel.members.items() if member.is_public}
+    assert {*ac.__all__} <= {*listed}
+    for name in ("Component", "compile", "simulate", "fit", "ensemble", "diagram"):
+        assert not listed[name].is_module
+        assert listed[name].has_docstring, f"acausal.{name} has no docstring"

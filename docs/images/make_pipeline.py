@@ -12,7 +12,7 @@ from examples.qvm.model import with_networks  # noqa: E402
 
 WIDTH, ROW, TOP = 860, 62, 66
 LEFT, FORM, VALUE = 24, 150, 430
-BOX = (104, 38)
+BOX = (104, 44)
 
 STYLE = """
 .panel { fill: #fbfcfd; stroke: #d5dde4 }
@@ -43,8 +43,8 @@ TIP = """<defs><marker id="tip" viewBox="0 0 8 8" refX="7" refY="4" markerWidth=
 <path d="M0.5,0.5 L7,4 L0.5,7.5"/></marker></defs>"""
 
 
-def rows(system: ac.System) -> list[tuple[str, str, str, str]]:
-    """Verb, form and its size, and what the suspension's force is in it."""
+def rows(system: ac.System) -> list[tuple[str, str, str, str, str]]:
+    """Verb, room, form and its size, and what the suspension's force is in it."""
     flat, reduced, program = system.flat, system.reduced, system.program
     number = flat.layout.find_variable("suspension.f")
     group = next(g for g in flat.groups if number in g.variables and "c*" in g.template.origin)
@@ -53,31 +53,53 @@ def rows(system: ac.System) -> list[tuple[str, str, str, str]]:
     return [
         (
             "declare",
+            "modeling/",
             "Component",
             "a tree of components and connections",
             "f = c (s_rel − s_rel0) + d v_rel",
         ),
         (
             "flatten",
+            "flattening/",
             "FlatModel",
             f"{flat.n_variables} variables, {flat.n_equations} equations of {len(flat.groups)} templates",
             f"one template; rows {suspension}, {tyre}",
         ),
         (
             "reduce",
+            "structure/",
             "ReducedModel",
             f"{len(reduced.states)} states, {len(reduced.steps)} steps in solving order",
             "f ← c s_rel + d v_rel",
         ),
         (
             "generate",
+            "codegen/",
             "Program",
             f"{len(program.instructions)} array operations, pure JAX",
             f"one f64[{step.size}], with tyre.f",
         ),
-        ("initialize", "x(0)", "consistent start values", "its start may be fixed"),
-        ("simulate", "Solution", "any variable by its name", 'solution["suspension.f"]'),
-        ("fit", "Fit", "trained networks and parameters", "suspension.c and .d may be trained"),
+        (
+            "initialize",
+            "initialization/",
+            "x(0)",
+            "consistent start values",
+            "its start may be fixed",
+        ),
+        (
+            "simulate",
+            "simulation/",
+            "Solution",
+            "any variable by its name",
+            'solution["suspension.f"]',
+        ),
+        (
+            "fit",
+            "training/",
+            "Fit",
+            "trained networks and parameters",
+            "suspension.c and .d may be trained",
+        ),
     ]
 
 
@@ -95,25 +117,28 @@ def draw(system: ac.System) -> str:
     for x, head in ((FORM, "its result"), (VALUE, "the suspension's force in it")):
         parts.append(f'<text class="head" x="{x}" y="{TOP - 24}">{escape(head)}</text>')
     parts.append(
-        f'<text class="head" x="{LEFT + BOX[0] / 2}" y="{TOP - 24}" text-anchor="middle">stage</text>'
+        f'<text class="head" x="{LEFT + BOX[0] / 2}" y="{TOP - 24}" text-anchor="middle">stage, room</text>'
     )
     centre = LEFT + BOX[0] / 2
-    for i, (verb, form, note, value) in enumerate(table):
+    for i, (verb, room, form, note, value) in enumerate(table):
         y = TOP + ROW * i
         if i % 2 == 0:
             size = f'width="{WIDTH - FORM - 6}" height="{ROW}"'
-            parts.append(f'<rect class="stripe" x="{FORM - 14}" y="{y - 11}" {size} rx="6"/>')
+            parts.append(f'<rect class="stripe" x="{FORM - 14}" y="{y - 9}" {size} rx="6"/>')
         parts.append(
             f'<rect class="box" x="{LEFT}" y="{y}" width="{BOX[0]}" height="{BOX[1]}" rx="7"/>'
         )
-        parts.append(f'<text class="verb" x="{centre}" y="{y + 24}">{verb}</text>')
+        parts.append(f'<text class="verb" x="{centre}" y="{y + 20}">{verb}</text>')
+        parts.append(
+            f'<text class="note" x="{centre}" y="{y + 36}" text-anchor="middle">{room}</text>'
+        )
         if i + 1 < len(table):
             parts.append(
                 f'<path d="M{centre},{y + BOX[1]} V{y + ROW - 2}" marker-end="url(#tip)"/>'
             )
-        parts.append(f'<text x="{FORM}" y="{y + 16}">{escape(form)}</text>')
-        parts.append(f'<text class="note" x="{FORM}" y="{y + 34}">{escape(note)}</text>')
-        parts.append(f'<text class="code" x="{VALUE}" y="{y + 24}">{escape(value)}</text>')
+        parts.append(f'<text x="{FORM}" y="{y + 19}">{escape(form)}</text>')
+        parts.append(f'<text class="note" x="{FORM}" y="{y + 37}">{escape(note)}</text>')
+        parts.append(f'<text class="code" x="{VALUE}" y="{y + 27}">{escape(value)}</text>')
     parts += _derive(TOP + ROW * 2, TOP + ROW * 3)
     return "\n".join([*parts, "</svg>", ""])
 
@@ -126,7 +151,7 @@ def _derive(reduce: int, generate: int) -> list[str]:
         f'<text class="verb" x="{x + width / 2}" y="{y + 20}">derive</text>',
         f'<text class="note" x="{x + width / 2}" y="{y + 37}" text-anchor="middle">sympy, per template</text>',
     ]
-    for target, side in ((reduce + 19, y + 14), (generate + 19, y + 32)):
+    for target, side in ((reduce + 22, y + 14), (generate + 22, y + 32)):
         parts.append(
             f'<path class="dash" d="M{x},{side} H{x - 18} V{target} H{x - 34}" marker-end="url(#tip)"/>'
         )
