@@ -11,7 +11,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
-from jax import Array
+from jax.typing import ArrayLike
+from jaxtyping import Array, Float
+from numpy.typing import ArrayLike as Numbers
 
 from acausal._jax import floating
 from acausal.codegen import (
@@ -76,7 +78,7 @@ class System:
 
     Attributes:
         model: the component tree it came from.
-        flat, reduced, layout, program, initializer: the stages' results, for those who look inside.
+        flat, reduced, layout, program, initializer: the stages' results, to look inside.
     """
 
     model: Component
@@ -133,7 +135,7 @@ class System:
 
     # -- values --------------------------------------------------------------------------------------
 
-    def parameters(self, key: Any = None) -> dict[str, Any]:
+    def parameters(self, key: Array | int | None = None) -> dict[str, Any]:
         """The model's parameters as a flat dict: numbers by dotted name, and modules.
 
         Arguments:
@@ -156,7 +158,9 @@ class System:
             params = self.parameters()
         return pack(self.layout, params)
 
-    def vector_field(self, t: Any, x: Any, u: Any, params: Params) -> Any:
+    def vector_field(
+        self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params
+    ) -> Float[Array, " n_states"]:
         """Derivatives of the states.
 
         Arguments:
@@ -168,7 +172,14 @@ class System:
         """
         return self.rates(self.values(t, x, u, params))
 
-    def observe(self, name: str | Sequence[str], t: Any, x: Any, u: Any, params: Params) -> Any:
+    def observe(
+        self,
+        name: str | Sequence[str],
+        t: ArrayLike,
+        x: ArrayLike,
+        u: ArrayLike | None,
+        params: Params,
+    ) -> Float[Array, ""] | Float[Array, " n_names"]:
         """One variable (a scalar) or several (an array, in the order asked), by dotted name.
 
         ``der(name)`` gives a derivative that the model knows.
@@ -178,8 +189,13 @@ class System:
         return y[0] if isinstance(name, str) else y
 
     def vector_field_and_observe(
-        self, names: Sequence[str], t: Any, x: Any, u: Any, params: Params
-    ) -> tuple[Any, Any]:
+        self,
+        names: Sequence[str],
+        t: ArrayLike,
+        x: ArrayLike,
+        u: ArrayLike | None,
+        params: Params,
+    ) -> tuple[Float[Array, " n_states"], Float[Array, " n_names"]]:
         """Derivatives of the states and some variables at once: ``(dx, y)``.
 
         What both need is computed once, and once only where it is differentiated: twice as fast as
@@ -189,7 +205,7 @@ class System:
 
     # -- the same of values in one record: what simulation and training carry -------------------------
 
-    def values(self, t: Any, x: Any, u: Any, params: Params) -> Values:
+    def values(self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params) -> Values:
         """The record of what a model is evaluated at; arguments as those of `vector_field`.
 
         Raises:
@@ -198,17 +214,19 @@ class System:
         x, u = self._check_shapes(x, u)
         return Values(t, x, u, self.pack(params))
 
-    def rates(self, values: Values) -> Array:
+    def rates(self, values: Values) -> Float[Array, " n_states"]:
         """Derivatives of the states, shape (n_states,)."""
         return rates(self.program, values)
 
-    def read(self, names: Sequence[str], values: Values) -> Array:
+    def read(self, names: Sequence[str], values: Values) -> Float[Array, " n_names"]:
         """Variables by dotted name, shape (len(names),)."""
         nodes, signs = self._find_all(names)
         y = read(self.program, nodes, values)
         return y if (signs == 1).all() else y * signs
 
-    def rates_and_read(self, names: Sequence[str], values: Values) -> tuple[Array, Array]:
+    def rates_and_read(
+        self, names: Sequence[str], values: Values
+    ) -> tuple[Float[Array, " n_states"], Float[Array, " n_names"]]:
         """Both, what they share computed once."""
         nodes, signs = self._find_all(names)
         dx, y = rates_and_read(self.program, nodes, values)
@@ -221,13 +239,13 @@ class System:
     def initial_state(
         self,
         params: Params | None = None,
-        x0: Mapping[str, Any] | Any = None,
-        u0: Any = None,
+        x0: Mapping[str, Numbers] | Numbers | None = None,
+        u0: Numbers | None = None,
         t0: float = 0.0,
         *,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
-    ) -> Any:
+    ) -> Float[Array, " n_states"]:
         """Consistent initial states, shape (n_states,); gradients go through.
 
         What the conditions leave open stays as near to its start as they allow, in nominal values;
@@ -250,8 +268,8 @@ class System:
     def initialize(
         self,
         params: Params | None = None,
-        x0: Mapping[str, Any] | None = None,
-        u0: Any = None,
+        x0: Mapping[str, Numbers] | None = None,
+        u0: Numbers | None = None,
         t0: float = 0.0,
         *,
         steady: bool | Sequence[str] = False,
@@ -263,7 +281,9 @@ class System:
         """
         return self.initializer.report(self.pack(params), x0, u0, t0, steady, least_squares)
 
-    def input_values(self, u: Mapping[str, Any] | Any = None) -> Any:
+    def input_values(
+        self, u: Mapping[str, Numbers] | Numbers | None = None
+    ) -> Float[Array, " n_inputs"]:
         """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or nothing.
 
         Raises:
@@ -309,7 +329,7 @@ class System:
         found = [self._find(name) for name in names]
         return [node for node, _ in found], np.asarray([sign for _, sign in found])
 
-    def _check_shapes(self, x: Any, u: Any) -> tuple[Any, Any]:
+    def _check_shapes(self, x: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
         x = floating(x)
         u = jnp.zeros(0, x.dtype) if u is None else floating(u)
         if x.shape != (len(self.reduced.states),):

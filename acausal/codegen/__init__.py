@@ -5,7 +5,6 @@ It knows nothing of initial values, time integration or data.
 """
 
 from acausal.codegen.equations import explicit_equations as explicit_equations
-from acausal.codegen.explain_nonfinite import explain_nonfinite as explain_nonfinite
 from acausal.codegen.generator import generate as generate
 from acausal.codegen.interpreter import (
     rates as rates,
@@ -14,6 +13,7 @@ from acausal.codegen.interpreter import (
 )
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
+from acausal.codegen.nonfinite import explain_nonfinite as explain_nonfinite
 from acausal.codegen.packing import default_parameters as default_parameters, pack as pack
 from acausal.codegen.parameters import (
     ParameterLayout as ParameterLayout,

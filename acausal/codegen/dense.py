@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import jax
 import jax.numpy as jnp
+from jaxtyping import Array, Float
 
 from acausal.codegen.newton import Dense, Residual, root
 
-Block = Callable[[Any], tuple[Any, Any]]
+Block = Callable[[Array], tuple[Array, Array]]
 """From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
 
 
-def solve_linear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+def solve_linear(
+    block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
+) -> Float[Array, " n"]:
     """Unknowns of a block that is affine in its tearing variables, of which ``guess`` gives the number."""
     del scale
     origin = jnp.zeros_like(guess)
@@ -23,31 +25,35 @@ def solve_linear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
     return block(-_solve(matrix, constant))[0]
 
 
-def solve_nonlinear(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+def solve_nonlinear(
+    block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
+) -> Float[Array, " n"]:
     """Unknowns of a nonlinear block near a guess; NaN where Newton's method does not converge.
 
     Gradients follow from the implicit function theorem.
     """
 
-    def residual(tears: Any) -> Any:
+    def residual(tears: Array) -> Array:
         return block(tears)[1]
 
-    def solve(function: Residual, start: Any) -> Any:
+    def solve(function: Residual, start: Array) -> Array:
         found, converged = root(Dense(function, _solve), start, scale)
         return jnp.where(converged, found, jnp.nan)
 
-    def tangent(linear: Residual, y: Any) -> Any:
+    def tangent(linear: Residual, y: Array) -> Array:
         return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
 
     return block(jax.lax.custom_root(residual, guess, solve, tangent))[0]
 
 
-def nearest(block: Block, guess: Any, scale: Any = 1.0) -> Any:
+def nearest(
+    block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
+) -> Float[Array, " m"]:
     """Tearing variables where the search for a root of a nonlinear block ends, whether it is one or not."""
     return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
 
 
-def _solve(a: Any, b: Any) -> Any:
+def _solve(a: Float[Array, "m m"], b: Float[Array, " m"]) -> Float[Array, " m"]:
     """``a^-1 b``; spelled out for the small sizes where a library call costs more than the arithmetic."""
     match a.shape[0]:
         case 1:

@@ -89,8 +89,9 @@ class Take:
         """Where the elements lie; see `One.positions`."""
         ends = np.cumsum([sizes[s] for s in self.sources])
         place = np.searchsorted(ends, self.index, side="right")
-        begins = ends - [sizes[s] for s in self.sources]
-        return np.asarray(self.sources)[place], self.index - begins[place]
+        begins = ends - np.asarray([sizes[s] for s in self.sources])
+        positions: Integers = self.index - begins[place]
+        return np.asarray(self.sources)[place], positions
 
 
 Gather = One | Runs | Interleaved | Take

@@ -43,7 +43,6 @@ class Evaluate:
     size: int
 
     outputs = 1
-    origins: tuple[str, ...] = ()
 
     @property
     def sources(self) -> set[int]:
@@ -75,7 +74,6 @@ class Accumulate:
     size: int
 
     outputs = 1
-    origins: tuple[str, ...] = ()
     formula = ", a sum,"
 
     @property

@@ -179,7 +179,7 @@ def _piecewise(node: Any, visit: Visit) -> Any:
 
 
 def _case(value: Any, holds: Any, visit: Visit) -> Any:
-    """A case that gradients pass only where it holds, as elsewhere its slope may be infinite."""
+    """A case whose gradient counts only where it holds: elsewhere its derivative may be infinite."""
     if not _is_steep(value):
         return visit(value)
     read = {s: visit(s) for s in sorted(value.free_symbols, key=str)}

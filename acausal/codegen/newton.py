@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import jax
 import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
 
 Tolerance = dict[str, float]
 """By precision."""
@@ -30,18 +31,20 @@ STRAIGHT = 0.7
 GOING, ARRIVED, STUCK = 0, 1, 2
 ALONE, ON_THE_WAY, AT_THE_END, DONE, LOST = 0, 1, 2, 3, 4
 
-Residual = Callable[[Any], Any]
+Residual = Callable[[Array], Array]
 """From unknowns (m,) to residuals (k,)."""
 
 
 class Jacobian(Protocol):
     """The Jacobian (k, m) of residuals at a point, in whatever form."""
 
-    def reach(self, sizes: Any) -> Any:
+    def reach(self, sizes: Float[Array, " m"]) -> Float[Array, " k"]:
         """How far residuals may move, (k,), when unknowns move by up to ``sizes``, (m,)."""
         ...
 
-    def step(self, r: Any, column: Any, row: Any) -> Any:
+    def step(
+        self, r: Float[Array, " k"], column: Float[Array, " k"], row: Float[Array, " m+1"]
+    ) -> Float[Array, " m+1"]:
         """``z`` (m + 1,) with ``jacobian @ z[:-1] + column * z[-1] = r`` and ``row @ z = 0``."""
         ...
 
@@ -49,11 +52,11 @@ class Jacobian(Protocol):
 class Residuals(Protocol):
     """Equations whose root is looked for."""
 
-    def residual(self, z: Any, /) -> Any:
+    def residual(self, z: Array, /) -> Array:
         """From unknowns (m,) to residuals (k,)."""
         ...
 
-    def linearized(self, z: Any, /) -> tuple[Any, Jacobian]:
+    def linearized(self, z: Array, /) -> tuple[Array, Jacobian]:
         """The residuals and their Jacobian."""
         ...
 
@@ -68,12 +71,12 @@ class Dense:
     """
 
     residual: Residual
-    solve: Callable[[Any, Any], Any]
+    solve: Callable[[Array, Array], Array]
 
-    def linearized(self, z: Any) -> tuple[Any, Matrix]:
+    def linearized(self, z: Array) -> tuple[Array, Matrix]:
         """The residuals and their Jacobian, which share their evaluation."""
 
-        def doubled(z: Any) -> tuple[Any, Any]:
+        def doubled(z: Array) -> tuple[Array, Array]:
             r = self.residual(z)
             return r, r
 
@@ -85,17 +88,23 @@ class Dense:
 class Matrix:
     """A Jacobian as a matrix."""
 
-    values: Any
-    solve: Callable[[Any, Any], Any]
+    values: Array
+    solve: Callable[[Array, Array], Array]
 
-    def reach(self, sizes: Any) -> Any:
+    def reach(self, sizes: Float[Array, " m"]) -> Float[Array, " k"]:
         """See `Jacobian`."""
         return jnp.abs(self.values) @ sizes
 
-    def step(self, r: Any, column: Any, row: Any) -> Any:
+    def step(
+        self, r: Float[Array, " k"], column: Float[Array, " k"], row: Float[Array, " m+1"]
+    ) -> Float[Array, " m+1"]:
         """See `Jacobian`."""
         above = jnp.concatenate([self.values, column[:, None]], axis=1)
         return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
+
+
+_State = tuple[Array, Array, Array]
+"""Of Newton's method: the point, the status, the number of steps."""
 
 
 class _Walk(NamedTuple):
@@ -104,17 +113,20 @@ class _Walk(NamedTuple):
     The path is followed upward in s first; where that leads nowhere, the other way round.
     """
 
-    phase: Any
-    point: Any
-    direction: Any
-    stride: Any
-    count: Any
-    upward: Any
+    phase: Array
+    point: Array
+    direction: Array
+    stride: Array
+    strides: Array
+    upward: Array
 
 
 def root(
-    equations: Residuals, guess: Any, scale: Any = 1.0, max_steps: int = 300
-) -> tuple[Any, Any]:
+    equations: Residuals,
+    guess: Float[Array, " m"],
+    scale: Float[Array, " m"] | float = 1.0,
+    max_steps: int = 300,
+) -> tuple[Float[Array, " m"], Bool[Array, ""]]:
     """A root near a guess, and whether it was reached.
 
     Arguments:
@@ -127,10 +139,10 @@ def root(
     upward = jnp.zeros_like(units).at[-1].set(1.0)
     begin = jnp.append(guess / unit, 0.0)
 
-    def off(point: Any) -> Any:
+    def off(point: Array) -> Array:
         return equations.residual(point[:-1] * unit) - (1 - point[-1]) * first
 
-    def linearized(point: Any, direction: Any) -> tuple[Any, Any, Any]:
+    def linearized(point: Array, direction: Array) -> tuple[Array, Array, Array]:
         r, jacobian = equations.linearized(point[:-1] * unit)
         rest = r - (1 - point[-1]) * first
         sizes = units * (jnp.abs(point) + 1.0)
@@ -146,13 +158,13 @@ def root(
         taken = point - w.point
         length = _norm(taken)
         straight = (jnp.sum(taken * w.direction) > STRAIGHT * length) & (length < 3 * w.stride)
-        lost = walking & ((w.stride < SHORTEST) | (w.count > STRIDES))
+        lost = walking & ((w.stride < SHORTEST) | (w.strides > STRIDES))
         back = lost & w.upward
         good = walking & ~lost & arrived & (straight | (jnp.abs(w.direction[-1]) == 1))
-        beyond = good & (point[-1] >= 1)
+        passed = good & (point[-1] >= 1)
         ends = jnp.where(arrived, DONE, jnp.where(w.phase == ALONE, ON_THE_WAY, LOST))
-        on = jnp.where(beyond, AT_THE_END, jnp.where(lost & ~back, LOST, ON_THE_WAY))
-        part = jnp.where(beyond, (1 - w.point[-1]) / (point[-1] - w.point[-1]), 1.0)
+        on = jnp.where(passed, AT_THE_END, jnp.where(lost & ~back, LOST, ON_THE_WAY))
+        part = jnp.where(passed, (1 - w.point[-1]) / (point[-1] - w.point[-1]), 1.0)
         kept = jnp.where(good, w.point + part * taken, jnp.where(back, begin, w.point))
         stride = jnp.where(good, 1.5 * length, jnp.where(walking, w.stride / 3, w.stride))
         return _Walk(
@@ -160,7 +172,7 @@ def root(
             jnp.where(walking, kept, jnp.where(arrived | (w.phase != ALONE), point, begin)),
             jnp.where(good, taken / length, jnp.where(back, -upward, w.direction)),
             jnp.where(back, FIRST, stride),
-            jnp.where(back, 0, w.count + walking),
+            jnp.where(back, 0, w.strides + walking),
             w.upward & ~back,
         )
 
@@ -172,10 +184,10 @@ def root(
 
 def _newton(
     residual: Residual,
-    linearized: Callable[[Any], tuple[Any, Any, Any]],
-    guess: Any,
-    max_steps: Any,
-) -> tuple[Any, Any]:
+    linearized: Callable[[Array], tuple[Array, Array, Array]],
+    guess: Array,
+    max_steps: Array,
+) -> tuple[Array, Array]:
     """A root near a guess by Newton's method, and whether it was reached.
 
     A step that does not make the residual smaller is halved until it does; what is smaller is judged with
@@ -186,18 +198,18 @@ def _newton(
         linearized: from a point to the residuals, how far each may move, and the Newton step.
     """
 
-    def advance(state: Any) -> Any:
+    def advance(state: _State) -> _State:
         z, _, k = state
         r, reach, step = linearized(z)
         full = jnp.where(jnp.all(r == 0), 0.0, step)
         weight = 1 / jnp.where(reach > 0, reach, 1.0)
         size = _norm(weight * r)
 
-        def too_far(trial: Any) -> Any:
+        def too_far(trial: tuple[Array, Array]) -> Array:
             dz, new = trial
             return ~(new < size) & ~_is_tiny(dz, z) & jnp.all(jnp.isfinite(dz))
 
-        def halve(trial: Any) -> Any:
+        def halve(trial: tuple[Array, Array]) -> tuple[Array, Array]:
             return trial[0] / 2, _norm(
                 weight * jax.lax.optimization_barrier(residual(z - trial[0] / 2))
             )
@@ -208,18 +220,18 @@ def _newton(
         status = jnp.where(arrived, ARRIVED, jnp.where(stopped, STUCK, GOING))
         return z - jnp.where(there, full, dz), status, k + 1
 
-    def unfinished(state: Any) -> Any:
+    def unfinished(state: _State) -> Array:
         _, status, k = state
         return (status == GOING) & (k < max_steps)
 
-    z, status, _ = jax.lax.while_loop(unfinished, advance, (guess, jnp.array(GOING), 0))
+    z, status, _ = jax.lax.while_loop(unfinished, advance, (guess, jnp.array(GOING), jnp.array(0)))
     return z, status == ARRIVED
 
 
-def _norm(v: Any) -> Any:
+def _norm(v: Array) -> Array:
     return jnp.sqrt(jnp.sum(v * v))
 
 
-def _is_tiny(step: Any, at: Any, tolerance: Tolerance = TOLERANCE) -> Any:
+def _is_tiny(step: Array, at: Array, tolerance: Tolerance = TOLERANCE) -> Array:
     relative = tolerance[step.dtype.name]
     return jnp.all(jnp.abs(step) < relative * (jnp.abs(at) + relative))

@@ -15,6 +15,7 @@ from typing import Any
 import jax
 import numpy as np
 from jax.experimental.buffer_callback import buffer_callback
+from jaxtyping import Array, Float
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
@@ -28,33 +29,33 @@ class SparseMatrix:
 
     pattern: Pattern
 
-    def times(self, entries: Any, x: Any) -> Any:
+    def times(self, entries: Float[Array, " nnz"], x: Float[Array, " n"]) -> Float[Array, " n"]:
         """``A x``, shape (n,)."""
         p = self.pattern
         return jax.ops.segment_sum(entries * x[p.columns], p.rows, len(p.row_order))
 
-    def solve(self, entries: Any, b: Any) -> Any:
+    def solve(self, entries: Float[Array, " nnz"], b: Float[Array, " n"]) -> Float[Array, " n"]:
         """``x`` with ``A x = b``, differentiable by both; NaN where the matrix is singular.
 
         Arguments:
             entries: values of the entries, shape (nnz,). b: right side, shape (n,).
         """
 
-        def solve(transposed: bool) -> Callable[[Any, Any], Any]:
+        def solve(transposed: bool) -> Callable[[Any, Array], Array]:
             return lambda _, b: self._on_host(transposed, entries, b)
 
         return jax.lax.custom_linear_solve(
             lambda x: self.times(entries, x), b, solve(False), solve(True)
         )
 
-    def _on_host(self, transposed: bool, entries: Any, b: Any) -> Any:
+    def _on_host(self, transposed: bool, entries: Array, b: Array) -> Array:
         """Solve by a call of the host. On the CPU it reads and writes the program's own memory."""
         shape = jax.ShapeDtypeStruct(b.shape, b.dtype)
 
-        def returned(entries: Any, b: Any) -> Any:
+        def returned(entries: Array, b: Array) -> np.ndarray:
             return self._solved(transposed, np.asarray(entries), np.asarray(b)).astype(b.dtype)
 
-        def written(_: Any, out: Any, entries: Any, b: Any) -> None:
+        def written(_: Any, out: Array, entries: Array, b: Array) -> None:
             np.asarray(out)[...] = self._solved(transposed, np.asarray(entries), np.asarray(b))
 
         return jax.lax.platform_dependent(
@@ -110,9 +111,9 @@ class SparseMatrix:
 class _Memory:
     """The latest factorization and the entries that it belongs to."""
 
-    def __init__(self, order: Integers, pattern: Any) -> None:
+    def __init__(self, order: Integers, matrix: csc_array) -> None:
         self._order = order
-        self._pattern = pattern
+        self._pattern: Any = matrix
         self._latest: tuple[np.ndarray, Any] | None = None
 
     def factors(self, entries: np.ndarray) -> Any:

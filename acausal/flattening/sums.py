@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Any
 
 import sympy as sp
 
@@ -87,6 +88,11 @@ class Sum:
     def partial(self, column: int) -> sp.Expr:
         """A slot's coefficient."""
         return sp.Integer(self.factors[column])
+
+    def solved(self, column: int) -> sp.Expr:
+        """The slot as an explicit expression of the others."""
+        rest: Any = self.residual.xreplace({self.variables[column]: sp.S.Zero})
+        return -rest / self.partial(column)
 
     def is_solvable(self, column: int) -> bool:
         """Every slot can be computed from the others."""

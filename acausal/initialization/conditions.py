@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
+from jaxtyping import Array, Float
 
 from acausal.codegen import (
     Packed,
@@ -23,7 +24,7 @@ from acausal.codegen import (
     read,
     read_elements,
 )
-from acausal.flattening import Binding, EquationGroup, FlatModel
+from acausal.flattening import Binding, EquationGroup, FlatModel, Integers
 from acausal.modeling import time
 from acausal.structure import ReducedModel
 
@@ -85,7 +86,7 @@ class Conditions:
         states = self.reduced.states
         return names + [f"der({self.reduced.name(int(states[i]))}) = 0" for i in resting]
 
-    def starts(self, packed: Packed) -> Any:
+    def starts(self, packed: Packed) -> Float[Array, " n_states"]:
         """Start values of the states, shape (n_states,)."""
         return self._starts(packed, self.start_of)
 
@@ -94,7 +95,7 @@ class Conditions:
         starts: Sequence[FixedStart],
         resting: Sequence[int],
         at: Values,
-    ) -> Any:
+    ) -> Float[Array, " n_conditions"]:
         """How far a state is from fixed starts, from the initial equations, and from rest in some states.
 
         Fixed starts and rates are measured in nominal values, so that their squares may be added.
@@ -116,7 +117,7 @@ class Conditions:
     def _bindings(self) -> dict[int, Binding]:
         return {b.target: b for b in self.reduced.model.starts}
 
-    def _starts(self, packed: Packed, members: Sequence[tuple[int, int]]) -> Any:
+    def _starts(self, packed: Packed, members: Sequence[tuple[int, int]]) -> Array:
         """Start values of variables, each with its sign; those of one expression side by side."""
         model, n = self.reduced.model, self.reduced.model.n_variables
         number = [model.start[v] if v < n else 0.0 for v, _ in members]
@@ -132,7 +133,7 @@ class Conditions:
             x = x.at[rows].set(evaluate(expression, dict(zip(symbols, found.T, strict=True))))
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
-    def _initial(self, group: EquationGroup, at: Values) -> Any:
+    def _initial(self, group: EquationGroup, at: Values) -> Array:
         """Residuals of initial equations; derivatives are taken along the vector field."""
         columns: dict[sp.Symbol, Any] = {time: jnp.asarray(at.t)}
         for i, (symbol, order) in enumerate(
@@ -151,15 +152,17 @@ class Conditions:
             columns[symbol] = chosen_module(at.packed, self.parameters.chosen(group.modules[:, i]))
         return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
 
-    def _variables(self, variables: Any, order: int, at: Values) -> Any:
+    def _variables(self, variables: Integers, order: int, at: Values) -> Array:
         resolved = [self.reduced.resolve(int(v)) for v in variables]
         nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
 
-        def value(t: Any, x: Any) -> Any:
-            return signs * read(self.program, nodes, at._replace(t=t, x=x))
+        def value(t: Array, x: Array, /) -> Array:
+            return jnp.asarray(signs) * read(self.program, nodes, at._replace(t=t, x=x))
 
-        def along(function: Any) -> Any:
-            def rate(t: Any, x: Any) -> Any:
+        def along(
+            function: Callable[[Array, Array], Array],
+        ) -> Callable[[Array, Array], Array]:
+            def rate(t: Array, x: Array, /) -> Array:
                 dx = rates(self.program, at._replace(t=t, x=x))
                 return jax.jvp(function, (t, x), (jnp.ones_like(t), dx))[1]
 
@@ -203,8 +206,8 @@ def _distinct(
     }
     kept: list[FixedStart] = []
     for c in starts:
-        told = c.node, c.sign * float(model.start[c.variable])
-        if c.variable in bound or told not in known:
+        given = c.node, c.sign * float(model.start[c.variable])
+        if c.variable in bound or given not in known:
             kept.append(c)
-            known.add(told)
+            known.add(given)
     return tuple(kept)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -12,6 +12,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import optimistix as optx
+from jaxtyping import Array, Float
+from numpy.typing import ArrayLike
 
 from acausal._jax import traced
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
@@ -23,7 +25,7 @@ MAX_STEPS = 100
 LEFT_OVER = 1e-6
 """How far off a condition may be, in nominal values."""
 INDEPENDENT = 1e-9
-"""Slopes below this fraction of the largest one count as none."""
+"""Derivatives below this fraction of the largest one count as zero."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class Initialization:
         conditions: in words; ``residuals``: how far each is off, in nominal values.
     """
 
-    x: Any
+    x: Float[Array, " n_states"]
     states: tuple[str, ...]
     roles: tuple[str, ...]
     conditions: tuple[str, ...]
@@ -70,8 +72,8 @@ class Initialization:
             for name, rest in zip(self.conditions, self.residuals, strict=True)
         ]
         n_open = sum(r in ("chosen", "start") for r in self.roles)
-        told = f"{len(self.states)} states, {len(self.conditions)} conditions, {n_open} left open"
-        return "\n".join([f"Initialization ({told})", *lines])
+        counts = f"{len(self.states)} states, {len(self.conditions)} conditions, {n_open} left open"
+        return "\n".join([f"Initialization ({counts})", *lines])
 
 
 @dataclass(frozen=True)
@@ -97,12 +99,12 @@ class Initializer:
     def __call__(
         self,
         packed: Packed,
-        x0: Mapping[str, Any] | Any = None,
-        u0: Any = None,
+        x0: Mapping[str, ArrayLike] | ArrayLike | None = None,
+        u0: ArrayLike | None = None,
         t0: float = 0.0,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
-    ) -> Any:
+    ) -> Float[Array, " n_states"]:
         """Initial states, shape (n_states,); see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
@@ -113,8 +115,8 @@ class Initializer:
     def report(
         self,
         packed: Packed,
-        x0: Mapping[str, Any] | None = None,
-        u0: Any = None,
+        x0: Mapping[str, ArrayLike] | None = None,
+        u0: ArrayLike | None = None,
         t0: float = 0.0,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
@@ -131,12 +133,12 @@ class Initializer:
         x, rest, jacobian = self._found(plan, at)
         for i, role in zip(plan.moved, _roles(plan, np.asarray(jacobian)), strict=True):
             roles[i] = role
-        told = self.conditions.names(plan.starts, plan.resting)
-        return Initialization(x, self.names, tuple(roles), tuple(told), np.asarray(rest))
+        names = self.conditions.names(plan.starts, plan.resting)
+        return Initialization(x, self.names, tuple(roles), tuple(names), np.asarray(rest))
 
     # -- the problem -------------------------------------------------------------------------------
 
-    def _whole(self, x0: Any) -> Any:
+    def _whole(self, x0: ArrayLike) -> Array:
         x = jnp.asarray(x0, dtype=float)
         if x.shape != (len(self.names),):
             raise DataError(
@@ -144,32 +146,32 @@ class Initializer:
             )
         return x
 
-    def _inputs(self, u0: Any) -> Any:
+    def _inputs(self, u0: ArrayLike | None) -> Array:
         return jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
 
     def _posed(
         self,
         packed: Packed,
-        given: Mapping[str, Any],
+        given: Mapping[str, ArrayLike],
         steady: bool | Sequence[str],
         least_squares: bool,
-    ) -> tuple[Any, Plan | None]:
+    ) -> tuple[Array, Plan | None]:
         """The states to begin with, and what remains to be met, if anything."""
         self._known("x0", given)
         x = self.conditions.starts(packed)
         for i, name in enumerate(self.names):
             if name in given:
                 x = x.at[i].set(given[name])
-        told = np.asarray([n in given for n in self.names], dtype=bool)
-        at_will = ~told & ~self.conditions.fixed
+        is_given = np.asarray([n in given for n in self.names], dtype=bool)
+        at_will = ~is_given & ~self.conditions.fixed
         if isinstance(steady, bool):
             resting = at_will & steady
         else:
             self._known("steady", steady)
             resting = np.asarray([n in steady for n in self.names], dtype=bool)
-        nodes = self.reduced.states[told]
+        nodes = self.reduced.states[is_given]
         starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
-        moved = ~told if least_squares else at_will
+        moved = ~is_given if least_squares else at_will
         plan = Plan(
             tuple(np.flatnonzero(moved).tolist()),
             tuple(c for c in starts if c.node not in nodes),
@@ -187,7 +189,7 @@ class Initializer:
 
     # -- its solution ------------------------------------------------------------------------------
 
-    def _found(self, plan: Plan, start: Values) -> tuple[Any, Any, Any]:
+    def _found(self, plan: Plan, start: Values) -> tuple[Array, Array, Array]:
         """The states, the residuals of the conditions, and their Jacobian by the states that moved."""
         x, rest, jacobian = self._satisfied(plan, start)
         if not plan.least_squares and not traced(rest):
@@ -195,11 +197,11 @@ class Initializer:
         return x, rest, jacobian
 
     @cached_property
-    def _satisfied(self) -> Any:
+    def _satisfied(self) -> Callable[[Plan, Values], tuple[Array, Array, Array]]:
         """`_satisfy`, compiled once for every plan."""
         return eqx.filter_jit(self._satisfy)
 
-    def _satisfy(self, plan: Plan, start: Values) -> tuple[Any, Any, Any]:
+    def _satisfy(self, plan: Plan, start: Values) -> tuple[Array, Array, Array]:
         """States that satisfy the conditions, the residuals, and their Jacobian.
 
         The solution is found without derivatives; one Newton step from there, which moves nothing, carries them.
@@ -209,11 +211,11 @@ class Initializer:
 
         x = start.x
 
-        def residual(z: Any, at: Values) -> Any:
+        def residual(z: Array, at: Values) -> Array:
             moved = at._replace(x=at.x.at[free].set(z * nominal))
             return self.conditions.residuals(plan.starts, plan.resting, moved)
 
-        def stationary(z: Any, at: Values) -> Any:
+        def stationary(z: Array, at: Values) -> Array:
             half = lambda z: jnp.sum(residual(z, at) ** 2) / 2  # noqa: E731
             return jax.grad(half)(z)
 
@@ -251,14 +253,14 @@ class Initializer:
         off = [f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong]
         moved = [self.names[i] for i in plan.moved]
         held = self._held(plan, found, wrong)
-        told = [
+        parts = [
             f"the initial conditions cannot all hold; left over: {listing(off)}",
             f"{len(rest)} conditions, but only {len(moved)} free states"
             + (f" ({listing(moved, 6)})" if moved else ""),
             *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
         ]
         raise InitializationError(
-            "; ".join(told)
+            "; ".join(parts)
             + ". Is a start fixed twice, or in conflict with a connection? Make one of "
             "them a guess (fixed=False), give starts nearer to a solution, or take the nearest values "
             "(least_squares=True)."
@@ -267,7 +269,7 @@ class Initializer:
     def _held(self, plan: Plan, found: Values, wrong: np.ndarray) -> list[str]:
         """States that may not move although conditions that are left over depend on them."""
 
-        def residual(x: Any) -> Any:
+        def residual(x: Array) -> Array:
             return self.conditions.residuals(plan.starts, plan.resting, found._replace(x=x))
 
         jacobian = np.asarray(jax.jacfwd(residual)(found.x))[wrong]
@@ -293,19 +295,19 @@ def _stop_gradient(tree: Any) -> Any:
     return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
 
 
-def _least_change(residual: Any, guess: Any) -> Any:
+def _least_change(residual: Callable[[Array], Array], guess: Array) -> Array:
     """Newton's method with the smallest steps: a root near the guess also where there are many."""
     return root(Dense(residual, _smallest), guess, max_steps=MAX_STEPS)[0]
 
 
-def _smallest(jacobian: Any, r: Any) -> Any:
+def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:
     """The smallest step that the linear equations ask for, each equation counted alike."""
     size = jnp.max(jnp.abs(jacobian), axis=1, initial=0.0)
     weight = 1 / jnp.where(size > 0, size, 1.0)
     return jnp.linalg.pinv(weight[:, None] * jacobian) @ (weight * r)
 
 
-def _least_squares(residual: Any, guess: Any) -> Any:
+def _least_squares(residual: Callable[[Array], Array], guess: Array) -> Array:
     solver = optx.LevenbergMarquardt(rtol=1e-10, atol=1e-12)
     found = optx.least_squares(lambda z, _: residual(z), solver, guess, max_steps=1000, throw=False)
     return found.value

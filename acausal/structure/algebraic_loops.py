@@ -141,7 +141,7 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
 
 
 def _explain(system: Equations, block: Block) -> str:
-    told = listing(dict.fromkeys(system.describe(e) for e in block.stated), 6)
+    names = listing(dict.fromkeys(system.describe(e) for e in block.stated), 6)
     unknowns = listing([system.name(v) for v in block.unknowns])
     zeros = [
         system.model.layout.parameter(p)
@@ -152,7 +152,7 @@ def _explain(system: Equations, block: Block) -> str:
     hint = f"; {listing(dict.fromkeys(zeros))} being zero may be why" if zeros else ""
     return (
         f"the equations of a loop repeat or contradict each other, so that they do not determine {unknowns}: "
-        f"{told}{hint}"
+        f"{names}{hint}"
     )
 
 

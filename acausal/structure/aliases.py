@@ -55,7 +55,7 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
     redundant: list[tuple[str, int]] = []
     changed = True
     while changed:
-        classes.settle()
+        classes.update_roots()
         pieces = [
             p for group in pending for p in specialise(group, classes, parameters, model.folded)
         ]
@@ -68,8 +68,8 @@ def eliminate_aliases(model: FlatModel) -> AliasFree:
                 pending.append(piece)
             else:
                 outcome = classes.merge(piece, alias)
-                told = np.flatnonzero(outcome == _KNOWN)
-                redundant += [(piece.template.origin, int(piece.components[i])) for i in told]
+                known = np.flatnonzero(outcome == _KNOWN)
+                redundant += [(piece.template.origin, int(piece.components[i])) for i in known]
                 if (outcome == _REFUSED).any():
                     pending.append(piece.rows(outcome == _REFUSED))
                 changed = changed or bool((outcome == _MERGED).any())
@@ -88,11 +88,11 @@ def _check_inputs(model: FlatModel, classes: _Classes) -> None:
                 "connect the input to a source, or remove what prescribes it"
             )
         seen[root] = f"the input '{name}'"
-    for root, told in list(seen.items())[1:]:
+    for root, text in list(seen.items())[1:]:
         below = classes.bottom(root)
         if below != root and below in seen:
             raise StructureError(
-                f"overdetermined: {told} is made a derivative of {seen[below]}; one of them cannot be free"
+                f"overdetermined: {text} is made a derivative of {seen[below]}; one of them cannot be free"
             )
 
 
@@ -107,7 +107,7 @@ def parameter_aliases(model: FlatModel) -> Integers:
         if np.array_equal(further, target):
             return target
         target = further
-    circular = np.flatnonzero(target[target] != target)  # told when parameters are laid out
+    circular = np.flatnonzero(target[target] != target)  # refused when parameters are laid out
     target[circular] = circular
     return target
 
@@ -232,7 +232,7 @@ class _Classes:
         self.derivative[root] = node, sign * relative
         return []
 
-    def settle(self) -> None:
+    def update_roots(self) -> None:
         """Roots and signs of all nodes as arrays."""
         found = [self.find(i) for i in range(len(self.parent))]
         self.root = np.asarray([r for r, _ in found], dtype=np.int64)

@@ -110,7 +110,7 @@ def pantelides(structure: DifferentialStructure, max_order: int = 12) -> list[in
 
     ``structure`` is extended in place; the return value assigns an equation to every variable (-1: none).
     The caller has made sure that the structure is not singular; ``max_order`` bounds the differentiations
-    of one equation all the same, beyond it a RecursionError is raised.
+    of one equation all the same, above it a RecursionError is raised.
     """
     s = structure
     highest = [[v for v in row if s.derivative[v] < 0] for row in s.incidence]
@@ -245,7 +245,7 @@ def tear(
     tears: list[int] = []
     assigned: list[tuple[int, int]] = []
 
-    def settle(variable: int) -> None:
+    def compute(variable: int) -> None:
         known[variable] = True
         for e in equations_of[variable]:
             open_variables[e] -= 1
@@ -264,12 +264,12 @@ def tear(
                 if not known[v]:
                     heappush(candidates, (-open_equations[v], later[v], v))
             assigned.append((e, rest[0]))
-            settle(rest[0])
+            compute(rest[0])
         while candidates:
             count, _, variable = heappop(candidates)
             if not known[variable] and -count == open_equations[variable]:
                 tears.append(variable)
-                settle(variable)
+                compute(variable)
                 break
     residuals = tuple(e for e in range(len(incidence)) if not used[e])
     return Torn(tuple(tears), tuple(assigned), residuals)

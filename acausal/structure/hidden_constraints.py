@@ -19,7 +19,7 @@ import sympy as sp
 
 from acausal.flattening import Statement, Template
 from acausal.structure.equations import Equations
-from acausal.structure.rank import cancelling, crowded
+from acausal.structure.rank import cancelling, prune_singletons
 
 PRIME = 2**61 - 1
 RESIDUES = sp.GF(PRIME)
@@ -37,7 +37,7 @@ def expose_constraints(system: Equations) -> dict[int, list[int]]:
     """
     highest = _highest(system)
     residue = cache(lambda parameter: RESIDUES(Random(parameter).randrange(1, PRIME)))
-    suspects = {e: _residues(system, e, highest[e], residue) for e in crowded(highest)}
+    suspects = {e: _residues(system, e, highest[e], residue) for e in prune_singletons(highest)}
     found: dict[int, list[int]] = {}
     for combination in cancelling(suspects):
         numbers = {p: i for i, p in enumerate(_parameters(system, combination))}
@@ -59,7 +59,7 @@ def _highest(system: Equations) -> dict[int, Columns]:
     return found
 
 
-def _are_constant(template: Template, columns: Iterable[int]) -> bool:
+def _are_constant(template: Statement, columns: Iterable[int]) -> bool:
     return all(_factor(template, c) is not None for c in columns)
 
 
@@ -68,10 +68,10 @@ def _factor(template: Statement, column: int) -> Any:
     """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
     if not template.is_solvable(column):
         return None
-    slope = template.partial(column)
-    if not slope.free_symbols <= {*template.parameters} or not slope.is_rational_function():
+    factor = template.partial(column)
+    if not factor.free_symbols <= {*template.parameters} or not factor.is_rational_function():
         return None
-    return slope.xreplace({f: sp.Rational(f) for f in slope.atoms(sp.Float)})
+    return factor.xreplace({f: sp.Rational(f) for f in factor.atoms(sp.Float)})
 
 
 def _residues(
@@ -102,18 +102,18 @@ def _exactly(
     system: Equations, rows: dict[int, Columns], numbers: dict[int, int]
 ) -> list[dict[int, sp.Expr]]:
     """Factors with which these equations cancel, if there are any: polynomials in ``_symbol(number)``."""
-    slopes: dict[int, dict[int, Any]] = {}
+    coefficients: dict[int, dict[int, Any]] = {}
     for e, columns in rows.items():
         template = system.template[e]
         own = {
             s: _symbol(numbers[p])
             for s, p in zip(template.parameters, system.parameters[e], strict=True)
         }
-        slopes[e] = {v: _factor(template, c).xreplace(own) for v, c in columns.items()}
-    present = {s for row in slopes.values() for x in row.values() for s in x.free_symbols}
+        coefficients[e] = {v: _factor(template, c).xreplace(own) for v, c in columns.items()}
+    present = {s for row in coefficients.values() for x in row.values() for s in x.free_symbols}
     symbols = [s for s in map(_symbol, numbers.values()) if s in present]
     field: Any = sp.QQ.frac_field(*symbols) if symbols else sp.QQ
-    exact = {e: {v: field.from_sympy(x) for v, x in row.items()} for e, row in slopes.items()}
+    exact = {e: {v: field.from_sympy(x) for v, x in row.items()} for e, row in coefficients.items()}
     found: list[dict[int, sp.Expr]] = []
     for factors in cancelling(exact):
         ring = field.get_ring()

@@ -86,7 +86,7 @@ def singular(rows: Sequence[int], columns: Sequence[int], values: Sequence[float
     return len(independent(enumerate(scaled))[0]) < n
 
 
-def crowded(incidence: Mapping[int, Iterable[int]]) -> list[int]:
+def prune_singletons(incidence: Mapping[int, Iterable[int]]) -> list[int]:
     """The rows that are left when those with a column of their own go, one after the other.
 
     The others stand in no combination of rows that cancels.

@@ -63,7 +63,7 @@ class ReducedModel:
     def start_members(self) -> tuple[Integers, Integers]:
         """For every node the variable whose start it takes (itself if it has no name), and the sign.
 
-        Of a node's names a fixed one counts most, then one whose start somebody gave, then the node's own.
+        Of a node's names a fixed one counts most, then one whose start was given, then the node's own.
         """
         model, n = self.model, self.model.n_variables
         node, sign = self.aliases.representative[:n], self.aliases.sign[:n]
@@ -76,7 +76,7 @@ class ReducedModel:
         return member, member_sign
 
     def start_guess(self, nodes: Integers) -> np.ndarray:
-        """Start values of nodes as far as they are numbers; a little off zero where nobody gave one.
+        """Start values of nodes as far as they are numbers; a little off zero where none was given.
 
         At zero itself many derivatives vanish, and Newton's method would stall.
         """

@@ -45,8 +45,8 @@ def explain_singularity(
     if missing:
         parts.append(f"undetermined: {listing(missing)}")
     if surplus or aliases.redundant:
-        told = [equation_name(model, origin) for origin in (*surplus, *aliases.redundant)]
-        parts.append(f"too much is said by: {listing(dict.fromkeys(told), 6)}")
+        redundant = [equation_name(model, origin) for origin in (*surplus, *aliases.redundant)]
+        parts.append(f"overdetermined; redundant equations: {listing(dict.fromkeys(redundant), 6)}")
     if related:
         parts.append(
             f"together with: {listing(dict.fromkeys(equation_name(model, o) for o in related), 6)}"

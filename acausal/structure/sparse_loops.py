@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.errors import StructureError, listing
-from acausal.flattening import Integers, Template
+from acausal.flattening import Integers, Statement
 from acausal.structure.algebraic_loops import matrix
 from acausal.structure.elimination_order import Pattern, analyse
 from acausal.structure.equations import Equations
@@ -22,7 +22,7 @@ LARGE = 100
 class SparseGroup:
     """Equations of one template in which the same slots (``inner``) hold unknowns of the loop."""
 
-    template: Template
+    template: Statement
     inner: tuple[int, ...]
     variables: Integers
     parameters: Integers
@@ -131,7 +131,7 @@ def _places(unknowns: Integers, nodes: Integers) -> Integers:
 
 def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[SparseGroup, ...]:
     """The equations that are more than sums, by template and by the slots that are unknown."""
-    found: dict[tuple[Template, tuple[int, ...]], list[int]] = {}
+    found: dict[tuple[Statement, tuple[int, ...]], list[int]] = {}
     for e in equations:
         template = system.template[e]
         if template.coefficients() is None:
@@ -161,8 +161,8 @@ def _sums(system: Equations, equations: list[int]) -> LinearRows:
 
 
 def _singular(system: Equations, equations: list[int], unknowns: list[int]) -> str:
-    told = listing(dict.fromkeys(system.describe(e) for e in equations), 6)
+    names = listing(dict.fromkeys(system.describe(e) for e in equations), 6)
     return (
         f"the equations of a loop repeat or contradict each other, so that they do not determine "
-        f"{listing([system.name(v) for v in unknowns])}: {told}"
+        f"{listing([system.name(v) for v in unknowns])}: {names}"
     )

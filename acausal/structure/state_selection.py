@@ -58,9 +58,9 @@ def _independent(
         chosen, left = choose_columns(csr_array((values, (rows, columns)), shape=shape), candidates)
         if not left:
             return chosen
-    told = listing(dict.fromkeys(system.describe(constraints[row]) for row in left), 6)
+    names = listing(dict.fromkeys(system.describe(constraints[row]) for row in left), 6)
     raise StructureError(
-        f"constraints between states repeat or contradict others: {told}. "
+        f"constraints between states repeat or contradict others: {names}. "
         "Are parts joined rigidly along two ways?"
     )
 
@@ -79,21 +79,21 @@ def _points(system: Equations) -> tuple[Point, Point]:
 def _preference(
     system: Equations, antecedent: dict[int, int]
 ) -> Callable[[int], tuple[float, int]]:
-    """How much a node is wanted as a state: by wish, then the earlier declared.
+    """How much a node is preferred as a state: by `stateSelect`, then the earlier declared.
 
-    What it derives from would become a state with it, so the average wish along that chain counts; of
-    a node's names the one with the highest wish.
+    The variables that it derives from become states with it, so the average along that chain counts; of a node's
+    names the one with the highest preference.
     """
     n = system.model.n_variables
     representative = system.aliases.representative
-    wish = np.full(len(system.structure.derivative), DEFAULT)
-    wish[representative[:n]] = 0.0
-    np.maximum.at(wish, representative[:n], system.model.state)
+    preference = np.full(len(system.structure.derivative), DEFAULT)
+    preference[representative[:n]] = 0.0
+    np.maximum.at(preference, representative[:n], system.model.state)
 
     def wanted(node: int) -> tuple[float, int]:
         chain = [node]
         while chain[-1] in antecedent:
             chain.append(antecedent[chain[-1]])
-        return float(wish[chain].mean()), -node
+        return float(preference[chain].mean()), -node
 
     return wanted

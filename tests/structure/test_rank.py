@@ -9,7 +9,13 @@ import pytest
 from hypothesis import given, strategies as st
 from scipy.sparse import csr_array, eye_array, hstack
 
-from acausal.structure.rank import cancelling, choose_columns, crowded, independent, singular
+from acausal.structure.rank import (
+    cancelling,
+    choose_columns,
+    independent,
+    prune_singletons,
+    singular,
+)
 
 matrices = st.tuples(st.integers(1, 4), st.integers(1, 6)).flatmap(
     lambda size: st.lists(
@@ -125,15 +131,15 @@ def test_all_combinations_that_cancel_are_found(matrix):
 @given(matrices)
 def test_rows_that_are_not_crowded_stand_in_no_combination(matrix):
     rows = as_rows(matrix)
-    inside = crowded(rows)
+    inside = prune_singletons(rows)
     assert {i for factors in cancelling(rows) for i in factors} <= set(inside)
     assert len(cancelling({i: rows[i] for i in inside})) == len(cancelling(rows))
 
 
 def test_a_chain_has_no_crowd_and_a_ring_is_one():
     chain = {i: (i, i + 1) for i in range(5)}
-    assert crowded(chain) == []
+    assert prune_singletons(chain) == []
     ring = {i: (i, (i + 1) % 5) for i in range(5)} | {5: (2, 7)}
-    assert crowded(ring) == [0, 1, 2, 3, 4]
+    assert prune_singletons(ring) == [0, 1, 2, 3, 4]
     turned = {i: {a: Fraction(1), b: Fraction(-1)} for i, (a, b) in list(ring.items())[:5]}
     assert cancelling(turned) == [dict.fromkeys(range(5), 1)]

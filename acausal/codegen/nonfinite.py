@@ -9,7 +9,7 @@ import numpy as np
 from jax import Array
 
 from acausal.codegen.dense_loop import nearest_of_torn_loop
-from acausal.codegen.instructions import Place, SolveSparseLoop, SolveTornLoop
+from acausal.codegen.instructions import Accumulate, Evaluate, Place, SolveSparseLoop, SolveTornLoop
 from acausal.codegen.interpreter import steps
 from acausal.codegen.program import Program
 from acausal.codegen.reading import Arrays
@@ -36,7 +36,7 @@ def explain_nonfinite(program: Program, values: Values, name: Callable[[int], st
             continue
         together = instruction.found_with(place)
         names = [name(int(program.nodes[program.first[i] + array][row])) for array, row in together]
-        if not instruction.origins:
+        if isinstance(instruction, Evaluate | Accumulate):
             value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
             return _formula(names[0], instruction.formula, value)
         if instruction.is_linear:
