@@ -127,6 +127,10 @@ class Template:
         )
         return derivative, tuple(kept)
 
+    def with_orders(self, orders: tuple[int, ...]) -> Template:
+        """The same equation of variables that are differentiated so often."""
+        return replace(self, orders=orders)
+
     @cache
     def has_prescribed(self) -> bool:
         """Whether the equation is given the derivatives of a signal."""
