@@ -20,21 +20,11 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .modelica import CATALOG, ENUMERATIONS
+from .modelica import ENUMERATIONS, MODELICA, NOT_COVERED
 
-__all__ = ["CATALOG", "ENUMERATIONS", "FUNCTIONS", "RECORDS"]
+__all__ = ["ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
 
-PACKAGES = (
-    "blocks",
-    "electrical",
-    "fluid",
-    "hydraulic",
-    "magnetic",
-    "neural",
-    "rotational",
-    "thermal",
-    "translational",
-)
+PACKAGES = (*MODELICA.values(), "hydraulic", "neural")
 
 RECORDS: dict[str, Any]
 """Media, materials and material constants, by the last word of their Modelica name."""

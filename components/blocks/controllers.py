@@ -5,13 +5,17 @@ from typing import Any
 
 import acausal as ac
 
+from .conventions import INIT
 from .integrators import Derivative, Integrator
-from .interfaces import INIT, SISO, SVcontrol
+from .interfaces import SISO, SVcontrol
 from .math import Add, Add3, Gain
 from .nonlinear import Limiter
 from .sources import Constant
 
-CONTROLLER = ("P", "PI", "PD", "PID")
+__modelica__ = "Modelica.Blocks.Continuous"
+
+
+_CONTROLLER = ("P", "PI", "PD", "PID")
 
 
 class PI(SISO):
@@ -88,7 +92,7 @@ class LimPID(SVcontrol):
     ``homotopyType`` have no effect. Choose options where the controller is made.
     """
 
-    controllerType = ac.Option("PID", choices=CONTROLLER, doc="type of controller")
+    controllerType = ac.Option("PID", choices=_CONTROLLER, doc="type of controller")
     k = ac.Parameter(1.0, min=0, doc="gain")
     Ti = ac.Parameter(0.5, unit="s", min=0, doc="time constant of the integrator")
     Td = ac.Parameter(0.1, unit="s", min=0, doc="time constant of the derivative")

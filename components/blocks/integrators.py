@@ -4,7 +4,10 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .interfaces import INIT, SISO, PartialStart
+from .conventions import INIT
+from .interfaces import SISO, PartialStart
+
+__modelica__ = "Modelica.Blocks.Continuous"
 
 
 class Integrator(SISO, PartialStart):

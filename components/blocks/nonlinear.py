@@ -7,7 +7,10 @@ from typing import Any
 import acausal as ac
 
 from .canonical import canonical_form
-from .interfaces import INIT, SISO, PartialStart
+from .conventions import INIT
+from .interfaces import SISO, PartialStart
+
+__modelica__ = "Modelica.Blocks.Nonlinear"
 
 
 class Limiter(SISO):

@@ -7,6 +7,8 @@ import acausal as ac
 
 from .interfaces import NegativePin, PositivePin
 
+__modelica__ = "Modelica.Electrical.Analog.Basic"
+
 
 class OpAmp(ac.Component):
     """Amplifier with a smooth characteristic between the potentials of ``VMin`` and ``VMax``.

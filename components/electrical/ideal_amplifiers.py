@@ -7,7 +7,10 @@ import acausal as ac
 
 from .interfaces import NegativePin, PositivePin
 
-LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
+__modelica__ = "Modelica.Electrical.Analog.Ideal"
+
+
+_LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
 
 
 class IdealOpAmp(ac.Component):
@@ -103,7 +106,7 @@ class IdealizedOpAmpLimited(_Limited):
     Vps = ac.Parameter(15.0, unit="V", doc="positive supply without pins")
     Vns = ac.Parameter(-15.0, unit="V", doc="negative supply without pins")
     strict = ac.Option(True, doc="without effect")
-    homotopyType = ac.Option("NoHomotopy", choices=LIMITER_HOMOTOPY, doc="without effect")
+    homotopyType = ac.Option("NoHomotopy", choices=_LIMITER_HOMOTOPY, doc="without effect")
     s_p = PositivePin(when="useSupply")
     s_n = NegativePin(when="useSupply")
     vps = ac.Variable(unit="V", doc="positive supply")

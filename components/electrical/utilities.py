@@ -10,21 +10,13 @@ import acausal as ac
 
 from . import basic
 from .adaptors import GeneralCurrentToVoltageAdaptor, GeneralVoltageToCurrentAdaptor
+from .bipolar import NPN
+from .currents import SignalCurrent
 from .interfaces import OnePort, Pin
-from .semiconductors import NMOS, NPN, PMOS
-from .sources import SignalCurrent, SignalVoltage
+from .mosfets import NMOS, PMOS
+from .voltages import SignalVoltage
 
-__all__ = [
-    "Conductor",
-    "DirectCapacitor",
-    "DirectInductor",
-    "InverseCapacitor",
-    "InverseInductor",
-    "Nand",
-    "NonlinearResistor",
-    "Resistor",
-    "Transistor",
-]
+__modelica__ = "Modelica.Electrical.Analog.Examples.Utilities"
 
 
 class NonlinearResistor(OnePort):

@@ -9,12 +9,17 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import M_FLOW_SMALL, FlowPort, enthalpy_flow
+from .interfaces import FlowPort
 from .media import Medium
+from .mixing import M_FLOW_SMALL, enthalpy_flow
+
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.BaseClasses"
 
 
 class PartialMedium(ac.Component):
     """A component that is filled with a medium, a record of `acausal.components.fluid.media`."""
+
+    __modelica__ = None
 
     medium = ac.Option(Medium(), doc="medium in the component")
 
@@ -100,6 +105,8 @@ class TwoPort(PartialMedium):
 class PartialAdiabatic(TwoPort):
     """Two flow ports without heat exchange: ``Q_flow = 0``."""
 
+    __modelica__ = None
+
     tapT = 1
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -147,6 +154,8 @@ class PartialSinglePort(PartialMedium):
     With `Exchange` the port's enthalpy flow follows from the mixing rule `enthalpy_flow`; else the
     medium has the enthalpy of the port.
     """
+
+    __modelica__ = None
 
     Exchange = True
 

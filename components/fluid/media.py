@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.Media"
+
 
 @dataclass(frozen=True)
 class Medium:

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import acausal as ac
 from acausal.components.nature import g_n
 
-from .interfaces import RHO, FluidPort, PartialTwoPortTransport
+from .interfaces import FluidPort, PartialTwoPortTransport
+from .water import RHO
 
 
 class OpenTank(ac.Component):

@@ -10,15 +10,7 @@ from acausal.components import nature
 from .interfaces import Reluctance
 from .soft_magnetic import BaseData
 
-__all__ = [
-    "Cuboid",
-    "FixedShape",
-    "GenericFluxTube",
-    "HollowCylinderAxialFlux",
-    "HollowCylinderCircumferentialFlux",
-    "HollowCylinderRadialFlux",
-    "Toroid",
-]
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.FixedShape"
 
 
 class FixedShape(Reluctance):
@@ -28,6 +20,8 @@ class FixedShape(Reluctance):
     ``1 + (mu_i - 1 + c_a b)/(1 + c_b b + b**n)`` with ``b = |B/B_myMax|``. Its coefficients are those of
     the record ``material``, one of `soft_magnetic`, unless given. A subclass states ``A`` and ``G_m``.
     """
+
+    __modelica__ = None
 
     nonLinearPermeability = ac.Option(True, doc="whether mu_r depends on B")
     material = ac.Option(BaseData(), doc="soft magnetic material")

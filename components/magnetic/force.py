@@ -5,18 +5,11 @@ from typing import Any
 
 import acausal as ac
 from acausal.components import nature
-from acausal.components.translational.interfaces import Flange_b, Support
+from acausal.components.mechanics.translational import Flange_b, Support
 
 from .interfaces import Reluctance
 
-__all__ = [
-    "CuboidOrthogonalFlux",
-    "CuboidParallelFlux",
-    "Force",
-    "HollowCylinderAxialFlux",
-    "HollowCylinderRadialFlux",
-    "LeakageAroundPoles",
-]
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.Force"
 
 
 class Force(Reluctance):
@@ -26,6 +19,8 @@ class Force(Reluctance):
     fixed at 0. ``dlBydx`` is 1 where it grows with the armature's position, else -1. The relative
     permeability ``mu_r`` is constant. A subclass states ``G_m`` [H] and its derivative ``dGmBydx`` [H/m].
     """
+
+    __modelica__ = None
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed at 0")
     dlBydx = ac.Option(1, choices=(1, -1), doc="derivative of l by the armature's position")

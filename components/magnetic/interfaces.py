@@ -9,6 +9,8 @@ from collections.abc import Iterator
 
 import acausal as ac
 
+__modelica__ = "Modelica.Magnetic.FluxTubes.Interfaces"
+
 
 class MagneticPort(ac.Connector):
     """Magnetic potential ``V_m`` [A] and flux ``Phi`` [Wb], positive into the component."""
@@ -55,6 +57,8 @@ class TwoPort(TwoPortExtended):
 
 class Reluctance(TwoPort):
     """A flux tube with ``V_m = Phi R_m`` and ``R_m = 1/G_m``; a subclass states one of the two."""
+
+    __modelica__ = None
 
     R_m = ac.Variable(unit="1/H", nominal=1e6, doc="magnetic reluctance")
     G_m = ac.Variable(unit="H", nominal=1e-6, doc="magnetic permeance")

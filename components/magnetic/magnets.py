@@ -9,6 +9,8 @@ from acausal.components import nature
 from .hard_magnetic import BaseData
 from .interfaces import TwoPort
 
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.HysteresisAndMagnets"
+
 
 class GenericLinearPermanentMagnet(TwoPort):
     """Permanent magnet with a straight characteristic: ``B = -B_r + mu_0 mu_r H``.

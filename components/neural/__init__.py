@@ -8,26 +8,15 @@ J. Kamp, J. Ultsch, J. Brembeck: Closing the Sim-to-Real Gap with Physics-Enhanc
 ICINCO 2023, doi 10.5220/0012160100003543.
 """
 
-from .characteristic import Characteristic
-from .compliance import Compliance
-from .hysteresis import Hysteresis
-from .inductance import Inductance
-from .interfaces import PartialLaw, PartialNetwork, PartialNeural, PartialTwoPort
-from .multiport import CompliancePort, MultiportCompliance
-from .resistance import Resistance
-from .transformer import LossyTransformer
+from acausal.components.modelica import export
 
-__all__ = [
-    "Characteristic",
-    "Compliance",
-    "CompliancePort",
-    "Hysteresis",
-    "Inductance",
-    "LossyTransformer",
-    "MultiportCompliance",
-    "PartialLaw",
-    "PartialNetwork",
-    "PartialNeural",
-    "PartialTwoPort",
-    "Resistance",
-]
+from .characteristic import *
+from .compliance import *
+from .hysteresis import *
+from .inductance import *
+from .interfaces import *
+from .multiport import *
+from .resistance import *
+from .transformer import *
+
+export(__name__)

@@ -5,8 +5,8 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import PartialLaw, named
-from .resistance import ZERO_CROSSING
+from .choices import ZERO_CROSSING
+from .interfaces import PartialLaw, _named
 
 
 class Characteristic(PartialLaw):
@@ -40,7 +40,7 @@ class Characteristic(PartialLaw):
     promises = (*PartialLaw.promises, "monotone", "zero_crossing", "floor", "start")
 
     def __init__(self, *, secondary: int | Sequence[str] = (), **modifiers: Any) -> None:
-        self.secondary = named(secondary)
+        self.secondary = _named(secondary)
         self._declare_secondary()
         super().__init__(**modifiers)
 

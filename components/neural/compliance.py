@@ -6,11 +6,9 @@ from typing import Any
 import acausal as ac
 from acausal.components.translational import Flange
 
-from .interfaces import PartialNeural, across_unit, flow_unit, product_unit
-from .resistance import ZERO_CROSSING
-
-FLOOR = 1e-3
-"""Default of ``floor`` where the slope of a monotone law is divided by."""
+from .choices import FLOOR, ZERO_CROSSING
+from .interfaces import PartialNeural
+from .units import across_unit, flow_unit, product_unit
 
 
 class Compliance(PartialNeural):

@@ -5,8 +5,9 @@ from typing import Any
 
 import acausal as ac
 
-from .compliance import FLOOR
-from .interfaces import PartialNeural, across_unit, flow_unit, per_second, product_unit
+from .choices import FLOOR
+from .interfaces import PartialNeural
+from .units import across_unit, flow_unit, per_second, product_unit
 
 
 class Inductance(PartialNeural):

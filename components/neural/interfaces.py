@@ -6,6 +6,8 @@ from typing import Any
 import acausal as ac
 from acausal.components.translational import Flange
 
+from .units import across_unit, flow_unit
+
 
 class PartialTwoPort(ac.Component):
     """Two connectors and the variables between them, under the names of their domain.
@@ -180,7 +182,7 @@ class PartialNeural(PartialTwoPort, PartialLaw):
         secondary: int | Sequence[str] = (),
         **modifiers: Any,
     ) -> None:
-        self.secondary = named(secondary)
+        self.secondary = _named(secondary)
         super().__init__(connector, **modifiers)
 
     def _declare(self) -> None:
@@ -188,28 +190,7 @@ class PartialNeural(PartialTwoPort, PartialLaw):
         self._declare_secondary()
 
 
-def named(secondary: int | Sequence[str]) -> tuple[str, ...]:
+def _named(secondary: int | Sequence[str]) -> tuple[str, ...]:
     """Names of secondary inputs; of a number of them ``u1``, ``u2`` and so on."""
     names = [f"u{i + 1}" for i in range(secondary)] if isinstance(secondary, int) else secondary
     return tuple(names)
-
-
-def across_unit(connector: type[ac.Connector]) -> str:
-    """Unit of the difference of two potentials."""
-    potential = connector.declarations[connector.potential()].unit
-    return connector.across_unit or potential
-
-
-def flow_unit(connector: type[ac.Connector]) -> str:
-    """Unit of the flow."""
-    return connector.declarations[connector.flow()].unit
-
-
-def product_unit(*units: str) -> str:
-    """The product of units, in Modelica's spelling."""
-    return ".".join(f"({u})" if "/" in u else u for u in units if u)
-
-
-def per_second(unit: str) -> str:
-    """A unit per second, if there is one."""
-    return f"{unit}/s" if unit else ""

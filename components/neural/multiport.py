@@ -6,7 +6,8 @@ from typing import Any
 import acausal as ac
 from acausal.components.translational import Flange
 
-from .interfaces import PartialNetwork, PartialTwoPort, across_unit, flow_unit, product_unit
+from .interfaces import PartialNetwork, PartialTwoPort
+from .units import across_unit, flow_unit, product_unit
 
 
 class CompliancePort(PartialTwoPort):

@@ -6,9 +6,9 @@ from typing import Any
 import acausal as ac
 from acausal.components.thermal import HeatPort
 
-from .interfaces import PartialNeural, across_unit, per_second
-
-ZERO_CROSSING = (None, "regularizer", "offset", "exact")
+from .choices import ZERO_CROSSING
+from .interfaces import PartialNeural
+from .units import across_unit, per_second
 
 
 class Resistance(PartialNeural):

@@ -7,9 +7,10 @@ import acausal as ac
 from acausal.components.rotational import Flange
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
-from .interfaces import PartialNetwork, across_unit, flow_unit, per_second
+from .interfaces import PartialNetwork
+from .units import across_unit, flow_unit, per_second
 
-LEAST = 0.15
+_LEAST = 0.15
 """Least efficiency. Above 0.107 the effort on one side falls with that on the other, so that it is determined by it."""
 
 
@@ -103,7 +104,7 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
             "input_scale": (rate, 1.0, *others),
         }
         net = ac.MLP(1 + inputs, **{**self._sizes, **chosen}, key=key)
-        return ac.networks.Between(net, LEAST, 1.0, start=2.0)
+        return ac.networks.Between(net, _LEAST, 1.0, start=2.0)
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

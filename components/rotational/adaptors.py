@@ -3,8 +3,11 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
 
-from .interfaces import STATE_SELECT, Flange, PartialTwoFlanges
+from .interfaces import Flange, PartialTwoFlanges
+
+__modelica__ = "Modelica.Mechanics.Rotational.Components"
 
 
 class InitializeFlange(ac.Component):

@@ -5,34 +5,8 @@ from collections.abc import Iterator
 import acausal as ac
 
 from .interfaces import PartialElementaryOneFlangeAndSupport2
-from .torques import (
-    ConstantTorque,
-    EddyCurrentTorque,
-    InverseSpeedDependentTorque,
-    LinearSpeedDependentTorque,
-    QuadraticSpeedDependentTorque,
-    SignTorque,
-    Torque,
-    Torque2,
-    TorqueStep,
-)
 
-__all__ = [
-    "Accelerate",
-    "ConstantSpeed",
-    "ConstantTorque",
-    "EddyCurrentTorque",
-    "InverseSpeedDependentTorque",
-    "LinearSpeedDependentTorque",
-    "Move",
-    "Position",
-    "QuadraticSpeedDependentTorque",
-    "SignTorque",
-    "Speed",
-    "Torque",
-    "Torque2",
-    "TorqueStep",
-]
+__modelica__ = "Modelica.Mechanics.Rotational.Sources"
 
 
 class Position(PartialElementaryOneFlangeAndSupport2):

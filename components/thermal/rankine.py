@@ -6,13 +6,7 @@ import acausal as ac
 
 from . import scales, sensors, sources
 
-__all__ = [
-    "FixedTemperature",
-    "FromKelvin",
-    "PrescribedTemperature",
-    "TemperatureSensor",
-    "ToKelvin",
-]
+__modelica__ = "Modelica.Thermal.HeatTransfer.Rankine"
 
 
 class FixedTemperature(scales.Rankine, sources.FixedTemperature):

@@ -7,6 +7,8 @@ import acausal as ac
 from .interfaces import HeatPort
 from .scales import Kelvin
 
+__modelica__ = "Modelica.Thermal.HeatTransfer.Sensors"
+
 
 class TemperatureSensor(Kelvin):
     """Absolute temperature: ``T = port.T`` [K]."""

@@ -8,6 +8,8 @@ import acausal as ac
 from .interfaces import HeatPort
 from .scales import Kelvin
 
+__modelica__ = "Modelica.Thermal.HeatTransfer.Sources"
+
 
 class FixedTemperature(Kelvin):
     """A constant temperature, whatever the heat flow: ``port.T = T`` [K]."""
@@ -29,7 +31,7 @@ class PrescribedTemperature(Kelvin):
         yield ac.Eq(self.port.T, self.to_kelvin(self.T))
 
 
-class PartialHeatFlow(ac.Component):
+class _HeatFlow(ac.Component):
     """Base of heat sources: ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``.
 
     A positive ``Q_flow`` [W] heats what is connected. A subclass says where it comes from.
@@ -45,7 +47,7 @@ class PartialHeatFlow(ac.Component):
         yield ac.Eq(self.port.Q_flow, -self.Q_flow * warm)
 
 
-class FixedHeatFlow(PartialHeatFlow):
+class FixedHeatFlow(_HeatFlow):
     """A constant heat flow rate into what is connected.
 
     ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, say, that grow
@@ -55,7 +57,7 @@ class FixedHeatFlow(PartialHeatFlow):
     Q_flow = ac.Parameter(unit="W", doc="heat flow rate at the reference temperature")
 
 
-class PrescribedHeatFlow(PartialHeatFlow):
+class PrescribedHeatFlow(_HeatFlow):
     """A heat flow signal ``Q_flow`` [W] into what is connected.
 
     ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``.

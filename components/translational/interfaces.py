@@ -1,33 +1,13 @@
-"""The translational flange, and the bases that components and users' own elements extend.
-
-Along one axis of movement: a positive position, speed or force points in its positive direction. A
-flange's force ``f`` is positive where it pushes the component that way.
-"""
+"""Bases that components and users' own elements extend; for the flange see `acausal.components.mechanics`."""
 
 from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
+from acausal.components.mechanics.translational import Flange, Support
 
-STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
-
-
-class Flange(ac.Connector):
-    """Position ``s`` [m] and cut force ``f`` [N], positive into the component."""
-
-    s = ac.Potential(unit="m", doc="absolute position of the flange")
-    f = ac.Flow(unit="N", doc="cut force in the flange")
-
-    pair = ("flange_a", "flange_b")
-    across = "s_rel"
-    through = "f"
-    rate = "v_rel"
-    second_minus_first = True
-
-
-Flange_a = Flange
-Flange_b = Flange
-Support = Flange
+__modelica__ = "Modelica.Mechanics.Translational.Interfaces"
 
 
 class PartialTwoFlanges(ac.Component):
@@ -151,6 +131,8 @@ class PartialForce(PartialElementaryOneFlangeAndSupport2):
 
 class PartialSpeedDependentForce(PartialForce):
     """A force that depends on the flange's speed ``v = der(s)`` [m/s] against the support."""
+
+    __modelica__ = None
 
     v = ac.Variable(unit="m/s", doc="speed of the flange relative to the support")
 

@@ -4,35 +4,9 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .forces import (
-    ConstantForce,
-    EddyCurrentForce,
-    Force,
-    Force2,
-    ForceStep,
-    InverseSpeedDependentForce,
-    LinearSpeedDependentForce,
-    QuadraticSpeedDependentForce,
-    SignForce,
-)
 from .interfaces import PartialElementaryOneFlangeAndSupport2, PartialSpeedDependentForce
 
-__all__ = [
-    "Accelerate",
-    "ConstantForce",
-    "ConstantSpeed",
-    "EddyCurrentForce",
-    "Force",
-    "Force2",
-    "ForceStep",
-    "InverseSpeedDependentForce",
-    "LinearSpeedDependentForce",
-    "Move",
-    "Position",
-    "QuadraticSpeedDependentForce",
-    "SignForce",
-    "Speed",
-]
+__modelica__ = "Modelica.Mechanics.Translational.Sources"
 
 
 class Position(PartialElementaryOneFlangeAndSupport2):
