@@ -10,8 +10,8 @@ from types import ModuleType
 import acausal as ac
 
 MODELICA: dict[str, str] = {
-    "Modelica.Mechanics.Translational": "translational",
     "Modelica.Mechanics.Rotational": "rotational",
+    "Modelica.Mechanics.Translational": "translational",
     "Modelica.Electrical.Analog": "electrical",
     "Modelica.Thermal.HeatTransfer": "thermal",
     "Modelica.Thermal.FluidHeatFlow": "fluid",
@@ -86,16 +86,14 @@ def export(package: str, *modules: str) -> None:
         else:
             delattr(this, name)
     for module in modules:
-        for name, cls in _classes(vars(this)[module]).items():
-            names |= {f"{home}.{name}": f"{module}.{name}" for home in _homes(cls)}
+        inner = vars(this)[module]
+        own = [n for n, v in vars(inner).items() if getattr(v, "__module__", "") == inner.__name__]
+        inner.__all__ = [name for name in own if not name.startswith("_")]
+        for name in inner.__all__:
+            for home in _homes(vars(inner)[name]):
+                names.setdefault(f"{home}.{name}", f"{module}.{name}")
     public.sort()
     vars(this).update(__all__=public, __dir__=lambda: public, MODELICA_NAMES=names)
-
-
-def _classes(module: ModuleType) -> dict[str, type]:
-    """The public classes that a module defines."""
-    own = {n: v for n, v in vars(module).items() if isinstance(v, type) and n[0] != "_"}
-    return {n: v for n, v in own.items() if v.__module__ == module.__name__}
 
 
 def _homes(value: object) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ import acausal as ac
 
 from .conventions import INIT
 from .integrators import Derivative, Integrator
-from .interfaces import SISO, SVcontrol
+from .interfaces import SISO, PartialState, SVcontrol
 from .math import Add, Add3, Gain
 from .nonlinear import Limiter
 from .sources import Constant
@@ -18,30 +18,16 @@ __modelica__ = "Modelica.Blocks.Continuous"
 _CONTROLLER = ("P", "PI", "PD", "PID")
 
 
-class PI(SISO):
+class PI(SISO, PartialState):
     """``k (1 + 1/(T s))``: ``der(x) = u/T``, ``y = k (x + u)``."""
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(unit="s", min=0, doc="time constant")
-    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
-    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
-    y_start = ac.Parameter(0.0, doc="initial value of the output")
     x = ac.Variable(start="x_start", doc="state: the integral part")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(ac.der(self.x), self.u / self.T)
         yield ac.Eq(self.y, self.k * (self.x + self.u))
-
-    def initial_equations(self) -> Iterator[ac.Eq]:
-        match self.initType:
-            case "SteadyState":
-                yield ac.Eq(ac.der(self.x), 0)
-            case "InitialState":
-                yield ac.Eq(self.x, self.x_start)
-            case "InitialOutput":
-                yield ac.Eq(self.y, self.y_start)
-            case _:
-                pass
 
 
 class PID(SISO):

@@ -1,4 +1,4 @@
-"""Sampled blocks (`Modelica.Blocks.Discrete`): they raise an error, since they need discrete states."""
+"""Sampled blocks (`Modelica.Blocks.Discrete`), which raise an error since they need discrete states."""
 
 from .interfaces import NeedsDiscreteStates
 

@@ -126,6 +126,33 @@ class PartialStart(ac.Component):
             yield ac.Eq(self.y, self.y_start)
 
 
+class PartialState(ac.Component):
+    """What blocks with one state ``x`` share: ``initType``, ``x_start`` and ``y_start``.
+
+    ``SteadyState``: ``der(x) = 0``; ``InitialState``: ``x = x_start``; ``InitialOutput``: ``y = y_start``;
+    ``NoInit``: ``x_start`` is a guess.
+    """
+
+    __modelica__ = None
+
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
+    y_start = ac.Parameter(0.0, doc="initial value of the output")
+    x: Any
+    y: Any
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        match self.initType:
+            case "SteadyState":
+                yield ac.Eq(ac.der(self.x), 0)
+            case "InitialState":
+                yield ac.Eq(self.x, self.x_start)
+            case "InitialOutput":
+                yield ac.Eq(self.y, self.y_start)
+            case _:
+                pass
+
+
 class NeedsDiscreteStates(ac.Component):
     """Base of blocks that Modelica has and that cannot be made yet: they remember, or wait for events.
 

@@ -1,4 +1,4 @@
-"""Blocks that remember or wait for events: they raise an error, since they need discrete states."""
+"""Blocks that remember or wait for events, which raise an error since they need discrete states."""
 
 from .interfaces import NeedsDiscreteStates
 

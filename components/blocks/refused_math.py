@@ -1,4 +1,4 @@
-"""Mathematical blocks that remember or wait for events: they raise an error, since they need discrete states."""
+"""Mathematical blocks that remember or wait for events, which raise an error since they need discrete states."""
 
 from .interfaces import NeedsDiscreteStates
 

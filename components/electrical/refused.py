@@ -1,4 +1,4 @@
-"""Ideal elements that remember or wait for events: they raise an error, since they need discrete states."""
+"""Ideal elements that remember or wait for events, which raise an error since they need discrete states."""
 
 from acausal.components.blocks.interfaces import NeedsDiscreteStates
 

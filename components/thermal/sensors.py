@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import acausal as ac
 
+from . import scales
 from .interfaces import HeatPort
-from .scales import Kelvin
 
 __modelica__ = "Modelica.Thermal.HeatTransfer.Sensors"
 
 
-class TemperatureSensor(Kelvin):
+class TemperatureSensor(scales.Kelvin):
     """Absolute temperature: ``T = port.T`` [K]."""
 
     T = ac.Output(unit="K", doc="absolute temperature of the port")

@@ -5,13 +5,13 @@ from typing import Any
 
 import acausal as ac
 
+from . import scales
 from .interfaces import HeatPort
-from .scales import Kelvin
 
 __modelica__ = "Modelica.Thermal.HeatTransfer.Sources"
 
 
-class FixedTemperature(Kelvin):
+class FixedTemperature(scales.Kelvin):
     """A constant temperature, whatever the heat flow: ``port.T = T`` [K]."""
 
     T = ac.Parameter(unit="K", doc="temperature at the port")
@@ -21,7 +21,7 @@ class FixedTemperature(Kelvin):
         yield ac.Eq(self.port.T, self.to_kelvin(self.T))
 
 
-class PrescribedTemperature(Kelvin):
+class PrescribedTemperature(scales.Kelvin):
     """A temperature signal ``T`` [K], whatever the heat flow: ``port.T = T``."""
 
     T = ac.Input(unit="K", doc="temperature at the port")
