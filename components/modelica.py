@@ -5,7 +5,6 @@ packages. A class for which this is not so has its own ``__modelica__``: None if
 """
 
 import sys
-from types import ModuleType
 
 import acausal as ac
 
@@ -77,7 +76,7 @@ def export(package: str, *modules: str) -> None:
     domain = {place: m for m, place in MODELICA.items()}.get(package.rpartition(".")[2])
     public, names = list(modules), dict[str, str]()
     for name, value in list(vars(this).items()):
-        if name.startswith("_") or isinstance(value, ModuleType):
+        if name.startswith("_") or value is sys.modules.get(f"{package}.{name}"):
             continue
         homes = [home for home in _homes(value) if domain and home.startswith(f"{domain}.")]
         if homes or (isinstance(value, type) and value.__module__.startswith(f"{package}.")):

@@ -44,7 +44,7 @@ class Characteristic(PartialLaw):
         self._declare_secondary()
         super().__init__(**modifiers)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Law(
             monotone=self.monotone,
             zero_crossing=self.zero_crossing,

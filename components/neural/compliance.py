@@ -59,7 +59,7 @@ class Compliance(PartialNeural):
             flow = flow_unit(kind) if self._is_mechanical else stored
             self.E = ac.Variable(unit=product_unit(across_unit(kind), flow), doc="stored energy")
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         rising = self.convex if self.energy else self.monotone
         if self.energy and self.monotone:
             raise ac.DeclarationError("the law of an energy is monotone with convex=True; say that")

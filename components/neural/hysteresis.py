@@ -57,7 +57,7 @@ class Hysteresis(PartialTwoPort, PartialNetwork):
         self.E = ac.Variable(unit=product_unit(flow, rate, "s"), doc="stored energy")
         self.lossPower = ac.Variable(unit=product_unit(flow, rate), doc="power that is lost")
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         sizes: dict[str, Any] = {**self._sizes, "input_scale": 1.0, "output_scale": 1.0}
         return ac.networks.Energy(convex=True, passive=True, odd=self.odd, **sizes)
 

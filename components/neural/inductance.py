@@ -58,7 +58,7 @@ class Inductance(PartialNeural):
             speed = ac.Variable(unit=per_second(unit), state="prefer", doc="speed")
             setattr(self, _speed(kind.rate), speed)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Energy(
             convex=True, passive=True, floor=self.floor, start=1.0, **self._sizes
         )

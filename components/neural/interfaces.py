@@ -97,21 +97,21 @@ class PartialNetwork(ac.Component):
                 "ac.networks, such as Passive, or leave out net=..."
             )
         try:
-            self._recipe()
+            self._spec()
         except ac.DeclarationError as error:
             raise ac.DeclarationError(f"{self._label()}: {error}") from None
 
     def _fresh(self, key: Any) -> Any:
         """The network, with fresh weights."""
-        return self._recipe()(key)
+        return self._spec()(key)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         """How the network is made."""
         raise NotImplementedError
 
     @property
     def _sizes(self) -> dict[str, Any]:
-        """The options that every recipe has."""
+        """The options that every network has."""
         scale = self.input_scale
         return {
             "width": self.width,

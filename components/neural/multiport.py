@@ -87,7 +87,7 @@ class MultiportCompliance(PartialNetwork):
         time = "" if kind.rate is not None else "s"
         return product_unit(across_unit(kind), flow_unit(kind), time)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Energy(
             inputs=len(self.ports),
             secondary=len(self.secondary),

@@ -53,7 +53,7 @@ class Resistance(PartialNeural):
             unit = per_second(across_unit(self.connector))
             setattr(self, self.connector.rate, ac.Variable(unit=unit, doc="rate of the difference"))
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Law(
             passive=self.passive,
             monotone=self.monotone,

@@ -92,7 +92,7 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
             names = [tuple(n + mark for n in same) for same, mark in zip(names, marks, strict=True)]
         return ("a", kinds[0], names[0]), ("b", kinds[1], names[1])
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return self._efficiency
 
     def _efficiency(self, key: Any) -> Any:
