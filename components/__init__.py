@@ -12,7 +12,7 @@
 | `hydraulic` | after `Modelica.Fluid`, without heat |
 | `neural` | none: two-ports of any domain whose law is a network |
 
-The library is written as a user writes one: it knows the rest of the package only as
+The library is written as users write their own: it uses the rest of the package only through
 ``import acausal as ac``.
 """
 

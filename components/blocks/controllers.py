@@ -73,7 +73,7 @@ class LimPID(SVcontrol):
     ``y = limiter(k (wp u_s - u_m + I + D) + kFF u_ff)`` between ``yMin`` (default ``-yMax``) and ``yMax``;
     ``I`` integrates ``(u_s - u_m + (y - unlimited)/(k Ni))/Ti``, ``D`` is the approximate derivative of
     ``Td (wd u_s - u_m)``. ``controllerType`` chooses ``"P"``, ``"PI"``, ``"PD"`` or ``"PID"``;
-    ``withFeedForward`` adds the input ``u_ff``. The parts bear Modelica's names: `addP`, `P`, `addI`, `I`,
+    ``withFeedForward`` adds the input ``u_ff``. The parts have Modelica's names: `addP`, `P`, `addI`, `I`,
     `addSat`, `gainTrack`, `addD`, `D`, `addPID`, `gainPID`, `addFF`, `limiter`. ``strict`` and
     ``homotopyType`` have no effect. Choose options where the controller is made.
     """

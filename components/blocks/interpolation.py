@@ -40,7 +40,7 @@ def rows(component: Any) -> np.ndarray:
     """A component's option ``table`` as an array with at least two columns.
 
     Raises:
-        DeclarationError: if it is none.
+        DeclarationError: if it is not such a table.
     """
     table = component.table
     if table is None or np.ndim(table) != 2 or np.shape(table)[1] < 2:

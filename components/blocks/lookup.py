@@ -56,7 +56,7 @@ class _Surface(eqx.Module):
     Attributes:
         x, y: grid, shapes (n,) and (m,), ascending. values: shape (n, m).
         smooth: whether to interpolate, bilinearly; else the value at the lower corner holds.
-        hold: whether the values at the border hold outside; else the cells at the border go on.
+        hold: whether the values at the border hold outside; else the cells at the border continue.
     """
 
     x: Any

@@ -34,9 +34,9 @@ class _TimeTable(ac.Component):
 
 
 class TimeTable(SO, _TimeTable):
-    """Linear interpolation in rows ``[t, y]``; a time that stands twice is a jump.
+    """Linear interpolation in rows ``[t, y]``; a repeated time is a jump.
 
-    Beyond its ends the table goes on through its first and last two points. The values are a module,
+    Outside of its times the table continues through its first and last two points. The values are a module,
     ``column``, among the model's parameters.
     """
 
@@ -54,11 +54,11 @@ class PartialColumns(ac.Component):
     """What tables with several columns of values share.
 
     ``smoothness``: ``LinearSegments``, ``ConstantSegments``, or ``ContinuousDerivative``, a cubic
-    Hermite spline (its slopes are those of parabolas through three neighbours; Modelica's are
+    Hermite spline (its derivatives are those of parabolas through three neighbours; Modelica's are
     Akima's). ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints``, ``Periodic``, or
     ``NoExtrapolation``, which holds the last point too (Modelica stops there). ``columns`` counts from 1,
-    the column of times or arguments; by default all others are outputs. A time or argument that stands twice
-    is a jump. Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
+    the column of times or arguments; by default all others are outputs. A repeated time or argument is a
+    jump. Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
     """
 
     __modelica__ = None

@@ -20,7 +20,7 @@ __modelica__ = "Modelica.Electrical.Analog.Examples.Utilities"
 
 
 class NonlinearResistor(OnePort):
-    """Chua's resistor: ``i = Ga v`` for ``|v| < Ve``, beyond with the slope ``Gb``."""
+    """Chua's resistor: ``i = Ga v`` for ``|v| < Ve``, outside with the conductance ``Gb``."""
 
     Ga = ac.Parameter(unit="S", doc="conductance at small voltages")
     Gb = ac.Parameter(unit="S", doc="conductance at large voltages")

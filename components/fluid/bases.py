@@ -28,7 +28,7 @@ class PartialMedium(ac.Component):
         medium = modifiers.get("medium", self.medium)
         if not isinstance(medium, Medium):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: medium={medium!r} is no medium; give a record such as fluid.Water()"
+                f"{type(self).__name__}: medium={medium!r} is not a medium; give a record such as fluid.Water()"
             )
         super().modify(**modifiers)
 
@@ -38,7 +38,7 @@ class TwoPort(PartialMedium):
 
     ``dp = flowPort_a.p - flowPort_b.p`` [Pa], ``V_flow = flowPort_a.m_flow / rho`` [m3/s] from a to b,
     ``h = cp T``. The energy balance is ``flowPort_a.H_flow + flowPort_b.H_flow + Q_flow = m cv der(T)``; with
-    ``m = 0``, given as a number, ``T`` is no state. What the ports carry follows from the mixing rule
+    ``m = 0``, given as a number, ``T`` is not a state. What the ports carry follows from the mixing rule
     `enthalpy_flow`. A subclass states ``Q_flow`` [W], the heat into the medium, and a relation between
     ``dp`` and ``V_flow``.
 
@@ -79,7 +79,7 @@ class TwoPort(PartialMedium):
     flowPort_b = FlowPort()
 
     def modify(self, **modifiers: Any) -> None:
-        """As of every component; a mass of zero is none, so that there is no state."""
+        """Change modifiers; a mass of zero counts as no mass, so that there is no state."""
         if modifiers.get("m") == 0:
             del modifiers["m"]
             self._modifiers.pop("m", None)

@@ -57,7 +57,7 @@ class FixedShape(Reluctance):
         material = modifiers.get("material", self.material)
         if not isinstance(material, BaseData):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: material={material!r} is no soft magnetic material; "
+                f"{type(self).__name__}: material={material!r} is not a soft magnetic material; "
                 "give a record such as magnetic.M350_50A()"
             )
         super().modify(**modifiers)
@@ -73,7 +73,7 @@ class FixedShape(Reluctance):
         if not self.nonLinearPermeability:
             return self.mu_rConst
         b = ac.Abs(self.B / self.B_myMax)
-        power = ac.maximum(b, 1e-12) ** self.n  # whose slope is finite at 0
+        power = ac.maximum(b, 1e-12) ** self.n  # whose derivative is finite at 0
         return 1 + (self.mu_i - 1 + self.c_a * b) / (1 + self.c_b * b + power)
 
     def _stated(self, area: Any, per_permeability: Any) -> Iterator[ac.Eq]:

@@ -40,10 +40,10 @@ class Force(Reluctance):
         if self.useSupport:
             yield ac.Eq(self.support.f, -self.flange.f)
 
-    def _stated(self, permeance: Any, slope: Any) -> Iterator[ac.Eq]:
+    def _stated(self, permeance: Any, dGmBydl: Any) -> Iterator[ac.Eq]:
         """The permeance and its derivative by ``l``."""
         yield ac.Eq(self.G_m, permeance)
-        yield ac.Eq(self.dGmBydx, slope * self.dlBydx)
+        yield ac.Eq(self.dGmBydx, dGmBydl * self.dlBydx)
 
 
 class _Permeable(Force):
@@ -85,8 +85,8 @@ class HollowCylinderRadialFlux(_Permeable):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        slope = 2 * ac.pi * self._mu / ac.log(self.r_o / self.r_i)
-        yield from self._stated(slope * self.l, slope)
+        dGmBydl = 2 * ac.pi * self._mu / ac.log(self.r_o / self.r_i)
+        yield from self._stated(dGmBydl * self.l, dGmBydl)
         yield ac.Eq(self.B_avg, self.Phi / (ac.pi * (self.r_i + self.r_o) * self.l))
 
 
@@ -113,8 +113,8 @@ class CuboidOrthogonalFlux(_Permeable):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        slope = self._mu * self.a / self.b
-        yield from self._stated(slope * self.l, slope)
+        dGmBydl = self._mu * self.a / self.b
+        yield from self._stated(dGmBydl * self.l, dGmBydl)
         yield ac.Eq(self.B, self.Phi / (self.a * self.l))
 
 
@@ -127,5 +127,5 @@ class LeakageAroundPoles(Force):
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         width, ratio = nature.mu_0 * self.w, ac.pi * self.r / self.l
-        slope = -width * self.r / (self.l**2 * (1 + ratio))
-        yield from self._stated(width / ac.pi * ac.log(1 + ratio), slope)
+        dGmBydl = -width * self.r / (self.l**2 * (1 + ratio))
+        yield from self._stated(width / ac.pi * ac.log(1 + ratio), dGmBydl)

@@ -1,7 +1,7 @@
 """The magnetic port, and the bases of flux tubes.
 
 A port's flux ``Phi`` is positive into the component. ``V_m = port_p.V_m - port_n.V_m`` is the magnetic
-potential difference, the field strength along the tube's length. The product of the two is no power: that is
+potential difference, the field strength along the tube's length. The product of the two is not a power: that is
 ``V_m der(Phi)``.
 """
 

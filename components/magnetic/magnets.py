@@ -32,7 +32,7 @@ class GenericLinearPermanentMagnet(TwoPort):
         material = modifiers.get("mat", self.mat)
         if not isinstance(material, BaseData):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: mat={material!r} is no hard magnetic material; "
+                f"{type(self).__name__}: mat={material!r} is not a hard magnetic material; "
                 "give a record such as magnetic.hard_magnetic.NdFeB()"
             )
         super().modify(**modifiers)

@@ -24,7 +24,7 @@ class PartialTwoPort(ac.Component):
     def __init__(self, connector: type[ac.Connector] = Flange, **modifiers: Any) -> None:
         if not (isinstance(connector, type) and issubclass(connector, ac.Connector)):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: connector={connector!r:.60} is no class of connectors; "
+                f"{type(self).__name__}: connector={connector!r:.60} is not a class of connectors; "
                 "give one such as translational.Flange"
             )
         self.connector = connector
@@ -32,7 +32,7 @@ class PartialTwoPort(ac.Component):
         super().__init__(**modifiers)
 
     def _declare(self) -> None:
-        """Declare what bears the domain's names."""
+        """Declare what has the domain's names."""
         for name in self.connector.pair:
             setattr(self, name, self.connector())
         self._declare_between()
@@ -86,7 +86,7 @@ class PartialNetwork(ac.Component):
     """Options of the network that a user's own network would not know of."""
 
     def modify(self, **modifiers: Any) -> None:
-        """As of every component; promises that do not go together are refused here."""
+        """Change modifiers; raises an error for promises that contradict each other."""
         super().modify(**modifiers)
         own = "net" in self._modifiers
         given = [name for name in self.promises if self._options.get(name)]

@@ -37,9 +37,9 @@ class CompliancePort(PartialTwoPort):
 
 
 class MultiportCompliance(PartialNetwork):
-    """A neural compliance of several ports: one energy, ``E = net(x_1, x_2, ...)``, and its slopes.
+    """A neural compliance of several ports: one energy, ``E = net(x_1, x_2, ...)``, and its gradient.
 
-    The effort at port ``i`` is ``ports[i].e = dE/dx_i``: the element is conservative whatever the weights, the
+    The effort at port ``i`` is ``ports[i].e = dE/dx_i``: the element is conservative for all weights, the
     stiffness matrix symmetric. With one domain at each port it converts energy without loss, as a piezo stack or a
     capacitor with a movable plate does. ``passive=True`` makes ``E >= 0``, with no energy and no effort at zero;
     ``convex=True`` makes a rest position stable; ``odd=True`` makes the efforts odd in all displacements together.
@@ -72,8 +72,8 @@ class MultiportCompliance(PartialNetwork):
         pseudo = [kind for kind in connectors if not kind.power]
         if pseudo and any(kind is not pseudo[0] for kind in connectors):
             raise ac.DeclarationError(
-                f"MultiportCompliance: difference times flow is no power for {pseudo[0].__name__}, so that it shares "
-                "no energy with other domains; give ports of one domain"
+                f"MultiportCompliance: difference times flow is not a power for {pseudo[0].__name__}, so that it "
+                "shares no energy with other domains; give ports of one domain"
             )
         self.connectors, self.secondary = tuple(connectors), tuple(secondary)
         self.ports = [CompliancePort(kind) for kind in connectors]

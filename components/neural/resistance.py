@@ -32,14 +32,14 @@ class Resistance(PartialNeural):
     passive = ac.Option(False, doc="the law has the sign of its first input")
     monotone = ac.Option(False, doc="the law never falls")
     zero_crossing = ac.Option(None, choices=ZERO_CROSSING, doc="how the law comes to vanish at 0")
-    floor = ac.Option(0.0, doc="least slope of a monotone law, relative to that of the scales")
+    floor = ac.Option(0.0, doc="least derivative of a monotone law, relative to that of the scales")
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     heatPort = HeatPort(when="useHeatPort")
     lossPower = ac.Variable(unit="W", when="useHeatPort", doc="power that leaves as heat")
     promises = (*PartialNeural.promises, "passive", "monotone", "zero_crossing", "floor")
 
     def modify(self, **modifiers: Any) -> None:
-        """As of every component; promises that do not go together are refused here."""
+        """Change modifiers; raises an error for promises that contradict each other."""
         super().modify(**modifiers)
         if self.useHeatPort and not (self.passive and self.connector.power):
             missing = "passive=True" if self.connector.power else "a domain whose flow has a power"

@@ -61,7 +61,7 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
         for connector in (connector_a, connector_b):
             if not connector.power:
                 raise ac.DeclarationError(
-                    f"LossyTransformer: difference times flow is no power for {connector.__name__}; "
+                    f"LossyTransformer: difference times flow is not a power for {connector.__name__}; "
                     "take mechanical or electrical ports"
                 )
         self.connector_a, self.connector_b = connector_a, connector_b

@@ -104,8 +104,8 @@ class Accelerate(PartialElementaryOneFlangeAndSupport2):
 class Move(PartialElementaryOneFlangeAndSupport2):
     """The flange follows ``u = [phi, w, a]``: angle [rad], speed [rad/s] and acceleration [rad/s2].
 
-    Wherever the model needs a derivative of the angle, the signal is taken for it; whether the three
-    fit together is the user's care.
+    Where the model needs a derivative of the angle, it takes the signal; you must make sure that the three fit
+    together.
     """
 
     u = ac.Input(shape=3, doc="angle, speed and acceleration of the flange")

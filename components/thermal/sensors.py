@@ -51,7 +51,7 @@ class ConditionalFixedHeatFlowSensor(ac.Component):
     """A heat flow sensor for ports that may be absent.
 
     ``Q_flow = -port_b.Q_flow`` [W], ``port_a.T = port_b.T``; with ``useFixedTemperature`` both are held
-    at ``T`` = 293.15 K, so that a sensor with nothing connected is no singular model. Else
+    at ``T`` = 293.15 K, so that the model is not singular with nothing connected. Else
     ``port_a.Q_flow + port_b.Q_flow = 0``, as of a `HeatFlowSensor`.
     """
 

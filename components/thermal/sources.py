@@ -50,7 +50,7 @@ class _HeatFlow(ac.Component):
 class FixedHeatFlow(_HeatFlow):
     """A constant heat flow rate into what is connected.
 
-    ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, say, that grow
+    ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, for example, that grow
     with its temperature.
     """
 

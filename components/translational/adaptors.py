@@ -98,8 +98,8 @@ class GeneralPositionToForceAdaptor(ac.Component):
     """A flange as signals, motion in, force out: ``flange.s = p``, ``f = -flange.f``.
 
     ``f`` [N] drives what is connected to the flange. With ``use_pder`` and ``use_pder2`` the inputs
-    ``pder`` and ``pder2`` are taken for the derivatives of ``p`` wherever the model needs them;
-    without, ``p`` is differentiated.
+    ``pder`` and ``pder2`` serve as the derivatives of ``p`` where the model needs them;
+    without them, ``p`` is differentiated.
     """
 
     use_pder = ac.Option(True, doc="whether the speed is an input")

@@ -11,7 +11,7 @@ __modelica__ = "Modelica.Mechanics.Translational.Interfaces"
 
 
 class PartialTwoFlanges(ac.Component):
-    """Two flanges, and nothing said about them."""
+    """Two flanges without equations."""
 
     flange_a = Flange()
     flange_b = Flange()
@@ -163,7 +163,7 @@ class PartialFriction(ac.Component):
     """What friction elements share: the speed ``v_small`` [m/s] that smooths the law around rest.
 
     Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
-    creeps instead, and it is the stiffer the smaller ``v_small`` is.
+    creeps instead, and it is stiffer for a smaller ``v_small``.
     """
 
     DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")

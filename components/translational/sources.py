@@ -102,8 +102,8 @@ class Accelerate(PartialElementaryOneFlangeAndSupport2):
 class Move(PartialElementaryOneFlangeAndSupport2):
     """The flange follows ``u = [s, v, a]``: position [m], speed [m/s] and acceleration [m/s2].
 
-    Wherever the model needs a derivative of the position, the signal is taken for it; whether the
-    three fit together is the user's care.
+    Where the model needs a derivative of the position, it takes the signal; you must make sure that the three
+    fit together.
     """
 
     u = ac.Input(shape=3, doc="position, speed and acceleration of the flange")

@@ -24,7 +24,7 @@ class Vehicle(ac.Component):
     With the slope's angle ``alpha``, ``tan(alpha) = inclination``:
     ``(m + J/R**2) a = flangeR.tau/R + flangeT.f - Cd rho A/2 u |u| - Cr m g cos(alpha) sign(v) - m g sin(alpha)``
     with the speed ``u = v - vWind`` against the air. The sign is linear below ``vReg``. Wind, rolling
-    resistance ``cr`` and inclination are parameters or input signals. The parts bear Modelica's names.
+    resistance ``cr`` and inclination are parameters or input signals. The parts have Modelica's names.
     """
 
     m = ac.Parameter(unit="kg", min=0, doc="total mass")
