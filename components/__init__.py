@@ -12,7 +12,7 @@
 | `hydraulic` | after `Modelica.Fluid`, without heat |
 | `neural` | none: two-ports of any domain whose law is a network |
 
-The library is written as a user writes one: it knows the rest of the package only as
+The library is written as users write their own: it uses the rest of the package only through
 ``import acausal as ac``.
 """
 
@@ -20,21 +20,11 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .modelica import CATALOG, ENUMERATIONS
+from .modelica import ENUMERATIONS, MODELICA, NOT_COVERED
 
-__all__ = ["CATALOG", "ENUMERATIONS", "FUNCTIONS", "RECORDS"]
+__all__ = ["ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
 
-PACKAGES = (
-    "blocks",
-    "electrical",
-    "fluid",
-    "hydraulic",
-    "magnetic",
-    "neural",
-    "rotational",
-    "thermal",
-    "translational",
-)
+PACKAGES = (*MODELICA.values(), "hydraulic", "neural")
 
 RECORDS: dict[str, Any]
 """Media, materials and material constants, by the last word of their Modelica name."""

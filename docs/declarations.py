@@ -7,10 +7,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import griffe
+
+import acausal.components
 
 KINDS = ("Parameter", "Option", "Module", "Input", "Output", "Potential", "Flow", "Variable")
 """What a declaration may be, in the order of the table; connectors come before inputs."""
@@ -75,6 +78,7 @@ class Declarations(griffe.Extension):
 
     def on_package(self, *, pkg: griffe.Module, **kwargs: Any) -> None:
         """Called when griffe has read a package."""
+        _list_exports(pkg)
         classes = list(_classes(pkg))
         own = {cls.path: _rows(cls) for cls in classes}
         for cls in classes:
@@ -87,6 +91,17 @@ class Declarations(griffe.Extension):
         for cls in classes:
             for name in own[cls.path]:
                 del cls.members[name]
+
+
+def _list_exports(pkg: griffe.Module) -> None:
+    """Tell griffe what the library's packages export: not what ``*`` brings besides."""
+    for package in acausal.components.PACKAGES if pkg.path == "acausal" else ():
+        read = pkg[f"components.{package}"]
+        exports = import_module(f"{acausal.components.__name__}.{package}").__all__
+        read.exports = list(exports)
+        for name, member in list(read.members.items()):
+            if member.is_alias and name not in exports:
+                del read.members[name]
 
 
 def _classes(scope: griffe.Module | griffe.Class) -> Iterator[griffe.Class]:

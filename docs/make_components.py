@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
+import acausal
 import acausal.components
 
 HERE = Path(__file__).resolve().parent
@@ -52,6 +53,7 @@ class Entry:
         """Whether it is a connector or a base, no component to use as it is."""
         return (
             not self.cls.__module__.startswith(acausal.components.__name__)
+            or issubclass(self.cls, acausal.Connector)
             or self.module in BASES
             or self.name.startswith("Partial")
         )
@@ -60,7 +62,7 @@ class Entry:
 def packages() -> list[str]:
     """Names of the library's packages that have public components, in the page's order."""
     found = pkgutil.iter_modules(acausal.components.__path__)
-    shown = [m.name for m in found if m.ispkg or m.name in FIRST]
+    shown = [m.name for m in found if m.ispkg and _public(importlib.import_module(_path(m.name)))]
     return sorted(shown, key=lambda n: (FIRST.index(n) if n in FIRST else len(FIRST), n))
 
 

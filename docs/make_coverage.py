@@ -8,6 +8,7 @@ A test compares the page with what this script makes.
 from __future__ import annotations
 
 from collections import Counter
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -31,33 +32,28 @@ The classes of the Modelica Standard Library 4.1.0 in our domains, and their nam
 def page() -> str:
     """The text of the page."""
     library = Library(components)
-    rows: dict[str, list[tuple[str, str]]] = {
-        package: [(name, status(library, package, place, name)) for name in names]
-        for package, (place, names) in components.CATALOG.items()
-    }
+    rows: dict[str, dict[str, str]] = {}
+    for place in components.MODELICA.values():
+        module = import_module(f"{components.__name__}.{place}")
+        for name, path in module.MODELICA_NAMES.items():
+            package, _, word = name.rpartition(".")
+            discrete = refused(library.find(name))
+            rows.setdefault(package, {})[word] = "*discrete*" if discrete else f"`{place}.{path}`"
+    for package, words in components.NOT_COVERED.items():
+        rows.setdefault(package, {}).update(dict.fromkeys(words.split(), "–"))
     lines = [HEAD, "| package | there | discrete | not there |", "|---|---:|---:|---:|"]
     total: Counter[str] = Counter()
-    for package, classes in rows.items():
-        count = Counter(kind(text) for _, text in classes)
+    for package, classes in sorted(rows.items()):
+        count = Counter(kind(text) for text in classes.values())
         total += count
         lines.append(
             f"| `{package}` | {count['there']} | {count['discrete']} | {count['not there']} |"
         )
     lines.append(f"| all | {total['there']} | {total['discrete']} | {total['not there']} |")
-    for package, classes in rows.items():
+    for package, classes in sorted(rows.items()):
         lines += ["", f"## {package}", "", "| class | here |", "|---|---|"]
-        lines += [f"| `{name}` | {text} |" for name, text in classes]
+        lines += [f"| `{name}` | {text} |" for name, text in sorted(classes.items())]
     return "\n".join(lines) + "\n"
-
-
-def status(library: Library, package: str, place: str, name: str) -> str:
-    """What the table says about a class."""
-    cls = library.find(f"{package}.{name}")
-    record = library.records.get(name)
-    if cls is None:
-        here = record is not None and type(record).__module__.startswith("acausal.components.")
-        return f"`{place}.{name}`" if here else "–"
-    return "*discrete*" if refused(cls) else f"`{place}.{name}`"
 
 
 def refused(cls: Any) -> bool:

@@ -1,10 +1,14 @@
 """Libraries of components: how a file's class names find Python classes.
 
-A library is a module. A class in it is found by its Python path, ``my_library.springs.CubicSpring``, and, where the
-module has a ``CATALOG``, by Modelica's name. These attributes of the module are read:
+A library is a module. A class in it is found by its Python path, ``my_library.springs.CubicSpring``, and by Modelica's
+name where the library lists one. These attributes of the module are read:
 
-- ``CATALOG``: Modelica's packages, each with the Python module that holds its classes and their names, such as
-  ``{"Modelica.Blocks.Math": ("blocks", ("Gain", "Add"))}``.
+- ``MODELICA_NAMES``: Modelica's names of classes, each with the Python path below the module, such as
+  ``{"Modelica.Blocks.Math.Gain": "Gain"}``.
+- ``MODELICA``: packages of Modelica, each with the module below this one whose ``MODELICA_NAMES`` has its classes,
+  such as ``{"Modelica.Blocks": "blocks"}``. That module is imported when a file names one of them.
+- ``NOT_COVERED``: packages of Modelica, each with the names of classes that are not there, such as
+  ``{"Modelica.Blocks.Math": "Exponentiation"}``.
 - ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water()}``.
 - ``FUNCTIONS``: functions of numbers that expressions may call, by the last word of their name.
 - ``ENUMERATIONS``: names of enumeration types; their values are read as the last word, a text.
@@ -14,10 +18,12 @@ Installed packages announce theirs as an entry point of the group ``acausal.libr
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from difflib import get_close_matches
 from functools import cache, cached_property
+from importlib import import_module
 from importlib.metadata import entry_points
 from types import ModuleType
 from typing import Any
@@ -33,35 +39,34 @@ class Library:
     module: ModuleType
 
     @cached_property
-    def catalog(self) -> dict[str, str]:
-        """Modelica's name of a class -> its Python path, whether it exists or not."""
-        packages: dict[str, tuple[str, tuple[str, ...]]] = getattr(self.module, "CATALOG", {})
-        return {
-            f"{package}.{name}": f"{self.module.__name__}.{place}.{name}"
-            for package, (place, names) in packages.items()
-            for name in names
-        }
-
-    @cached_property
     def modelica_names(self) -> dict[str, str]:
-        """Modelica's name of a class -> its Python path, for the classes that exist."""
-        return {name: path for name, path in self.catalog.items() if self._python(path) is not None}
+        """Modelica's name of a component, connector or signal -> its Python path; imports all packages."""
+        names = dict(self._listed)
+        for place in self._packages.values():
+            names |= self._names(place)
+        return {name: path for name, path in names.items() if self._python(path) is not None}
 
     @cached_property
     def written_names(self) -> dict[type, str]:
         """The name that a class is written with: Modelica's where there is one."""
         found: dict[type, str] = {}
-        named = [(modelica, self._python(p), p) for modelica, p in self.modelica_names.items()]
-        for modelica, cls, path in named:  # first where it is defined, then where it is shown, too
-            if cls.__module__.startswith(path.rpartition(".")[0]):
-                found.setdefault(cls, modelica)
-        for modelica, cls, _ in named:
-            found.setdefault(cls, modelica)
+        for name, path in self.modelica_names.items():
+            found.setdefault(self._python(path), name)
         return found
 
     def find(self, name: str) -> Any:
         """The class of a full name, or None."""
-        return self._python(self.catalog.get(name, name))
+        names = self._listed
+        for package, place in self._packages.items():
+            if name.startswith(f"{package}."):
+                names = self._names(place)
+        return self._python(names.get(name, name))
+
+    def lacks(self, name: str) -> bool:
+        """Whether Modelica has a class of this name that the library does not cover."""
+        package, _, word = name.rpartition(".")
+        not_covered: dict[str, str] = getattr(self.module, "NOT_COVERED", {})
+        return name in self._listed or word in not_covered.get(package, "").split()
 
     def name_of(self, cls: type) -> str | None:
         """The full name of a class, or None if it is not of this library."""
@@ -101,6 +106,33 @@ class Library:
         """Constants and records by the last word of their name."""
         return getattr(self.module, "RECORDS", {})
 
+    @property
+    def _packages(self) -> dict[str, str]:
+        return getattr(self.module, "MODELICA", {})
+
+    @cached_property
+    def _listed(self) -> dict[str, str]:
+        """Modelica's name of a class -> its Python path, from the module itself."""
+        catalog: dict[str, tuple[str, tuple[str, ...]]] = getattr(self.module, "CATALOG", {})
+        if catalog:
+            own = self.module.__name__
+            message = f"{own}.CATALOG is deprecated; list names of Modelica in {own}.MODELICA_NAMES"
+            warnings.warn(message, DeprecationWarning, stacklevel=2)
+        old = {
+            f"{package}.{name}": f"{self.module.__name__}.{place}.{name}"
+            for package, (place, names) in catalog.items()
+            for name in names
+        }
+        return old | self._paths(self.module)
+
+    def _names(self, place: str) -> dict[str, str]:
+        """The same from a module below it."""
+        return self._paths(import_module(f"{self.module.__name__}.{place}"))
+
+    def _paths(self, module: ModuleType) -> dict[str, str]:
+        names: dict[str, str] = getattr(module, "MODELICA_NAMES", {})
+        return {name: f"{module.__name__}.{path}" for name, path in names.items()}
+
     def _python(self, path: str) -> Any:
         """A public class by its Python path, reached through the library's own modules only."""
         own = self.module.__name__
@@ -133,7 +165,7 @@ def find(libraries: Sequence[Library], name: str) -> Any:
         found = library.find(name)
         if found is not None:
             return found
-    if any(name in library.catalog for library in libraries):
+    if any(library.lacks(name) for library in libraries):
         raise KeyError("the library does not cover it yet")
     known = [n for library in libraries for n in library.modelica_names]
     same = [n for n in known if n.rpartition(".")[2] == name.rpartition(".")[2]]

@@ -5,27 +5,10 @@ from collections.abc import Iterator
 import acausal as ac
 
 from .canonical import canonical_form, dot
-from .controllers import PI, PID, LimPID
-from .filters import CriticalDamping, Filter, LowpassButterworth
-from .integrators import Der, Derivative, Integrator, LimIntegrator
-from .interfaces import INIT, MIMO, SISO, PartialStart
+from .conventions import INIT
+from .interfaces import MIMO, SISO, PartialStart
 
-__all__ = [
-    "PI",
-    "PID",
-    "CriticalDamping",
-    "Der",
-    "Derivative",
-    "Filter",
-    "FirstOrder",
-    "Integrator",
-    "LimIntegrator",
-    "LimPID",
-    "LowpassButterworth",
-    "SecondOrder",
-    "StateSpace",
-    "TransferFunction",
-]
+__modelica__ = "Modelica.Blocks.Continuous"
 
 
 class FirstOrder(SISO, PartialStart):

@@ -5,39 +5,29 @@ from typing import Any
 
 import acausal as ac
 
+from .conventions import INIT
 from .integrators import Derivative, Integrator
-from .interfaces import INIT, SISO, SVcontrol
+from .interfaces import SISO, PartialState, SVcontrol
 from .math import Add, Add3, Gain
 from .nonlinear import Limiter
 from .sources import Constant
 
-CONTROLLER = ("P", "PI", "PD", "PID")
+__modelica__ = "Modelica.Blocks.Continuous"
 
 
-class PI(SISO):
+_CONTROLLER = ("P", "PI", "PD", "PID")
+
+
+class PI(SISO, PartialState):
     """``k (1 + 1/(T s))``: ``der(x) = u/T``, ``y = k (x + u)``."""
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(unit="s", min=0, doc="time constant")
-    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
-    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
-    y_start = ac.Parameter(0.0, doc="initial value of the output")
     x = ac.Variable(start="x_start", doc="state: the integral part")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(ac.der(self.x), self.u / self.T)
         yield ac.Eq(self.y, self.k * (self.x + self.u))
-
-    def initial_equations(self) -> Iterator[ac.Eq]:
-        match self.initType:
-            case "SteadyState":
-                yield ac.Eq(ac.der(self.x), 0)
-            case "InitialState":
-                yield ac.Eq(self.x, self.x_start)
-            case "InitialOutput":
-                yield ac.Eq(self.y, self.y_start)
-            case _:
-                pass
 
 
 class PID(SISO):
@@ -83,12 +73,12 @@ class LimPID(SVcontrol):
     ``y = limiter(k (wp u_s - u_m + I + D) + kFF u_ff)`` between ``yMin`` (default ``-yMax``) and ``yMax``;
     ``I`` integrates ``(u_s - u_m + (y - unlimited)/(k Ni))/Ti``, ``D`` is the approximate derivative of
     ``Td (wd u_s - u_m)``. ``controllerType`` chooses ``"P"``, ``"PI"``, ``"PD"`` or ``"PID"``;
-    ``withFeedForward`` adds the input ``u_ff``. The parts bear Modelica's names: `addP`, `P`, `addI`, `I`,
+    ``withFeedForward`` adds the input ``u_ff``. The parts have Modelica's names: `addP`, `P`, `addI`, `I`,
     `addSat`, `gainTrack`, `addD`, `D`, `addPID`, `gainPID`, `addFF`, `limiter`. ``strict`` and
     ``homotopyType`` have no effect. Choose options where the controller is made.
     """
 
-    controllerType = ac.Option("PID", choices=CONTROLLER, doc="type of controller")
+    controllerType = ac.Option("PID", choices=_CONTROLLER, doc="type of controller")
     k = ac.Parameter(1.0, min=0, doc="gain")
     Ti = ac.Parameter(0.5, unit="s", min=0, doc="time constant of the integrator")
     Td = ac.Parameter(0.1, unit="s", min=0, doc="time constant of the derivative")

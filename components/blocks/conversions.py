@@ -4,7 +4,10 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .interfaces import SISO, TRUE, truth
+from .conventions import TRUE, truth
+from .interfaces import SISO
+
+__modelica__ = "Modelica.Blocks.Math"
 
 
 class RealToInteger(SISO):

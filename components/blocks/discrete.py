@@ -1,6 +1,8 @@
-"""Sampled blocks (`Modelica.Blocks.Discrete`), which are refused for want of discrete states."""
+"""Sampled blocks (`Modelica.Blocks.Discrete`), which raise an error since they need discrete states."""
 
 from .interfaces import NeedsDiscreteStates
+
+__modelica__ = "Modelica.Blocks.Discrete"
 
 
 class Sampler(NeedsDiscreteStates):

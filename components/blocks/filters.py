@@ -7,10 +7,14 @@ import numpy as np
 
 import acausal as ac
 
-from .interfaces import INIT, SISO
+from .conventions import INIT
+from .interfaces import SISO
 from .prototypes import CHARACTERISTICS, poles
 
-FILTER_TYPE = ("LowPass", "HighPass", "BandPass", "BandStop")
+__modelica__ = "Modelica.Blocks.Continuous"
+
+
+_FILTER_TYPE = ("LowPass", "HighPass", "BandPass", "BandStop")
 
 
 class _Pair(NamedTuple):
@@ -136,7 +140,7 @@ class Filter(SISO):
     """
 
     analogFilter = ac.Option("CriticalDamping", choices=CHARACTERISTICS, doc="characteristic")
-    filterType = ac.Option("LowPass", choices=FILTER_TYPE, doc="type of the filter")
+    filterType = ac.Option("LowPass", choices=_FILTER_TYPE, doc="type of the filter")
     order = ac.Option(2, doc="order of the low pass it is made from")
     f_cut = ac.Parameter(unit="Hz", min=0, doc="cut-off frequency")
     gain = ac.Parameter(1.0, doc="amplitude in the pass band")

@@ -4,7 +4,10 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .interfaces import INIT, SISO, PartialStart
+from .conventions import INIT
+from .interfaces import SISO, PartialStart, PartialState
+
+__modelica__ = "Modelica.Blocks.Continuous"
 
 
 class Integrator(SISO, PartialStart):
@@ -43,30 +46,16 @@ class LimIntegrator(SISO, PartialStart):
         yield ac.Eq(ac.der(self.y), ac.where(self.y < self.outMin, ac.maximum(rate, 0), upwards))
 
 
-class Derivative(SISO):
+class Derivative(SISO, PartialState):
     """Approximate derivative ``k s/(T s + 1)``: ``y = k (u - x)/T``, ``der(x) = (u - x)/T``."""
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(0.01, unit="s", min=0, doc="time constant, greater than zero")
-    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
-    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
-    y_start = ac.Parameter(0.0, doc="initial value of the output")
     x = ac.Variable(start="x_start", doc="state: the input, delayed")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(ac.der(self.x), (self.u - self.x) / self.T)
         yield ac.Eq(self.y, self.k * (self.u - self.x) / self.T)
-
-    def initial_equations(self) -> Iterator[ac.Eq]:
-        match self.initType:
-            case "SteadyState":
-                yield ac.Eq(ac.der(self.x), 0)
-            case "InitialState":
-                yield ac.Eq(self.x, self.x_start)
-            case "InitialOutput":
-                yield ac.Eq(self.y, self.y_start)
-            case _:
-                pass
 
 
 class Der(SISO):

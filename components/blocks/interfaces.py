@@ -5,24 +5,15 @@ from typing import Any
 
 import acausal as ac
 
+from .conventions import INIT
+
+__modelica__ = "Modelica.Blocks.Interfaces"
+
+
 RealInput = RealVectorInput = ac.Input
 RealOutput = RealVectorOutput = ac.Output
 IntegerInput = IntegerVectorInput = BooleanInput = BooleanVectorInput = ac.Input
 IntegerOutput = BooleanOutput = ac.Output
-
-TRUE = 0.5
-"""All signals are real. One that stands for a truth value is true above this: blocks give 1 or 0."""
-
-INIT = ("NoInit", "SteadyState", "InitialState", "InitialOutput")
-"""How a block with states starts: the choices of ``initType``, as in `Modelica.Blocks.Types.Init`."""
-
-INSTANT = 1e-15
-"""Shortest duration [s]: it stands for a duration of zero in a quotient."""
-
-
-def truth(condition: Any) -> Any:
-    """1 where a condition holds, else 0."""
-    return ac.where(condition, 1, 0)
 
 
 class SO(ac.Component):
@@ -33,6 +24,8 @@ class SO(ac.Component):
 
 class SI(ac.Component):
     """One input ``u``."""
+
+    __modelica__ = None
 
     u = ac.Input(doc="input signal")
 
@@ -120,6 +113,8 @@ class PartialStart(ac.Component):
     ``NoInit``: ``y_start`` is a guess.
     """
 
+    __modelica__ = None
+
     initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
     y_start = ac.Parameter(0.0, doc="initial or guess value of the output")
     y = ac.Output(start="y_start", doc="output signal")
@@ -131,12 +126,41 @@ class PartialStart(ac.Component):
             yield ac.Eq(self.y, self.y_start)
 
 
+class PartialState(ac.Component):
+    """What blocks with one state ``x`` share: ``initType``, ``x_start`` and ``y_start``.
+
+    ``SteadyState``: ``der(x) = 0``; ``InitialState``: ``x = x_start``; ``InitialOutput``: ``y = y_start``;
+    ``NoInit``: ``x_start`` is a guess.
+    """
+
+    __modelica__ = None
+
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
+    y_start = ac.Parameter(0.0, doc="initial value of the output")
+    x: Any
+    y: Any
+
+    def initial_equations(self) -> Iterator[ac.Eq]:
+        match self.initType:
+            case "SteadyState":
+                yield ac.Eq(ac.der(self.x), 0)
+            case "InitialState":
+                yield ac.Eq(self.x, self.x_start)
+            case "InitialOutput":
+                yield ac.Eq(self.y, self.y_start)
+            case _:
+                pass
+
+
 class NeedsDiscreteStates(ac.Component):
     """Base of blocks that Modelica has and that cannot be made yet: they remember, or wait for events.
 
     Raises:
         DeclarationError: always.
     """
+
+    __modelica__ = None
 
     def __init__(self, **modifiers: Any) -> None:
         raise ac.DeclarationError(

@@ -9,7 +9,10 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import SI2SO, SISO, TRUE, truth
+from .conventions import TRUE, truth
+from .interfaces import SI2SO, SISO
+
+__modelica__ = "Modelica.Blocks.Logical"
 
 
 class _Operation(SI2SO):

@@ -12,6 +12,8 @@ import acausal as ac
 from .interfaces import MI2MO, SI2SO, MIMOs
 from .tables import PartialColumns
 
+__modelica__ = "Modelica.Blocks.Tables"
+
 
 class CombiTable1Ds(PartialColumns):
     """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u``.
@@ -48,13 +50,13 @@ class CombiTable1Dv(PartialColumns, MIMOs):
             yield ac.Eq(y, column(u))
 
 
-class Surface(eqx.Module):
+class _Surface(eqx.Module):
     """Values on a rectangular grid as a function of two arguments.
 
     Attributes:
         x, y: grid, shapes (n,) and (m,), ascending. values: shape (n, m).
         smooth: whether to interpolate, bilinearly; else the value at the lower corner holds.
-        hold: whether the values at the border hold outside; else the cells at the border go on.
+        hold: whether the values at the border hold outside; else the cells at the border continue.
     """
 
     x: Any
@@ -112,7 +114,7 @@ class _Table2D(ac.Component):
     verboseExtrapolation = ac.Option(False, doc="without effect")
     surface = ac.Module("_surface")
 
-    def _surface(self, key: Any) -> Surface:
+    def _surface(self, key: Any) -> _Surface:
         table = np.asarray(self.table, dtype=float)
         if table.ndim != 2 or min(table.shape) < 2:
             raise ac.DeclarationError(
@@ -126,7 +128,7 @@ class _Table2D(ac.Component):
         if (np.diff(x) <= 0).any() or (np.diff(y) <= 0).any():
             raise ac.DeclarationError(f"{type(self).__name__}: the arguments in table must ascend")
         smooth, hold = self.smoothness == "LinearSegments", self.extrapolation != "LastTwoPoints"
-        return Surface(jnp.asarray(x), jnp.asarray(y), jnp.asarray(table[1:, 1:]), smooth, hold)
+        return _Surface(jnp.asarray(x), jnp.asarray(y), jnp.asarray(table[1:, 1:]), smooth, hold)
 
 
 class CombiTable2Ds(SI2SO, _Table2D):

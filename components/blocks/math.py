@@ -7,6 +7,8 @@ import acausal as ac
 
 from .interfaces import MIMO, MISO, SI2SO, SISO, SO
 
+__modelica__ = "Modelica.Blocks.Math"
+
 
 class InverseBlockConstraints(ac.Component):
     """Sets two signals equal, to invert a block between them: ``u1 = u2``, ``y1 = y2``."""
@@ -140,6 +142,8 @@ class Division(SI2SO):
 class Polynomial(SISO):
     """``y = c[1] u**n + ... + c[n] u + c[n+1]``: coefficients from the highest power down."""
 
+    __modelica__ = None
+
     c = ac.Parameter(shape=":", doc="coefficients, highest power first")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -149,7 +153,7 @@ class Polynomial(SISO):
         yield ac.Eq(self.y, value)
 
 
-class PartialFunction(SISO):
+class _Function(SISO):
     """``y = function(u)``."""
 
     function: ClassVar[Callable[[Any], Any]]
@@ -158,57 +162,57 @@ class PartialFunction(SISO):
         yield ac.Eq(self.y, type(self).function(self.u))
 
 
-class Abs(PartialFunction):
+class Abs(_Function):
     """``y = |u|``; ``generateEvent`` has no effect."""
 
     generateEvent = ac.Option(False, doc="without effect")
     function = staticmethod(ac.Abs)
 
 
-class Sign(PartialFunction):
+class Sign(_Function):
     """``y = sign(u)``; ``generateEvent`` has no effect."""
 
     generateEvent = ac.Option(False, doc="without effect")
     function = staticmethod(ac.sign)
 
 
-class Sqrt(PartialFunction):
+class Sqrt(_Function):
     """``y = sqrt(u)``, ``u >= 0``."""
 
     function = staticmethod(ac.sqrt)
 
 
-class Sin(PartialFunction):
+class Sin(_Function):
     """``y = sin(u)``."""
 
     function = staticmethod(ac.sin)
 
 
-class Cos(PartialFunction):
+class Cos(_Function):
     """``y = cos(u)``."""
 
     function = staticmethod(ac.cos)
 
 
-class Tan(PartialFunction):
+class Tan(_Function):
     """``y = tan(u)``."""
 
     function = staticmethod(ac.tan)
 
 
-class Asin(PartialFunction):
+class Asin(_Function):
     """``y = asin(u)``, ``-1 <= u <= 1``."""
 
     function = staticmethod(ac.asin)
 
 
-class Acos(PartialFunction):
+class Acos(_Function):
     """``y = acos(u)``, ``-1 <= u <= 1``."""
 
     function = staticmethod(ac.acos)
 
 
-class Atan(PartialFunction):
+class Atan(_Function):
     """``y = atan(u)``."""
 
     function = staticmethod(ac.atan)
@@ -221,25 +225,25 @@ class Atan2(SI2SO):
         yield ac.Eq(self.y, ac.atan2(self.u1, self.u2))
 
 
-class Sinh(PartialFunction):
+class Sinh(_Function):
     """``y = sinh(u)``."""
 
     function = staticmethod(ac.sinh)
 
 
-class Cosh(PartialFunction):
+class Cosh(_Function):
     """``y = cosh(u)``."""
 
     function = staticmethod(ac.cosh)
 
 
-class Tanh(PartialFunction):
+class Tanh(_Function):
     """``y = tanh(u)``."""
 
     function = staticmethod(ac.tanh)
 
 
-class Exp(PartialFunction):
+class Exp(_Function):
     """``y = exp(u)``."""
 
     function = staticmethod(ac.exp)

@@ -11,6 +11,8 @@ import acausal as ac
 
 from .interfaces import MO
 
+__modelica__ = "Modelica.Blocks.Sources"
+
 
 class _Path(NamedTuple):
     """A motion from 0 to 1: acceleration, time it lasts, time at which braking starts, end."""

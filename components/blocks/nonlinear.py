@@ -7,7 +7,10 @@ from typing import Any
 import acausal as ac
 
 from .canonical import canonical_form
-from .interfaces import INIT, SISO, PartialStart
+from .conventions import INIT
+from .interfaces import SISO, PartialStart
+
+__modelica__ = "Modelica.Blocks.Nonlinear"
 
 
 class Limiter(SISO):
@@ -55,16 +58,16 @@ class SlewRateLimiter(PartialStart, SISO):
     ``SteadyState``: the output starts at the input, ``y = u``. ``strict`` has no effect.
     """
 
-    Rising = ac.Parameter(1.0, unit="1/s", min=0, doc="greatest slope")
-    Falling = ac.Parameter(lambda self: -self.Rising, unit="1/s", max=0, doc="smallest slope")
+    Rising = ac.Parameter(1.0, unit="1/s", min=0, doc="greatest rate")
+    Falling = ac.Parameter(lambda self: -self.Rising, unit="1/s", max=0, doc="least rate")
     Td = ac.Parameter(0.001, unit="s", min=0, doc="time constant of the derivative")
     initType = ac.Option("SteadyState", choices=INIT, doc="type of initialization")
     strict = ac.Option(False, doc="without effect")
     y = ac.Output(start="y_start", state="prefer", doc="output signal")
 
     def equations(self) -> Iterator[ac.Eq]:
-        slope = (self.u - self.y) / self.Td
-        limited = ac.minimum(ac.maximum(slope, self.Falling), self.Rising)
+        rate = (self.u - self.y) / self.Td
+        limited = ac.minimum(ac.maximum(rate, self.Falling), self.Rising)
         yield ac.Eq(ac.der(self.y), limited)
 
     def initial_equations(self) -> Iterator[ac.Eq]:

@@ -5,7 +5,10 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import INSTANT, SignalSource
+from .conventions import INSTANT
+from .interfaces import SignalSource
+
+__modelica__ = "Modelica.Blocks.Sources"
 
 
 class _Periodic(SignalSource):

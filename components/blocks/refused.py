@@ -1,6 +1,8 @@
-"""Blocks that remember or wait for events, which are refused for want of discrete states."""
+"""Blocks that remember or wait for events, which raise an error since they need discrete states."""
 
 from .interfaces import NeedsDiscreteStates
+
+__modelica__ = "Modelica.Blocks.Logical"
 
 
 class Pre(NeedsDiscreteStates):
@@ -9,6 +11,8 @@ class Pre(NeedsDiscreteStates):
 
 class Edge(NeedsDiscreteStates):
     """True at the moment the input turns true."""
+
+    __modelica__ = ("Modelica.Blocks.Logical", "Modelica.Blocks.Math")
 
 
 class FallingEdge(NeedsDiscreteStates):
@@ -51,61 +55,25 @@ class TerminateSimulation(NeedsDiscreteStates):
     """Ends the simulation when a condition turns true."""
 
 
-class MultiSwitch(NeedsDiscreteStates):
-    """The expression that belongs to the first input that is true, else the previous value."""
-
-
-class BooleanChange(NeedsDiscreteStates):
-    """True at the moment the input changes."""
-
-
-class IntegerChange(NeedsDiscreteStates):
-    """True at the moment the input changes."""
-
-
-class Mean(NeedsDiscreteStates):
-    """Mean over each period."""
-
-
-class RectifiedMean(NeedsDiscreteStates):
-    """Mean of the absolute value over each period."""
-
-
-class RootMeanSquare(NeedsDiscreteStates):
-    """Root of the mean square over each period."""
-
-
-class Harmonic(NeedsDiscreteStates):
-    """Amplitude and phase of a harmonic over each period."""
-
-
-class TotalHarmonicDistortion(NeedsDiscreteStates):
-    """Distortion over each period."""
-
-
-class RealFFT(NeedsDiscreteStates):
-    """Spectrum of a sampled signal."""
-
-
-class SignalExtrema(NeedsDiscreteStates):
-    """Least and greatest value so far, sampled."""
-
-
-class ContinuousSignalExtrema(NeedsDiscreteStates):
-    """Least and greatest value so far."""
-
-
 class SampleTrigger(NeedsDiscreteStates):
     """True at sample times."""
+
+    __modelica__ = "Modelica.Blocks.Sources"
 
 
 class RadioButtonSource(NeedsDiscreteStates):
     """A button that others reset."""
 
+    __modelica__ = "Modelica.Blocks.Sources"
+
 
 class FixedDelay(NeedsDiscreteStates):
     """The input of a while ago; see `PadeDelay` for an approximation."""
 
+    __modelica__ = "Modelica.Blocks.Nonlinear"
+
 
 class VariableDelay(NeedsDiscreteStates):
     """The input of a while ago, which may change."""
+
+    __modelica__ = "Modelica.Blocks.Nonlinear"

@@ -7,6 +7,8 @@ import acausal as ac
 
 from .interfaces import MIMO, MISO, SIMO, SISO, MIMOs
 
+__modelica__ = "Modelica.Blocks.Routing"
+
 
 class Replicator(SIMO):
     """``nout`` times the input: ``y[i] = u``."""

@@ -5,43 +5,10 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import INSTANT, SO, SignalSource
-from .motions import KinematicPTP, KinematicPTP2
-from .periodic import Pulse, SawTooth, Trapezoid
-from .tables import CombiTimeTable, SampledSignal, TimeTable
-from .waves import (
-    Cosine,
-    CosineVariableFrequencyAndAmplitude,
-    Exponentials,
-    ExpSine,
-    Sinc,
-    Sine,
-    SineVariableFrequencyAndAmplitude,
-)
+from .conventions import INSTANT
+from .interfaces import SO, SignalSource
 
-__all__ = [
-    "CombiTimeTable",
-    "Constant",
-    "ContinuousClock",
-    "Cosine",
-    "CosineVariableFrequencyAndAmplitude",
-    "ExpSine",
-    "Exponentials",
-    "KinematicPTP",
-    "KinematicPTP2",
-    "LogFrequencySweep",
-    "Pulse",
-    "Ramp",
-    "RealExpression",
-    "SampledSignal",
-    "SawTooth",
-    "Sinc",
-    "Sine",
-    "SineVariableFrequencyAndAmplitude",
-    "Step",
-    "TimeTable",
-    "Trapezoid",
-]
+__modelica__ = "Modelica.Blocks.Sources"
 
 
 class RealExpression(SO):

@@ -7,6 +7,8 @@ import acausal as ac
 
 from .interfaces import SISO
 
+__modelica__ = "Modelica.Blocks.Math"
+
 
 class ContinuousMean(SISO):
     """Mean of the input since ``t_0`` [s]: ``der(mu) = (u - mu)/(time - t_0)``, ``y = mu``.

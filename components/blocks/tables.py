@@ -2,54 +2,16 @@
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 import acausal as ac
 
 from .interfaces import MO, SO
+from .interpolation import EXTRAPOLATION, SMOOTHNESS, interpolant, rows
 
-SMOOTHNESS: dict[str, Literal["linear", "previous", "cubic"]] = {
-    "LinearSegments": "linear",
-    "ConstantSegments": "previous",
-    "ContinuousDerivative": "cubic",
-}
-EXTRAPOLATION: dict[str, Literal["hold", "linear", "periodic"]] = {
-    "HoldLastPoint": "hold",
-    "LastTwoPoints": "linear",
-    "Periodic": "periodic",
-    "NoExtrapolation": "hold",
-}
-
-
-def interpolant(
-    points: Any, smoothness: str, extrapolation: str, what: str, _key: Any = None
-) -> ac.Signal:
-    """A signal through rows ``(t, y)``; a repeated time is a jump, a single row a constant."""
-    points = np.asarray(points, dtype=float)
-    if len(points) == 1:
-        points = np.concatenate([points, points + np.array([1.0, 0.0])])
-    ts = points[:, 0].copy()
-    for i in np.flatnonzero(np.diff(ts) == 0)[::-1]:
-        ts[i] = np.nextafter(min(ts[i], ts[i + 1]), -np.inf)
-    return ac.Signal(
-        ts, points[:, 1], SMOOTHNESS[smoothness], EXTRAPOLATION[extrapolation], name=what
-    )
-
-
-def rows(component: Any) -> np.ndarray:
-    """A component's option ``table`` as an array with at least two columns.
-
-    Raises:
-        DeclarationError: if it is none.
-    """
-    table = component.table
-    if table is None or np.ndim(table) != 2 or np.shape(table)[1] < 2:
-        raise ac.DeclarationError(
-            f"{type(component).__name__} needs table=[[t, y, ...], ...], got {table!r}"
-        )
-    return np.asarray(table, dtype=float)
+__modelica__ = "Modelica.Blocks.Sources"
 
 
 class _TimeTable(ac.Component):
@@ -72,9 +34,9 @@ class _TimeTable(ac.Component):
 
 
 class TimeTable(SO, _TimeTable):
-    """Linear interpolation in rows ``[t, y]``; a time that stands twice is a jump.
+    """Linear interpolation in rows ``[t, y]``; a repeated time is a jump.
 
-    Beyond its ends the table goes on through its first and last two points. The values are a module,
+    Outside of its times the table continues through its first and last two points. The values are a module,
     ``column``, among the model's parameters.
     """
 
@@ -92,12 +54,14 @@ class PartialColumns(ac.Component):
     """What tables with several columns of values share.
 
     ``smoothness``: ``LinearSegments``, ``ConstantSegments``, or ``ContinuousDerivative``, a cubic
-    Hermite spline (its slopes are those of parabolas through three neighbours; Modelica's are
+    Hermite spline (its derivatives are those of parabolas through three neighbours; Modelica's are
     Akima's). ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints``, ``Periodic``, or
     ``NoExtrapolation``, which holds the last point too (Modelica stops there). ``columns`` counts from 1,
-    the column of times or arguments; by default all others are outputs. A time or argument that stands twice
-    is a jump. Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
+    the column of times or arguments; by default all others are outputs. A repeated time or argument is a
+    jump. Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
     """
+
+    __modelica__ = None
 
     table = ac.Option(None, doc="rows of the argument and values")
     columns = ac.Option(None, doc="columns of the table that are outputs, counted from 1")
@@ -164,6 +128,8 @@ class SampledSignal(SO):
 
     The samples are a module, ``signal``, among the model's parameters.
     """
+
+    __modelica__ = None
 
     values = ac.Option(None, doc="samples")
     ts = ac.Option(None, doc="times of the samples")

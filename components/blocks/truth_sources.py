@@ -7,10 +7,14 @@ import numpy as np
 
 import acausal as ac
 
-from .interfaces import SO, truth
-from .tables import EXTRAPOLATION, interpolant
+from .conventions import truth
+from .interfaces import SO
+from .interpolation import EXTRAPOLATION, interpolant
 
-ALWAYS = -1e60
+__modelica__ = "Modelica.Blocks.Sources"
+
+
+_ALWAYS = -1e60
 """Time that lies before all others."""
 
 
@@ -94,7 +98,7 @@ class _Table(SO):
     extrapolation = ac.Option(
         "HoldLastPoint", choices=tuple(EXTRAPOLATION), doc="what holds outside of the table"
     )
-    startTime = ac.Parameter(ALWAYS, unit="s", doc="the output is 0 before")
+    startTime = ac.Parameter(_ALWAYS, unit="s", doc="the output is 0 before")
     shiftTime = ac.Parameter(0.0, unit="s", doc="time of the table's zero")
     column = ac.Module("_column")
 

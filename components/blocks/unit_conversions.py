@@ -10,9 +10,13 @@ import acausal as ac
 
 from .interfaces import SISO
 
+__modelica__ = "Modelica.Blocks.Math.UnitConversions"
+
 
 class PartialConversionBlock(SISO):
     """Base of unit conversions: ``y = factor (u + shift)``."""
+
+    __modelica__ = "Modelica.Blocks.Interfaces"
 
     factor: ClassVar[float] = 1.0
     shift: ClassVar[float] = 0.0

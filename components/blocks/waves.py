@@ -5,7 +5,10 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import INSTANT, SO, SignalSource
+from .conventions import INSTANT
+from .interfaces import SO, SignalSource
+
+__modelica__ = "Modelica.Blocks.Sources"
 
 
 class _Wave(SignalSource):

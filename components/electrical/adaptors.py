@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import NegativePin, PositivePin
 
+__modelica__ = "Modelica.Electrical.Analog.Basic"
+
 
 class _Adaptor(ac.Component):
     """Two pins with ``v = pin_p.v - pin_n.v`` and ``i = pin_p.i = -pin_n.i``."""

@@ -7,12 +7,14 @@ import acausal as ac
 
 from .interfaces import NegativePin, PositivePin
 
+__modelica__ = "Modelica.Electrical.Analog.Basic"
+
 
 class OpAmp(ac.Component):
     """Amplifier with a smooth characteristic between the potentials of ``VMin`` and ``VMax``.
 
     ``out.v = (VMax.v + VMin.v)/2 + a vin/(1 + a |2 vin/(VMax.v - VMin.v)|)`` with ``a = |Slope|`` and
-    ``vin = in_p.v - in_n.v``. No current flows but at ``out``.
+    ``vin = in_p.v - in_n.v``. Current flows at ``out`` only.
     """
 
     Slope = ac.Parameter(doc="slope of the characteristic at vin = 0")

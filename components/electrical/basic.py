@@ -4,45 +4,9 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .adaptors import GeneralCurrentToVoltageAdaptor, GeneralVoltageToCurrentAdaptor
-from .amplifiers import OpAmp, OpAmpDetailed
-from .emf import RotationalEMF, TranslationalEMF
-from .inductors import M_Transformer, SaturatingInductor, Transformer
 from .interfaces import ConditionalHeatPort, OnePort, Pin, TwoPort
-from .variable import (
-    Potentiometer,
-    VariableCapacitor,
-    VariableConductor,
-    VariableInductor,
-    VariableResistor,
-)
 
-__all__ = [
-    "CCC",
-    "CCV",
-    "VCC",
-    "VCV",
-    "Capacitor",
-    "Conductor",
-    "GeneralCurrentToVoltageAdaptor",
-    "GeneralVoltageToCurrentAdaptor",
-    "Ground",
-    "Gyrator",
-    "Inductor",
-    "M_Transformer",
-    "OpAmp",
-    "OpAmpDetailed",
-    "Potentiometer",
-    "Resistor",
-    "RotationalEMF",
-    "SaturatingInductor",
-    "Transformer",
-    "TranslationalEMF",
-    "VariableCapacitor",
-    "VariableConductor",
-    "VariableInductor",
-    "VariableResistor",
-]
+__modelica__ = "Modelica.Electrical.Analog.Basic"
 
 
 class Ground(ac.Component):

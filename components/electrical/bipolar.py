@@ -6,8 +6,11 @@ from typing import Any, ClassVar, NamedTuple
 import acausal as ac
 from acausal.components import nature
 
-from .diodes import _TemperatureDependent, exlin2
+from .diodes import _TemperatureDependent
 from .interfaces import NegativePin, Pin
+from .laws import exlin2
+
+__modelica__ = "Modelica.Electrical.Analog.Semiconductors"
 
 
 class _Junction(NamedTuple):

@@ -7,7 +7,8 @@ import acausal as ac
 
 from . import waveforms
 from .interfaces import CurrentSource, NegativePin, OnePort, PositivePin
-from .waveforms import Current, VariableCurrent
+
+__modelica__ = "Modelica.Electrical.Analog.Sources"
 
 
 class SignalCurrent(ac.Component):
@@ -34,23 +35,23 @@ class ConstantCurrent(OnePort):
         yield ac.Eq(self.i, self.I)
 
 
-class StepCurrent(waveforms.Step, Current):
+class StepCurrent(waveforms.Step, waveforms.Current):
     """``i = offset``, from ``startTime`` on ``i = offset + I``."""
 
 
-class RampCurrent(waveforms.Ramp, Current):
+class RampCurrent(waveforms.Ramp, waveforms.Current):
     """``i`` rises by ``I`` during ``duration`` [s] and stays there."""
 
 
-class SineCurrent(waveforms.Sine, Current):
+class SineCurrent(waveforms.Sine, waveforms.Current):
     """``i = offset + I sin(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
 
-class CosineCurrent(waveforms.Cosine, Current):
+class CosineCurrent(waveforms.Cosine, waveforms.Current):
     """``i = offset + I cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
 
-class SineCurrentVariableFrequencyAndAmplitude(VariableCurrent):
+class SineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
     """``i = offset + I sin(phi)``, ``der(phi) = 2 pi f``, with inputs ``I`` [A] and ``f`` [Hz].
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
@@ -60,7 +61,7 @@ class SineCurrentVariableFrequencyAndAmplitude(VariableCurrent):
         return ac.sin(self.phi)
 
 
-class CosineCurrentVariableFrequencyAndAmplitude(VariableCurrent):
+class CosineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
     """``i = offset + I cos(phi)``, ``der(phi) = 2 pi f``, with inputs ``I`` [A] and ``f`` [Hz].
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
@@ -70,7 +71,7 @@ class CosineCurrentVariableFrequencyAndAmplitude(VariableCurrent):
         return ac.cos(self.phi)
 
 
-class ExpSineCurrent(waveforms.ExpSine, Current):
+class ExpSineCurrent(waveforms.ExpSine, waveforms.Current):
     """``i = offset + I exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
 
 
@@ -88,15 +89,15 @@ class ExponentialsCurrent(waveforms.Exponentials, CurrentSource):
         return self.iMax
 
 
-class PulseCurrent(waveforms.Pulse, Current):
+class PulseCurrent(waveforms.Pulse, waveforms.Current):
     """``i = offset + I`` for the first ``width`` per cent of each ``period``, else ``offset``."""
 
 
-class SawToothCurrent(waveforms.SawTooth, Current):
+class SawToothCurrent(waveforms.SawTooth, waveforms.Current):
     """``i`` rises from ``offset`` by ``I`` in each ``period``."""
 
 
-class TrapezoidCurrent(waveforms.Trapezoid, Current):
+class TrapezoidCurrent(waveforms.Trapezoid, waveforms.Current):
     """In each ``period``: ``rising``, at ``offset + I`` for ``width``, ``falling`` [s], then ``offset``."""
 
 

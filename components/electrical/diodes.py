@@ -1,23 +1,14 @@
 """Diodes with exponential characteristics, continued linearly so that they never overflow."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import acausal as ac
 from acausal.components import nature
 
 from .interfaces import ConditionalHeatPort, OnePort
+from .laws import exlin
 
-
-def exlin(x: Any, high: Any) -> Any:
-    """The exponential function, continued linearly above ``high``."""
-    return ac.exp(ac.minimum(x, high)) * (1 + ac.maximum(x - high, 0))
-
-
-def exlin2(x: Any, low: Any, high: Any) -> Any:
-    """The exponential function, continued linearly below ``low`` and above ``high``."""
-    inside = ac.maximum(ac.minimum(x, high), low)
-    return ac.exp(inside) * (1 + x - inside)
+__modelica__ = "Modelica.Electrical.Analog.Semiconductors"
 
 
 class _TemperatureDependent(ConditionalHeatPort):

@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components.rotational.interfaces import Flange_b as RotationalFlange
-from acausal.components.translational.interfaces import Flange_b as TranslationalFlange
+from acausal.components.mechanics import rotational, translational
 
 from .interfaces import OnePort
+
+__modelica__ = "Modelica.Electrical.Analog.Basic"
 
 
 class RotationalEMF(OnePort):
@@ -18,8 +19,8 @@ class RotationalEMF(OnePort):
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
     k = ac.Parameter(unit="N.m/A", doc="torque per current, = voltage per speed")
-    flange = RotationalFlange()
-    support = RotationalFlange(when="useSupport")
+    flange = rotational.Flange_b()
+    support = rotational.Flange_b(when="useSupport")
     phi = ac.Variable(unit="rad", doc="angle of the flange relative to the support")
     w = ac.Variable(unit="rad/s", doc="speed of the flange relative to the support")
     tau = ac.Variable(unit="N.m", doc="torque at the flange")
@@ -46,8 +47,8 @@ class TranslationalEMF(OnePort):
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
     k = ac.Parameter(unit="N/A", doc="force per current, = voltage per speed")
-    flange = TranslationalFlange()
-    support = TranslationalFlange(when="useSupport")
+    flange = translational.Flange_b()
+    support = translational.Flange_b(when="useSupport")
     s = ac.Variable(unit="m", doc="position of the flange relative to the support")
     vel = ac.Variable(unit="m/s", doc="speed of the flange relative to the support")
     f = ac.Variable(unit="N", doc="force at the flange")

@@ -5,57 +5,10 @@ from typing import Any
 
 import acausal as ac
 
-from .ideal_amplifiers import IdealizedOpAmpLimited, IdealOpAmp, IdealOpAmp3Pin, IdealOpAmpLimited
 from .interfaces import IdealSemiconductor, OnePort, TwoPort
-from .refused import (
-    AD_Converter,
-    CloserWithArc,
-    ControlledCloserWithArc,
-    ControlledOpenerWithArc,
-    DA_Converter,
-    IdealThyristor,
-    IdealTriac,
-    OpenerWithArc,
-)
-from .switches import (
-    TRUE,
-    ControlledIdealClosingSwitch,
-    ControlledIdealIntermediateSwitch,
-    ControlledIdealOpeningSwitch,
-    ControlledIdealTwoWaySwitch,
-    IdealClosingSwitch,
-    IdealIntermediateSwitch,
-    IdealOpeningSwitch,
-    IdealTwoWaySwitch,
-)
+from .laws import TRUE
 
-__all__ = [
-    "AD_Converter",
-    "CloserWithArc",
-    "ControlledCloserWithArc",
-    "ControlledIdealClosingSwitch",
-    "ControlledIdealIntermediateSwitch",
-    "ControlledIdealOpeningSwitch",
-    "ControlledIdealTwoWaySwitch",
-    "ControlledOpenerWithArc",
-    "DA_Converter",
-    "IdealClosingSwitch",
-    "IdealDiode",
-    "IdealGTOThyristor",
-    "IdealIntermediateSwitch",
-    "IdealOpAmp",
-    "IdealOpAmp3Pin",
-    "IdealOpAmpLimited",
-    "IdealOpeningSwitch",
-    "IdealThyristor",
-    "IdealTransformer",
-    "IdealTriac",
-    "IdealTwoWaySwitch",
-    "IdealizedOpAmpLimited",
-    "Idle",
-    "OpenerWithArc",
-    "Short",
-]
+__modelica__ = "Modelica.Electrical.Analog.Ideal"
 
 
 class IdealDiode(IdealSemiconductor):

@@ -5,30 +5,19 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import NegativePin, PositivePin
+from .interfaces import NegativePin, PositivePin, TwoPort
 
-LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
+__modelica__ = "Modelica.Electrical.Analog.Ideal"
 
 
-class IdealOpAmp(ac.Component):
+_LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
+
+
+class IdealOpAmp(TwoPort):
     """Nullator and norator: ``v1 = 0`` and ``i1 = 0``; ``v2`` and ``i2`` are what the circuit asks for."""
 
-    p1 = PositivePin()
-    n1 = NegativePin()
-    p2 = PositivePin()
-    n2 = NegativePin()
-    v1 = ac.Variable(unit="V", doc="voltage from p1 to n1")
-    v2 = ac.Variable(unit="V", doc="voltage from p2 to n2")
-    i1 = ac.Variable(unit="A", doc="current from p1 to n1")
-    i2 = ac.Variable(unit="A", doc="current from p2 to n2")
-
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.v1, self.p1.v - self.n1.v)
-        yield ac.Eq(self.v2, self.p2.v - self.n2.v)
-        yield ac.Eq(0, self.p1.i + self.n1.i)
-        yield ac.Eq(0, self.p2.i + self.n2.i)
-        yield ac.Eq(self.i1, self.p1.i)
-        yield ac.Eq(self.i2, self.p2.i)
+        yield from super().equations()
         yield ac.Eq(self.v1, 0)
         yield ac.Eq(self.i1, 0)
 
@@ -103,7 +92,7 @@ class IdealizedOpAmpLimited(_Limited):
     Vps = ac.Parameter(15.0, unit="V", doc="positive supply without pins")
     Vns = ac.Parameter(-15.0, unit="V", doc="negative supply without pins")
     strict = ac.Option(True, doc="without effect")
-    homotopyType = ac.Option("NoHomotopy", choices=LIMITER_HOMOTOPY, doc="without effect")
+    homotopyType = ac.Option("NoHomotopy", choices=_LIMITER_HOMOTOPY, doc="without effect")
     s_p = PositivePin(when="useSupply")
     s_n = NegativePin(when="useSupply")
     vps = ac.Variable(unit="V", doc="positive supply")

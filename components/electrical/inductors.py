@@ -8,6 +8,8 @@ import acausal as ac
 
 from .interfaces import NegativePin, OnePort, PositivePin, TwoPort
 
+__modelica__ = "Modelica.Electrical.Analog.Basic"
+
 
 class SaturatingInductor(OnePort):
     """Inductor whose inductance falls from ``Lzer`` at no current to ``Linf`` at large currents.

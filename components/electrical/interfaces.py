@@ -10,6 +10,10 @@ from typing import Any, ClassVar
 import acausal as ac
 from acausal.components.thermal.interfaces import HeatPort_a
 
+from .laws import contact
+
+__modelica__ = "Modelica.Electrical.Analog.Interfaces"
+
 
 class Pin(ac.Connector):
     """Potential ``v`` [V] and current ``i`` [A], positive into the component."""
@@ -128,11 +132,6 @@ class IdealSemiconductor(OnePort, ConditionalHeatPort):
         yield ac.Eq(self.v, self.s * ac.where(off, 1, self.Ron) + self.Vknee)
         yield ac.Eq(self.i, self.s * ac.where(off, self.Goff, 1) + self.Goff * self.Vknee)
         yield ac.Eq(self.LossPower, self.v * self.i)
-
-
-def contact(open_: Any, v: Any, i: Any, Ron: Any, Goff: Any) -> ac.Eq:
-    """A contact: ``i = Goff v`` while open, ``v = Ron i`` while closed. ``Ron`` or ``Goff`` may be 0."""
-    return ac.Eq(v * ac.where(open_, Goff, 1), i * ac.where(open_, 1, Ron))
 
 
 class IdealSwitch(OnePort, ConditionalHeatPort):

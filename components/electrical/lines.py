@@ -7,8 +7,11 @@ from typing import Any
 import acausal as ac
 from acausal.components.thermal.interfaces import HeatPort_a
 
-from .basic import Capacitor, Conductor, Ground, Inductor, M_Transformer, Resistor
+from .basic import Capacitor, Conductor, Ground, Inductor, Resistor
+from .inductors import M_Transformer
 from .interfaces import NegativePin, Pin, PositivePin
+
+__modelica__ = "Modelica.Electrical.Analog.Lines"
 
 
 class _Line(ac.Component):

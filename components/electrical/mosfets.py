@@ -8,6 +8,8 @@ import acausal as ac
 from .diodes import _TemperatureDependent
 from .interfaces import Pin
 
+__modelica__ = "Modelica.Electrical.Analog.Semiconductors"
+
 
 class _MOS(_TemperatureDependent):
     """The n-channel law; with ``polarity`` -1 all voltages and currents are mirrored.

@@ -10,21 +10,10 @@ from typing import Any
 import acausal as ac
 
 from .basic import Capacitor, Resistor
-from .ideal import IdealizedOpAmpLimited
+from .ideal_amplifiers import IdealizedOpAmpLimited
 from .interfaces import FourPin, PositivePin
 
-__all__ = [
-    "PI",
-    "Add",
-    "Buffer",
-    "Der",
-    "Derivative",
-    "Feedback",
-    "FirstOrder",
-    "Gain",
-    "Integrator",
-    "PartialOpAmp",
-]
+__modelica__ = "Modelica.Electrical.Analog.Examples.OpAmps.OpAmpCircuits"
 
 
 class PartialOpAmp(FourPin):

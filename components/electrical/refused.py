@@ -1,6 +1,8 @@
-"""Ideal elements that remember or wait for events, which are refused for want of discrete states."""
+"""Ideal elements that remember or wait for events, which raise an error since they need discrete states."""
 
 from acausal.components.blocks.interfaces import NeedsDiscreteStates
+
+__modelica__ = "Modelica.Electrical.Analog.Ideal"
 
 
 class IdealThyristor(NeedsDiscreteStates):

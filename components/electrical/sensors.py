@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import NegativePin, PositivePin
 
+__modelica__ = "Modelica.Electrical.Analog.Sensors"
+
 
 class PotentialSensor(ac.Component):
     """Potential of a pin: ``phi = p.v`` [V]."""

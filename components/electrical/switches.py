@@ -5,10 +5,10 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import ConditionalHeatPort, IdealSwitch, NegativePin, Pin, PositivePin, contact
+from .interfaces import ConditionalHeatPort, IdealSwitch, NegativePin, Pin, PositivePin
+from .laws import TRUE, contact
 
-TRUE = 0.5
-"""A signal that stands for a truth value is true above this."""
+__modelica__ = "Modelica.Electrical.Analog.Ideal"
 
 
 class IdealOpeningSwitch(IdealSwitch):

@@ -5,9 +5,11 @@ from typing import Any
 
 import acausal as ac
 
-from .diodes import exlin
 from .ideal import IdealDiode
 from .interfaces import ConditionalHeatPort, NegativePin, PositivePin
+from .laws import exlin
+
+__modelica__ = "Modelica.Electrical.Analog.Semiconductors"
 
 
 class _Ratings(ConditionalHeatPort):
@@ -27,7 +29,7 @@ class _Ratings(ConditionalHeatPort):
     Nbv = ac.Parameter(0.74, doc="emission coefficient of the reverse breakthrough")
 
 
-VON, VOFF = 5.0, 1.5
+_VON, _VOFF = 5.0, 1.5
 """Control voltages [V] above which a thyristor conducts, below which it blocks."""
 
 
@@ -70,7 +72,7 @@ class Thyristor(_Ratings):
         yield ac.Eq(self.vGK, ac.where(self.vGK < 0.65, low, high))
         share = ac.maximum(ac.minimum(1e4 * (self.iGK - 0.95 * self.IGT), 10), 0)
         on = (self.Anode.i > self.IH) | (self.vAK > self.VDRM)
-        yield ac.Eq(self.vConmain, ac.where(on, VON, 0))
+        yield ac.Eq(self.vConmain, ac.where(on, _VON, 0))
         yield ac.Eq(self.vContot, self.vConmain + share * self.vAK)
         error = self.vContot - self.vControl
         delay = ac.where(error > 0, 1.87 * self.TON, 0.638 * self.TOFF)
@@ -80,7 +82,7 @@ class Thyristor(_Ratings):
     def _current(self) -> Any:
         on = (self.VTM - 0.7) / self.ITM
         off = self.VDRM**2 / self.VTM / self.IH
-        x = (2 * self.vControl - VON - VOFF) / (2 * (VON - VOFF))
+        x = (2 * self.vControl - _VON - _VOFF) / (2 * (_VON - _VOFF))
         x = ac.maximum(ac.minimum(x, 0.5), -0.5)
         resistance = ac.sqrt(on * off) * (on / off) ** ((3 * x - 4 * x**3) / 2)
         breakthrough = exlin(-(self.vAK + self.VRRM) / (self.Nbv * self.Vt), 100)

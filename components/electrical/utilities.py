@@ -10,25 +10,17 @@ import acausal as ac
 
 from . import basic
 from .adaptors import GeneralCurrentToVoltageAdaptor, GeneralVoltageToCurrentAdaptor
+from .bipolar import NPN
+from .currents import SignalCurrent
 from .interfaces import OnePort, Pin
-from .semiconductors import NMOS, NPN, PMOS
-from .sources import SignalCurrent, SignalVoltage
+from .mosfets import NMOS, PMOS
+from .voltages import SignalVoltage
 
-__all__ = [
-    "Conductor",
-    "DirectCapacitor",
-    "DirectInductor",
-    "InverseCapacitor",
-    "InverseInductor",
-    "Nand",
-    "NonlinearResistor",
-    "Resistor",
-    "Transistor",
-]
+__modelica__ = "Modelica.Electrical.Analog.Examples.Utilities"
 
 
 class NonlinearResistor(OnePort):
-    """Chua's resistor: ``i = Ga v`` for ``|v| < Ve``, beyond with the slope ``Gb``."""
+    """Chua's resistor: ``i = Ga v`` for ``|v| < Ve``, outside with the conductance ``Gb``."""
 
     Ga = ac.Parameter(unit="S", doc="conductance at small voltages")
     Gb = ac.Parameter(unit="S", doc="conductance at large voltages")

@@ -6,7 +6,10 @@ import acausal as ac
 
 from .interfaces import ConditionalHeatPort, NegativePin, OnePort, PositivePin
 
-EPS = 2.220446049250313e-16
+__modelica__ = "Modelica.Electrical.Analog.Basic"
+
+
+_EPS = 2.220446049250313e-16
 """Distance from 1.0 to the next larger number, `Modelica.Constants.eps`."""
 
 
@@ -54,7 +57,7 @@ class VariableCapacitor(OnePort):
     With ``UIC`` the voltage starts at ``IC`` [V].
     """
 
-    Cmin = ac.Parameter(EPS, unit="F", min=0, doc="lower bound of the capacitance")
+    Cmin = ac.Parameter(_EPS, unit="F", min=0, doc="lower bound of the capacitance")
     IC = ac.Parameter(0.0, unit="V", doc="initial voltage, with UIC")
     UIC = ac.Option(False, doc="whether the voltage starts at IC")
     C = ac.Input(unit="F", doc="capacitance")
@@ -76,7 +79,7 @@ class VariableInductor(OnePort):
     With ``UIC`` the current starts at ``IC`` [A].
     """
 
-    Lmin = ac.Parameter(EPS, unit="H", min=0, doc="lower bound of the inductance")
+    Lmin = ac.Parameter(_EPS, unit="H", min=0, doc="lower bound of the inductance")
     IC = ac.Parameter(0.0, unit="A", doc="initial current, with UIC")
     UIC = ac.Option(False, doc="whether the current starts at IC")
     L = ac.Input(unit="H", doc="inductance")

@@ -7,7 +7,8 @@ import acausal as ac
 
 from . import waveforms
 from .interfaces import NegativePin, OnePort, PositivePin, VoltageSource
-from .waveforms import VariableVoltage, Voltage
+
+__modelica__ = "Modelica.Electrical.Analog.Sources"
 
 
 class SignalVoltage(ac.Component):
@@ -34,23 +35,23 @@ class ConstantVoltage(OnePort):
         yield ac.Eq(self.v, self.V)
 
 
-class StepVoltage(waveforms.Step, Voltage):
+class StepVoltage(waveforms.Step, waveforms.Voltage):
     """``v = offset``, from ``startTime`` on ``v = offset + V``."""
 
 
-class RampVoltage(waveforms.Ramp, Voltage):
+class RampVoltage(waveforms.Ramp, waveforms.Voltage):
     """``v`` rises by ``V`` during ``duration`` [s] and stays there."""
 
 
-class SineVoltage(waveforms.Sine, Voltage):
+class SineVoltage(waveforms.Sine, waveforms.Voltage):
     """``v = offset + V sin(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
 
-class CosineVoltage(waveforms.Cosine, Voltage):
+class CosineVoltage(waveforms.Cosine, waveforms.Voltage):
     """``v = offset + V cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
 
-class SineVoltageVariableFrequencyAndAmplitude(VariableVoltage):
+class SineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
     """``v = offset + V sin(phi)``, ``der(phi) = 2 pi f``, with inputs ``V`` [V] and ``f`` [Hz].
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
@@ -60,7 +61,7 @@ class SineVoltageVariableFrequencyAndAmplitude(VariableVoltage):
         return ac.sin(self.phi)
 
 
-class CosineVoltageVariableFrequencyAndAmplitude(VariableVoltage):
+class CosineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
     """``v = offset + V cos(phi)``, ``der(phi) = 2 pi f``, with inputs ``V`` [V] and ``f`` [Hz].
 
     ``useConstantAmplitude`` and ``useConstantFrequency`` put parameters in their places.
@@ -70,7 +71,7 @@ class CosineVoltageVariableFrequencyAndAmplitude(VariableVoltage):
         return ac.cos(self.phi)
 
 
-class ExpSineVoltage(waveforms.ExpSine, Voltage):
+class ExpSineVoltage(waveforms.ExpSine, waveforms.Voltage):
     """``v = offset + V exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
 
 
@@ -88,15 +89,15 @@ class ExponentialsVoltage(waveforms.Exponentials, VoltageSource):
         return self.vMax
 
 
-class PulseVoltage(waveforms.Pulse, Voltage):
+class PulseVoltage(waveforms.Pulse, waveforms.Voltage):
     """``v = offset + V`` for the first ``width`` per cent of each ``period``, else ``offset``."""
 
 
-class SawToothVoltage(waveforms.SawTooth, Voltage):
+class SawToothVoltage(waveforms.SawTooth, waveforms.Voltage):
     """``v`` rises from ``offset`` by ``V`` in each ``period``."""
 
 
-class TrapezoidVoltage(waveforms.Trapezoid, Voltage):
+class TrapezoidVoltage(waveforms.Trapezoid, waveforms.Voltage):
     """In each ``period``: ``rising``, at ``offset + V`` for ``width``, ``falling`` [s], then ``offset``."""
 
 

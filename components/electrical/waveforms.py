@@ -32,7 +32,7 @@ class Current(CurrentSource):
 class Waveform(ac.Component):
     """The signal of a source: the parameters that it adds, and in ``_signal`` the block.
 
-    It comes before the source among the bases, which knows the ``_amplitude``.
+    It comes before the source among the bases; the source has the ``_amplitude``.
     """
 
     _amplitude: Any

@@ -9,12 +9,17 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import M_FLOW_SMALL, FlowPort, enthalpy_flow
+from .interfaces import FlowPort
 from .media import Medium
+from .mixing import M_FLOW_SMALL, enthalpy_flow
+
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.BaseClasses"
 
 
 class PartialMedium(ac.Component):
     """A component that is filled with a medium, a record of `acausal.components.fluid.media`."""
+
+    __modelica__ = None
 
     medium = ac.Option(Medium(), doc="medium in the component")
 
@@ -23,7 +28,7 @@ class PartialMedium(ac.Component):
         medium = modifiers.get("medium", self.medium)
         if not isinstance(medium, Medium):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: medium={medium!r} is no medium; give a record such as fluid.Water()"
+                f"{type(self).__name__}: medium={medium!r} is not a medium; give a record such as fluid.Water()"
             )
         super().modify(**modifiers)
 
@@ -33,7 +38,7 @@ class TwoPort(PartialMedium):
 
     ``dp = flowPort_a.p - flowPort_b.p`` [Pa], ``V_flow = flowPort_a.m_flow / rho`` [m3/s] from a to b,
     ``h = cp T``. The energy balance is ``flowPort_a.H_flow + flowPort_b.H_flow + Q_flow = m cv der(T)``; with
-    ``m = 0``, given as a number, ``T`` is no state. What the ports carry follows from the mixing rule
+    ``m = 0``, given as a number, ``T`` is not a state. What the ports carry follows from the mixing rule
     `enthalpy_flow`. A subclass states ``Q_flow`` [W], the heat into the medium, and a relation between
     ``dp`` and ``V_flow``.
 
@@ -74,7 +79,7 @@ class TwoPort(PartialMedium):
     flowPort_b = FlowPort()
 
     def modify(self, **modifiers: Any) -> None:
-        """As of every component; a mass of zero is none, so that there is no state."""
+        """Change modifiers; a mass of zero counts as no mass, so that there is no state."""
         if modifiers.get("m") == 0:
             del modifiers["m"]
             self._modifiers.pop("m", None)
@@ -99,6 +104,8 @@ class TwoPort(PartialMedium):
 
 class PartialAdiabatic(TwoPort):
     """Two flow ports without heat exchange: ``Q_flow = 0``."""
+
+    __modelica__ = None
 
     tapT = 1
 
@@ -147,6 +154,8 @@ class PartialSinglePort(PartialMedium):
     With `Exchange` the port's enthalpy flow follows from the mixing rule `enthalpy_flow`; else the
     medium has the enthalpy of the port.
     """
+
+    __modelica__ = None
 
     Exchange = True
 

@@ -3,14 +3,16 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import nature
 from acausal.components.thermal.interfaces import HeatPort
 from acausal.components.translational.interfaces import PartialElementaryOneFlangeAndSupport2
 
 from .bases import SimpleFriction, SinglePortBottom, SinglePortLeft, TwoPort
 
-G_N = 9.80665
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.Components"
 
-X_SMALL = 1e-5
+
+_X_SMALL = 1e-5
 
 
 class Pipe(TwoPort, SimpleFriction):
@@ -25,7 +27,7 @@ class Pipe(TwoPort, SimpleFriction):
 
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     h_g = ac.Parameter(0.0, unit="m", doc="height of flowPort_b above flowPort_a")
-    g = ac.Parameter(G_N, unit="m/s2", min=0, doc="gravity")
+    g = ac.Parameter(nature.g_n, unit="m/s2", min=0, doc="gravity")
     heatPort = HeatPort(when="useHeatPort")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -39,7 +41,7 @@ class Pipe(TwoPort, SimpleFriction):
             yield ac.Eq(self.Q_flow, self.Q_friction)
 
 
-class PartialValve(TwoPort):
+class _Valve(TwoPort):
     """What valves share: a part of the power lost, ``Q_flow = frictionLoss V_flow dp``, heats the medium."""
 
     tapT = 1
@@ -52,7 +54,7 @@ class PartialValve(TwoPort):
         yield ac.Eq(self.Q_flow, self.frictionLoss * self.V_flow * self.dp)
 
 
-class Valve(PartialValve):
+class Valve(_Valve):
     """A valve that a signal ``y`` opens, from 0 to ``y1``.
 
     With the opening ``o = min(max(y, 0), y1) / y1`` its standard flow rate is
@@ -81,10 +83,10 @@ class Valve(PartialValve):
             relative = self.kv0 * ac.exp(-ac.log(self.kv0) * opening)
         x = self.V_flow / self.Kv
         yield ac.Eq(self.Kv, self.Kv1 * relative)
-        yield ac.Eq(self.dp, self.dp0 * self.rho / self.rho0 * x * ac.sqrt(x**2 + X_SMALL**2))
+        yield ac.Eq(self.dp, self.dp0 * self.rho / self.rho0 * x * ac.sqrt(x**2 + _X_SMALL**2))
 
 
-class OneWayValve(PartialValve):
+class OneWayValve(_Valve):
     """A valve that lets flow pass from ``flowPort_a`` to ``flowPort_b`` only, like an ideal diode.
 
     Both are linear: forward ``dp / dpForward = V_flow / V_flowNominal``, backward a leakage
@@ -121,7 +123,7 @@ class OpenTank(SinglePortBottom):
     ATank = ac.Parameter(unit="m2", min=0, doc="cross section of the tank")
     hTank = ac.Parameter(unit="m", min=0, doc="height of the tank")
     pAmbient = ac.Parameter(0.0, unit="Pa", doc="ambient pressure")
-    g = ac.Parameter(G_N, unit="m/s2", min=0, doc="gravity")
+    g = ac.Parameter(nature.g_n, unit="m/s2", min=0, doc="gravity")
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     heatPort = HeatPort(when="useHeatPort")
     m = ac.Variable(unit="kg", doc="mass of the medium")

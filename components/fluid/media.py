@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.Media"
+
 
 @dataclass(frozen=True)
 class Medium:
@@ -11,7 +13,7 @@ class Medium:
         rho: density [kg/m3].
         cp: specific heat capacity at constant pressure [J/(kg.K)].
         cv: specific heat capacity at constant volume [J/(kg.K)].
-        lambda_: thermal conductivity [W/(m.K)]; Modelica's ``lambda``, which Python keeps to itself.
+        lambda_: thermal conductivity [W/(m.K)]; Modelica's ``lambda``, a keyword of Python.
         nu: kinematic viscosity [m2/s].
     """
 

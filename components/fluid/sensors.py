@@ -7,9 +7,13 @@ import acausal as ac
 from .bases import PartialAdiabatic, PartialMedium
 from .interfaces import FlowPort
 
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.Sensors"
+
 
 class AbsoluteSensor(PartialMedium):
     """One flow port that is measured without a flow: ``flowPort.m_flow = 0``, ``flowPort.H_flow = 0``."""
+
+    __modelica__ = "Modelica.Thermal.FluidHeatFlow.Interfaces"
 
     flowPort = FlowPort()
     y = ac.Output(doc="measured quantity")
@@ -22,6 +26,8 @@ class AbsoluteSensor(PartialMedium):
 
 class RelativeSensor(PartialMedium):
     """Two flow ports between which is measured, without a flow in either."""
+
+    __modelica__ = "Modelica.Thermal.FluidHeatFlow.Interfaces"
 
     flowPort_a = FlowPort()
     flowPort_b = FlowPort()
@@ -36,6 +42,8 @@ class RelativeSensor(PartialMedium):
 
 class FlowSensor(PartialAdiabatic):
     """Two flow ports through which flows what is measured: ``dp = 0``, no volume and no heat."""
+
+    __modelica__ = "Modelica.Thermal.FluidHeatFlow.Interfaces"
 
     m = 0
     T0 = 293.15

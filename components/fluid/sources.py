@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components.rotational.interfaces import Flange
+from acausal.components.mechanics.rotational import Flange
 
 from .bases import PartialAdiabatic, PartialSinglePort
+
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.Sources"
 
 
 class Ambient(PartialSinglePort):

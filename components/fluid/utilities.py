@@ -5,6 +5,8 @@ from typing import Any
 
 import acausal as ac
 
+__modelica__ = "Modelica.Thermal.FluidHeatFlow.Examples.Utilities"
+
 
 class DoubleRamp(ac.Component):
     """Two ramps, one after the other: a pump that drops out and comes back.

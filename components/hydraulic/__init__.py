@@ -12,26 +12,11 @@ given by its density ``rho``, that of water by default. With ``p_ambient`` zero,
 Where a flow carries heat, take `acausal.components.fluid`.
 """
 
-from .components import LinearResistance, OpenTank, Orifice, StaticHead, Weir
-from .interfaces import FluidPort, FluidPort_a, FluidPort_b, PartialTwoPortTransport
-from .sensors import MassFlowRate, PartialFlowSensor, Pressure, RelativePressure, VolumeFlowRate
-from .sources import Boundary, MassFlowSource
+from acausal.components.modelica import export
 
-__all__ = [
-    "Boundary",
-    "FluidPort",
-    "FluidPort_a",
-    "FluidPort_b",
-    "LinearResistance",
-    "MassFlowRate",
-    "MassFlowSource",
-    "OpenTank",
-    "Orifice",
-    "PartialFlowSensor",
-    "PartialTwoPortTransport",
-    "Pressure",
-    "RelativePressure",
-    "StaticHead",
-    "VolumeFlowRate",
-    "Weir",
-]
+from .components import *
+from .interfaces import *
+from .sensors import *
+from .sources import *
+
+export(__name__)

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import acausal as ac
 from acausal.components.nature import g_n
 
-from .interfaces import RHO, FluidPort, PartialTwoPortTransport
+from .interfaces import FluidPort, PartialTwoPortTransport
+from .water import RHO
 
 
 class OpenTank(ac.Component):
@@ -44,8 +45,9 @@ class LinearResistance(PartialTwoPortTransport):
 class Orifice(PartialTwoPortTransport):
     """A sharp hole, in both directions: ``m_flow = C_d area sqrt(2 rho |dp|) sign(dp)``.
 
-    Bernoulli's law, and Torricelli's where the pressure is that of a tank's bottom. So that its slope is finite without
-    a pressure drop, the root is ``dp / (dp**2 + dp_small**2)**(1/4)``, as in Modelica's ``Fluid.Utilities.regRoot``.
+    Bernoulli's law, and Torricelli's where the pressure is that of a tank's bottom. So that its derivative is finite
+    without a pressure drop, the root is ``dp / (dp**2 + dp_small**2)**(1/4)``, as in Modelica's
+    ``Fluid.Utilities.regRoot``.
     """
 
     area = ac.Parameter(unit="m2", min=0, doc="cross section of the hole")

@@ -4,9 +4,6 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-RHO = 1000.0
-"""Density of water [kg/m3]."""
-
 
 class FluidPort(ac.Connector):
     """Pressure ``p`` [Pa] and mass flow rate ``m_flow`` [kg/s], positive into the component."""

@@ -4,7 +4,8 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .interfaces import RHO, FluidPort, PartialTwoPortTransport
+from .interfaces import FluidPort, PartialTwoPortTransport
+from .water import RHO
 
 
 class Pressure(ac.Component):

@@ -10,125 +10,20 @@ Tubes that pull at an armature are in the module `force`, leakage tubes in `leak
 `hard_magnetic`.
 """
 
-from . import force, hard_magnetic, leakage, soft_magnetic
-from .basic import (
-    ConstantPermeance,
-    ConstantReluctance,
-    Crossing,
-    EddyCurrent,
-    ElectroMagneticConverter,
-    ElectroMagneticConverterWithLeakageInductance,
-    Ground,
-    Idle,
-    LeakageWithCoefficient,
-    Short,
-    VariablePermeance,
-    VariableReluctance,
-)
-from .fixed_shape import (
-    Cuboid,
-    FixedShape,
-    GenericFluxTube,
-    HollowCylinderAxialFlux,
-    HollowCylinderCircumferentialFlux,
-    HollowCylinderRadialFlux,
-    Toroid,
-)
-from .interfaces import (
-    MagneticPort,
-    NegativeMagneticPort,
-    PositiveMagneticPort,
-    Reluctance,
-    TwoPort,
-    TwoPortElementary,
-    TwoPortExtended,
-)
-from .magnets import (
-    GenericLinearPermanentMagnet,
-)
-from .sensors import (
-    MagneticFluxSensor,
-    MagneticPotentialDifferenceSensor,
-)
-from .soft_magnetic import (
-    AISI_12L14,
-    AISI_1008,
-    DC01,
-    DC03,
-    M330_50A,
-    M350_50A,
-    M530_50A,
-    M700_100A,
-    M940_100A,
-    MuMetall,
-    Permenorm3601K3,
-    RFe80,
-    Steel_9SMn28K,
-    Steel_9SMnPb28,
-    VacoferS2,
-    Vacoflux50,
-    X6Cr17,
-)
-from .sources import (
-    ConstantMagneticFlux,
-    ConstantMagneticPotentialDifference,
-    SignalMagneticFlux,
-    SignalMagneticPotentialDifference,
-)
+from acausal.components.modelica import export
 
-__all__ = [
-    "AISI_12L14",
-    "AISI_1008",
-    "DC01",
-    "DC03",
-    "M330_50A",
-    "M350_50A",
-    "M530_50A",
-    "M700_100A",
-    "M940_100A",
-    "ConstantMagneticFlux",
-    "ConstantMagneticPotentialDifference",
-    "ConstantPermeance",
-    "ConstantReluctance",
-    "Crossing",
-    "Cuboid",
-    "EddyCurrent",
-    "ElectroMagneticConverter",
-    "ElectroMagneticConverterWithLeakageInductance",
-    "FixedShape",
-    "GenericFluxTube",
-    "GenericLinearPermanentMagnet",
-    "Ground",
-    "HollowCylinderAxialFlux",
-    "HollowCylinderCircumferentialFlux",
-    "HollowCylinderRadialFlux",
-    "Idle",
-    "LeakageWithCoefficient",
-    "MagneticFluxSensor",
-    "MagneticPort",
-    "MagneticPotentialDifferenceSensor",
-    "MuMetall",
-    "NegativeMagneticPort",
-    "Permenorm3601K3",
-    "PositiveMagneticPort",
-    "RFe80",
-    "Reluctance",
-    "Short",
-    "SignalMagneticFlux",
-    "SignalMagneticPotentialDifference",
-    "Steel_9SMn28K",
-    "Steel_9SMnPb28",
-    "Toroid",
-    "TwoPort",
-    "TwoPortElementary",
-    "TwoPortExtended",
-    "VacoferS2",
-    "Vacoflux50",
-    "VariablePermeance",
-    "VariableReluctance",
-    "X6Cr17",
-    "force",
-    "hard_magnetic",
-    "leakage",
-    "soft_magnetic",
-]
+from . import (
+    force as force,
+    hard_magnetic as hard_magnetic,
+    leakage as leakage,
+    soft_magnetic as soft_magnetic,
+)
+from .basic import *
+from .fixed_shape import *
+from .interfaces import *
+from .magnets import *
+from .sensors import *
+from .soft_magnetic import *
+from .sources import *
+
+export(__name__, "force", "hard_magnetic", "leakage", "soft_magnetic")

@@ -16,7 +16,10 @@ from .interfaces import (
     TwoPortExtended,
 )
 
-EPS = 100 * 2.220446049250313e-16
+__modelica__ = "Modelica.Magnetic.FluxTubes.Basic"
+
+
+_EPS = 100 * 2.220446049250313e-16
 """Smallest current [A] by which a flux is divided."""
 
 
@@ -45,7 +48,7 @@ class _Converter(OnePort, TwoPort):
         yield ac.Eq(self.V_m, self.i * self.N)
         yield ac.Eq(self.N * ac.der(flux), -self.v)
         yield ac.Eq(self.Psi, self.N * flux)
-        yield ac.Eq(self.L_stat, ac.Abs(self.Psi) / ac.maximum(ac.Abs(self.i), EPS))
+        yield ac.Eq(self.L_stat, ac.Abs(self.Psi) / ac.maximum(ac.Abs(self.i), _EPS))
 
 
 class ElectroMagneticConverter(_Converter):

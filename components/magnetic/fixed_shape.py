@@ -10,15 +10,7 @@ from acausal.components import nature
 from .interfaces import Reluctance
 from .soft_magnetic import BaseData
 
-__all__ = [
-    "Cuboid",
-    "FixedShape",
-    "GenericFluxTube",
-    "HollowCylinderAxialFlux",
-    "HollowCylinderCircumferentialFlux",
-    "HollowCylinderRadialFlux",
-    "Toroid",
-]
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.FixedShape"
 
 
 class FixedShape(Reluctance):
@@ -28,6 +20,8 @@ class FixedShape(Reluctance):
     ``1 + (mu_i - 1 + c_a b)/(1 + c_b b + b**n)`` with ``b = |B/B_myMax|``. Its coefficients are those of
     the record ``material``, one of `soft_magnetic`, unless given. A subclass states ``A`` and ``G_m``.
     """
+
+    __modelica__ = None
 
     nonLinearPermeability = ac.Option(True, doc="whether mu_r depends on B")
     material = ac.Option(BaseData(), doc="soft magnetic material")
@@ -63,7 +57,7 @@ class FixedShape(Reluctance):
         material = modifiers.get("material", self.material)
         if not isinstance(material, BaseData):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: material={material!r} is no soft magnetic material; "
+                f"{type(self).__name__}: material={material!r} is not a soft magnetic material; "
                 "give a record such as magnetic.M350_50A()"
             )
         super().modify(**modifiers)
@@ -79,7 +73,7 @@ class FixedShape(Reluctance):
         if not self.nonLinearPermeability:
             return self.mu_rConst
         b = ac.Abs(self.B / self.B_myMax)
-        power = ac.maximum(b, 1e-12) ** self.n  # whose slope is finite at 0
+        power = ac.maximum(b, 1e-12) ** self.n  # whose derivative is finite at 0
         return 1 + (self.mu_i - 1 + self.c_a * b) / (1 + self.c_b * b + power)
 
     def _stated(self, area: Any, per_permeability: Any) -> Iterator[ac.Eq]:

@@ -5,18 +5,11 @@ from typing import Any
 
 import acausal as ac
 from acausal.components import nature
-from acausal.components.translational.interfaces import Flange_b, Support
+from acausal.components.mechanics.translational import Flange_b, Support
 
 from .interfaces import Reluctance
 
-__all__ = [
-    "CuboidOrthogonalFlux",
-    "CuboidParallelFlux",
-    "Force",
-    "HollowCylinderAxialFlux",
-    "HollowCylinderRadialFlux",
-    "LeakageAroundPoles",
-]
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.Force"
 
 
 class Force(Reluctance):
@@ -26,6 +19,8 @@ class Force(Reluctance):
     fixed at 0. ``dlBydx`` is 1 where it grows with the armature's position, else -1. The relative
     permeability ``mu_r`` is constant. A subclass states ``G_m`` [H] and its derivative ``dGmBydx`` [H/m].
     """
+
+    __modelica__ = None
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed at 0")
     dlBydx = ac.Option(1, choices=(1, -1), doc="derivative of l by the armature's position")
@@ -45,10 +40,10 @@ class Force(Reluctance):
         if self.useSupport:
             yield ac.Eq(self.support.f, -self.flange.f)
 
-    def _stated(self, permeance: Any, slope: Any) -> Iterator[ac.Eq]:
+    def _stated(self, permeance: Any, dGmBydl: Any) -> Iterator[ac.Eq]:
         """The permeance and its derivative by ``l``."""
         yield ac.Eq(self.G_m, permeance)
-        yield ac.Eq(self.dGmBydx, slope * self.dlBydx)
+        yield ac.Eq(self.dGmBydx, dGmBydl * self.dlBydx)
 
 
 class _Permeable(Force):
@@ -90,8 +85,8 @@ class HollowCylinderRadialFlux(_Permeable):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        slope = 2 * ac.pi * self._mu / ac.log(self.r_o / self.r_i)
-        yield from self._stated(slope * self.l, slope)
+        dGmBydl = 2 * ac.pi * self._mu / ac.log(self.r_o / self.r_i)
+        yield from self._stated(dGmBydl * self.l, dGmBydl)
         yield ac.Eq(self.B_avg, self.Phi / (ac.pi * (self.r_i + self.r_o) * self.l))
 
 
@@ -118,8 +113,8 @@ class CuboidOrthogonalFlux(_Permeable):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        slope = self._mu * self.a / self.b
-        yield from self._stated(slope * self.l, slope)
+        dGmBydl = self._mu * self.a / self.b
+        yield from self._stated(dGmBydl * self.l, dGmBydl)
         yield ac.Eq(self.B, self.Phi / (self.a * self.l))
 
 
@@ -132,5 +127,5 @@ class LeakageAroundPoles(Force):
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         width, ratio = nature.mu_0 * self.w, ac.pi * self.r / self.l
-        slope = -width * self.r / (self.l**2 * (1 + ratio))
-        yield from self._stated(width / ac.pi * ac.log(1 + ratio), slope)
+        dGmBydl = -width * self.r / (self.l**2 * (1 + ratio))
+        yield from self._stated(width / ac.pi * ac.log(1 + ratio), dGmBydl)

@@ -7,16 +7,7 @@ from dataclasses import dataclass
 
 from acausal.components import nature
 
-__all__ = [
-    "BaseData",
-    "HardFerrite",
-    "NdFeB",
-    "PlasticHardFerrite",
-    "PlasticNdFeB",
-    "PlasticSmCo",
-    "Sm2Co17",
-    "SmCo5",
-]
+__modelica__ = "Modelica.Magnetic.FluxTubes.Material.HardMagnetic"
 
 
 @dataclass(frozen=True)
@@ -30,6 +21,8 @@ class BaseData:
         alpha_Br: temperature coefficient of the remanence [1/K].
         T_op: operating temperature [K].
     """
+
+    __modelica__ = None
 
     H_cBRef: float = 1.0
     B_rRef: float = 1.0

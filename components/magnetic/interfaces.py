@@ -1,13 +1,15 @@
 """The magnetic port, and the bases of flux tubes.
 
 A port's flux ``Phi`` is positive into the component. ``V_m = port_p.V_m - port_n.V_m`` is the magnetic
-potential difference, the field strength along the tube's length. The product of the two is no power: that is
+potential difference, the field strength along the tube's length. The product of the two is not a power: that is
 ``V_m der(Phi)``.
 """
 
 from collections.abc import Iterator
 
 import acausal as ac
+
+__modelica__ = "Modelica.Magnetic.FluxTubes.Interfaces"
 
 
 class MagneticPort(ac.Connector):
@@ -55,6 +57,8 @@ class TwoPort(TwoPortExtended):
 
 class Reluctance(TwoPort):
     """A flux tube with ``V_m = Phi R_m`` and ``R_m = 1/G_m``; a subclass states one of the two."""
+
+    __modelica__ = None
 
     R_m = ac.Variable(unit="1/H", nominal=1e6, doc="magnetic reluctance")
     G_m = ac.Variable(unit="H", nominal=1e-6, doc="magnetic permeance")

@@ -8,22 +8,13 @@ from acausal.components import nature
 
 from .interfaces import Reluctance
 
-__all__ = [
-    "CoaxCylindersEndFaces",
-    "EighthOfHollowSphere",
-    "EighthOfSphere",
-    "HalfCylinder",
-    "HalfHollowCylinder",
-    "Leakage",
-    "QuarterCylinder",
-    "QuarterHollowCylinder",
-    "QuarterHollowSphere",
-    "QuarterSphere",
-]
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.Leakage"
 
 
 class Leakage(Reluctance):
     """Base: ``G_m`` [H] is ``mu_0`` times a length, which a subclass knows."""
+
+    __modelica__ = None
 
     @property
     def _length(self) -> Any:

@@ -9,6 +9,8 @@ from acausal.components import nature
 from .hard_magnetic import BaseData
 from .interfaces import TwoPort
 
+__modelica__ = "Modelica.Magnetic.FluxTubes.Shapes.HysteresisAndMagnets"
+
 
 class GenericLinearPermanentMagnet(TwoPort):
     """Permanent magnet with a straight characteristic: ``B = -B_r + mu_0 mu_r H``.
@@ -30,7 +32,7 @@ class GenericLinearPermanentMagnet(TwoPort):
         material = modifiers.get("mat", self.mat)
         if not isinstance(material, BaseData):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: mat={material!r} is no hard magnetic material; "
+                f"{type(self).__name__}: mat={material!r} is not a hard magnetic material; "
                 "give a record such as magnetic.hard_magnetic.NdFeB()"
             )
         super().modify(**modifiers)

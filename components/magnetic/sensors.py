@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import TwoPortElementary
 
+__modelica__ = "Modelica.Magnetic.FluxTubes.Sensors"
+
 
 class MagneticPotentialDifferenceSensor(TwoPortElementary):
     """Magnetic potential difference: ``V_m = port_p.V_m - port_n.V_m`` [A]; no flux passes."""

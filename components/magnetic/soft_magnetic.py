@@ -7,26 +7,8 @@ The relative permeability at the flux density ``B`` is approximately
 
 from dataclasses import dataclass
 
-__all__ = [
-    "AISI_12L14",
-    "AISI_1008",
-    "DC01",
-    "DC03",
-    "M330_50A",
-    "M350_50A",
-    "M530_50A",
-    "M700_100A",
-    "M940_100A",
-    "BaseData",
-    "MuMetall",
-    "Permenorm3601K3",
-    "RFe80",
-    "Steel_9SMn28K",
-    "Steel_9SMnPb28",
-    "VacoferS2",
-    "Vacoflux50",
-    "X6Cr17",
-]
+_SOFT = "Modelica.Magnetic.FluxTubes.Material.SoftMagnetic"
+__modelica__ = f"{_SOFT}.Steel"
 
 
 @dataclass(frozen=True)
@@ -39,6 +21,8 @@ class BaseData:
         c_a, c_b, n: coefficients of the approximation.
     """
 
+    __modelica__ = None
+
     mu_i: float = 1.0
     B_myMax: float = 1.0
     c_a: float = 1.0
@@ -49,6 +33,8 @@ class BaseData:
 @dataclass(frozen=True)
 class M330_50A(BaseData):  # noqa: N801 (Modelica's name)
     """Electric sheet M330-50A at 50 Hz, a core after machining."""
+
+    __modelica__ = f"{_SOFT}.ElectricSheet"
 
     mu_i: float = 500.0
     B_myMax: float = 0.7
@@ -61,6 +47,8 @@ class M330_50A(BaseData):  # noqa: N801 (Modelica's name)
 class M350_50A(BaseData):  # noqa: N801 (Modelica's name)
     """Electric sheet M350-50A at 50 Hz, a strip."""
 
+    __modelica__ = f"{_SOFT}.ElectricSheet"
+
     mu_i: float = 1210.0
     B_myMax: float = 1.16
     c_a: float = 24630.0
@@ -71,6 +59,8 @@ class M350_50A(BaseData):  # noqa: N801 (Modelica's name)
 @dataclass(frozen=True)
 class M530_50A(BaseData):  # noqa: N801 (Modelica's name)
     """Electric sheet M530-50A at 50 Hz, a strip."""
+
+    __modelica__ = f"{_SOFT}.ElectricSheet"
 
     mu_i: float = 2120.0
     B_myMax: float = 1.25
@@ -83,6 +73,8 @@ class M530_50A(BaseData):  # noqa: N801 (Modelica's name)
 class M700_100A(BaseData):  # noqa: N801 (Modelica's name)
     """Electric sheet M700-100A at 50 Hz, a strip."""
 
+    __modelica__ = f"{_SOFT}.ElectricSheet"
+
     mu_i: float = 1120.0
     B_myMax: float = 1.2
     c_a: float = 20750.0
@@ -93,6 +85,8 @@ class M700_100A(BaseData):  # noqa: N801 (Modelica's name)
 @dataclass(frozen=True)
 class M940_100A(BaseData):  # noqa: N801 (Modelica's name)
     """Electric sheet M940-100A at 50 Hz, a strip."""
+
+    __modelica__ = f"{_SOFT}.ElectricSheet"
 
     mu_i: float = 680.0
     B_myMax: float = 1.26
@@ -105,6 +99,8 @@ class M940_100A(BaseData):  # noqa: N801 (Modelica's name)
 class Vacoflux50(BaseData):
     """VACOFLUX 50 (50 % CoFe)."""
 
+    __modelica__ = f"{_SOFT}.CobaltIron"
+
     mu_i: float = 3850.0
     B_myMax: float = 1.75
     c_a: float = 11790.0
@@ -115,6 +111,8 @@ class Vacoflux50(BaseData):
 @dataclass(frozen=True)
 class MuMetall(BaseData):
     """MUMETALL (77 % NiFe)."""
+
+    __modelica__ = f"{_SOFT}.NickelIron"
 
     mu_i: float = 27300.0
     B_myMax: float = 0.46
@@ -127,6 +125,8 @@ class MuMetall(BaseData):
 class Permenorm3601K3(BaseData):
     """PERMENORM 3601 K3 (36 % NiFe)."""
 
+    __modelica__ = f"{_SOFT}.NickelIron"
+
     mu_i: float = 3000.0
     B_myMax: float = 0.67
     c_a: float = 50000.0
@@ -138,6 +138,8 @@ class Permenorm3601K3(BaseData):
 class RFe80(BaseData):
     """Pure iron RFe80 (Hyperm 0)."""
 
+    __modelica__ = f"{_SOFT}.PureIron"
+
     mu_i: float = 123.0
     B_myMax: float = 1.27
     c_a: float = 44410.0
@@ -148,6 +150,8 @@ class RFe80(BaseData):
 @dataclass(frozen=True)
 class VacoferS2(BaseData):
     """Pure iron VACOFER S2 (99.95 % Fe)."""
+
+    __modelica__ = f"{_SOFT}.PureIron"
 
     mu_i: float = 2666.0
     B_myMax: float = 1.15

@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import TwoPortElementary
 
+__modelica__ = "Modelica.Magnetic.FluxTubes.Sources"
+
 
 class _Source(TwoPortElementary):
     """``V_m = port_p.V_m - port_n.V_m``, ``Phi = port_p.Phi = -port_n.Phi``; one of them is given."""

@@ -5,14 +5,14 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import PartialLaw, named
-from .resistance import ZERO_CROSSING
+from .choices import ZERO_CROSSING
+from .interfaces import PartialLaw, _named
 
 
 class Characteristic(PartialLaw):
     """A learned characteristic between signals: ``y = net(u)``.
 
-    A sensor's curve, say, or that of an actuator. With ``secondary`` inputs it is a map, ``y = net(u, T, ...)``.
+    For example the curve of a sensor or of an actuator. With ``secondary`` inputs it is a map, ``y = net(u, T, ...)``.
     Without further options the network promises nothing; ``monotone=True``, ``odd=True``, ``zero_crossing`` and
     ``extrapolation`` hold for all weights, as of a `Resistance`.
 
@@ -29,22 +29,22 @@ class Characteristic(PartialLaw):
     monotone = ac.Option(False, doc="the characteristic never falls")
     zero_crossing = ac.Option(None, choices=ZERO_CROSSING, doc="how it comes to vanish at 0")
     floor = ac.Option(
-        0.0, doc="least slope of a monotone characteristic, relative to that of the scales"
+        0.0, doc="least derivative of a monotone characteristic, relative to that of the scales"
     )
     start = ac.Option(
         0.0,
-        doc="slope that a fresh monotone characteristic has besides, likewise, and that is trained",
+        doc="derivative that a new monotone characteristic has in addition, relative likewise; it is trained",
     )
     u = ac.Input(doc="input signal")
     y = ac.Output(doc="output signal")
     promises = (*PartialLaw.promises, "monotone", "zero_crossing", "floor", "start")
 
     def __init__(self, *, secondary: int | Sequence[str] = (), **modifiers: Any) -> None:
-        self.secondary = named(secondary)
+        self.secondary = _named(secondary)
         self._declare_secondary()
         super().__init__(**modifiers)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Law(
             monotone=self.monotone,
             zero_crossing=self.zero_crossing,

@@ -6,11 +6,9 @@ from typing import Any
 import acausal as ac
 from acausal.components.translational import Flange
 
-from .interfaces import PartialNeural, across_unit, flow_unit, product_unit
-from .resistance import ZERO_CROSSING
-
-FLOOR = 1e-3
-"""Default of ``floor`` where the slope of a monotone law is divided by."""
+from .choices import FLOOR, ZERO_CROSSING
+from .interfaces import PartialNeural
+from .units import across_unit, flow_unit, product_unit
 
 
 class Compliance(PartialNeural):
@@ -18,18 +16,19 @@ class Compliance(PartialNeural):
 
     Where the potential is a position, ``f = net(s_rel)``. Elsewhere the network gives what is stored,
     ``q = net(v)``, and the flow is its derivative, ``i = der(q)``. There a secondary input must be differentiable, and
-    the slope of the network, together with what is connected in parallel, must not vanish.
+    the derivative of the network, together with what is connected in parallel, must not vanish.
 
     The options are those of a `Resistance`. ``passive=True`` means that the element never gives back more than it
     took; where something is stored that takes ``monotone=True``, too.
 
-    With ``energy=True`` the network is an energy, and the law its slope: ``f = net'(s_rel)``, where ``E = net(s_rel)``
-    is stored; elsewhere ``q = net'(v)``, where the network is the co-energy and ``E = v q - net(v)``. Then
-    ``convex=True`` makes the law monotone and a rest position stable, and ``passive=True`` makes ``E >= 0``, with no
-    energy and no force at zero. See `acausal.networks.Energy`, and `PartialNeural` for the other arguments.
+    With ``energy=True`` the network is an energy, and the law its derivative: ``f = net'(s_rel)``, where
+    ``E = net(s_rel)`` is stored; elsewhere ``q = net'(v)``, where the network is the co-energy and
+    ``E = v q - net(v)``. Then ``convex=True`` makes the law monotone and a rest position stable, and ``passive=True``
+    makes ``E >= 0``, with no energy and no force at zero. See `acausal.networks.Energy`, and `PartialNeural` for the
+    other arguments.
 
     A monotone or convex law of what is stored rises by at least ``floor output_scale / input_scale``, so that it can be
-    solved for the difference; ``floor`` is 1e-3 there, where none is given. It starts near a slope of
+    solved for the difference; ``floor`` is 1e-3 there, where none is given. It starts near a derivative of
     ``output_scale / input_scale``.
     """
 
@@ -37,7 +36,7 @@ class Compliance(PartialNeural):
     monotone = ac.Option(False, doc="the law never falls; of an energy say convex")
     convex = ac.Option(False, doc="the energy is convex")
     zero_crossing = ac.Option(None, choices=ZERO_CROSSING, doc="how the law comes to vanish at 0")
-    floor = ac.Option(None, doc="least slope of the law, relative to that of the scales")
+    floor = ac.Option(None, doc="least derivative of the law, relative to that of the scales")
     promises = (*PartialNeural.promises, "passive", "monotone", "convex", "zero_crossing", "floor")
 
     def __init__(
@@ -61,7 +60,7 @@ class Compliance(PartialNeural):
             flow = flow_unit(kind) if self._is_mechanical else stored
             self.E = ac.Variable(unit=product_unit(across_unit(kind), flow), doc="stored energy")
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         rising = self.convex if self.energy else self.monotone
         if self.energy and self.monotone:
             raise ac.DeclarationError("the law of an energy is monotone with convex=True; say that")

@@ -5,16 +5,10 @@ from typing import Any
 
 import acausal as ac
 
-from .interfaces import (
-    PartialNetwork,
-    PartialTwoPort,
-    across_unit,
-    flow_unit,
-    per_second,
-    product_unit,
-)
+from .interfaces import PartialNetwork, PartialTwoPort
+from .units import across_unit, flow_unit, per_second, product_unit
 
-LEAST = 0.1
+_LEAST = 0.1
 """Least rate of forgetting: the memory ``z`` stays within ±10."""
 
 
@@ -63,14 +57,14 @@ class Hysteresis(PartialTwoPort, PartialNetwork):
         self.E = ac.Variable(unit=product_unit(flow, rate, "s"), doc="stored energy")
         self.lossPower = ac.Variable(unit=product_unit(flow, rate), doc="power that is lost")
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         sizes: dict[str, Any] = {**self._sizes, "input_scale": 1.0, "output_scale": 1.0}
         return ac.networks.Energy(convex=True, passive=True, odd=self.odd, **sizes)
 
     def _fresh_memory(self, key: Any) -> Any:
         """How fast the memory fades, as a positive network: of ``z sign(r)``, and of ``sign(r)`` if not odd."""
         net = ac.MLP(1 if self.odd else 2, self.width, self.depth, "tanh", key=key)
-        return ac.networks.Positive(net, LEAST)
+        return ac.networks.Positive(net, _LEAST)
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

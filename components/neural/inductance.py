@@ -5,25 +5,26 @@ from typing import Any
 
 import acausal as ac
 
-from .compliance import FLOOR
-from .interfaces import PartialNeural, across_unit, flow_unit, per_second, product_unit
+from .choices import FLOOR
+from .interfaces import PartialNeural
+from .units import across_unit, flow_unit, per_second, product_unit
 
 
 class Inductance(PartialNeural):
     """A neural mass, inductor or fluid inertance: momentum as a function of flow.
 
-    The network is the co-energy ``C``, convex for all weights. Its slope is the momentum, which rises with the flow:
+    The network is the co-energy ``C``, convex for all weights. Its derivative is the momentum, rising with the flow:
 
     - electrical: flux linkage ``momentum = C'(i)``, ``v = der(momentum)``;
-    - fluid: ``momentum = C'(m_flow)``, ``dp = der(momentum)``, and so in every domain whose potential is no position;
+    - fluid: ``momentum = C'(m_flow)``, ``dp = der(momentum)``; likewise where the potential is not a position;
     - mechanical: a rigid body between its flanges, as `translational.Mass`, of speed ``v = der(s)``, with
       ``momentum = C'(v)`` and ``der(momentum) = flange_a.f + flange_b.f``; ``w = der(phi)`` where it turns.
 
     The stored energy is ``E = v momentum - C(v)``, with the flow in place of the speed elsewhere. It is never negative,
     and what flows in is what is stored: a convex function lies above its tangents, so ``C(0) >= C(v) - v C'(v)``, and
-    ``C(0) = 0``; and ``der(E) = v der(momentum)``, the power. The mass, inductance or inertance is the slope of the
-    momentum, at least ``floor output_scale / input_scale``, so that it can be divided by. It starts near
-    ``output_scale / input_scale``: choose the scales so that this is a likely one.
+    ``C(0) = 0``; and ``der(E) = v der(momentum)``, the power. The mass, inductance or inertance is the derivative
+    of the momentum, at least ``floor output_scale / input_scale``, so that it can be divided by. It starts near
+    ``output_scale / input_scale``: choose the scales so that this is a likely value.
 
     In the magnetic domain, where ``V_m der(Phi)`` is the power, this is an eddy current loss. Heat has no inertia.
 
@@ -31,7 +32,7 @@ class Inductance(PartialNeural):
     momentum odd. See `PartialNeural` for the other arguments.
     """
 
-    floor = ac.Option(FLOOR, doc="least slope of the momentum, relative to that of the scales")
+    floor = ac.Option(FLOOR, doc="least derivative of the momentum, relative to that of the scales")
     promises = (*PartialNeural.promises, "floor")
 
     def _declare(self) -> None:
@@ -57,7 +58,7 @@ class Inductance(PartialNeural):
             speed = ac.Variable(unit=per_second(unit), state="prefer", doc="speed")
             setattr(self, _speed(kind.rate), speed)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Energy(
             convex=True, passive=True, floor=self.floor, start=1.0, **self._sizes
         )

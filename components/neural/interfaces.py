@@ -6,6 +6,8 @@ from typing import Any
 import acausal as ac
 from acausal.components.translational import Flange
 
+from .units import across_unit, flow_unit
+
 
 class PartialTwoPort(ac.Component):
     """Two connectors and the variables between them, under the names of their domain.
@@ -22,7 +24,7 @@ class PartialTwoPort(ac.Component):
     def __init__(self, connector: type[ac.Connector] = Flange, **modifiers: Any) -> None:
         if not (isinstance(connector, type) and issubclass(connector, ac.Connector)):
             raise ac.DeclarationError(
-                f"{type(self).__name__}: connector={connector!r:.60} is no class of connectors; "
+                f"{type(self).__name__}: connector={connector!r:.60} is not a class of connectors; "
                 "give one such as translational.Flange"
             )
         self.connector = connector
@@ -30,7 +32,7 @@ class PartialTwoPort(ac.Component):
         super().__init__(**modifiers)
 
     def _declare(self) -> None:
-        """Declare what bears the domain's names."""
+        """Declare what has the domain's names."""
         for name in self.connector.pair:
             setattr(self, name, self.connector())
         self._declare_between()
@@ -84,7 +86,7 @@ class PartialNetwork(ac.Component):
     """Options of the network that a user's own network would not know of."""
 
     def modify(self, **modifiers: Any) -> None:
-        """As of every component; promises that do not go together are refused here."""
+        """Change modifiers; raises an error for promises that contradict each other."""
         super().modify(**modifiers)
         own = "net" in self._modifiers
         given = [name for name in self.promises if self._options.get(name)]
@@ -95,21 +97,21 @@ class PartialNetwork(ac.Component):
                 "ac.networks, such as Passive, or leave out net=..."
             )
         try:
-            self._recipe()
+            self._spec()
         except ac.DeclarationError as error:
             raise ac.DeclarationError(f"{self._label()}: {error}") from None
 
     def _fresh(self, key: Any) -> Any:
         """The network, with fresh weights."""
-        return self._recipe()(key)
+        return self._spec()(key)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         """How the network is made."""
         raise NotImplementedError
 
     @property
     def _sizes(self) -> dict[str, Any]:
-        """The options that every recipe has."""
+        """The options that every network has."""
         scale = self.input_scale
         return {
             "width": self.width,
@@ -180,7 +182,7 @@ class PartialNeural(PartialTwoPort, PartialLaw):
         secondary: int | Sequence[str] = (),
         **modifiers: Any,
     ) -> None:
-        self.secondary = named(secondary)
+        self.secondary = _named(secondary)
         super().__init__(connector, **modifiers)
 
     def _declare(self) -> None:
@@ -188,28 +190,7 @@ class PartialNeural(PartialTwoPort, PartialLaw):
         self._declare_secondary()
 
 
-def named(secondary: int | Sequence[str]) -> tuple[str, ...]:
+def _named(secondary: int | Sequence[str]) -> tuple[str, ...]:
     """Names of secondary inputs; of a number of them ``u1``, ``u2`` and so on."""
     names = [f"u{i + 1}" for i in range(secondary)] if isinstance(secondary, int) else secondary
     return tuple(names)
-
-
-def across_unit(connector: type[ac.Connector]) -> str:
-    """Unit of the difference of two potentials."""
-    potential = connector.declarations[connector.potential()].unit
-    return connector.across_unit or potential
-
-
-def flow_unit(connector: type[ac.Connector]) -> str:
-    """Unit of the flow."""
-    return connector.declarations[connector.flow()].unit
-
-
-def product_unit(*units: str) -> str:
-    """The product of units, in Modelica's spelling."""
-    return ".".join(f"({u})" if "/" in u else u for u in units if u)
-
-
-def per_second(unit: str) -> str:
-    """A unit per second, if there is one."""
-    return f"{unit}/s" if unit else ""

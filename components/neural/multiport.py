@@ -6,7 +6,8 @@ from typing import Any
 import acausal as ac
 from acausal.components.translational import Flange
 
-from .interfaces import PartialNetwork, PartialTwoPort, across_unit, flow_unit, product_unit
+from .interfaces import PartialNetwork, PartialTwoPort
+from .units import across_unit, flow_unit, product_unit
 
 
 class CompliancePort(PartialTwoPort):
@@ -36,9 +37,9 @@ class CompliancePort(PartialTwoPort):
 
 
 class MultiportCompliance(PartialNetwork):
-    """A neural compliance of several ports: one energy, ``E = net(x_1, x_2, ...)``, and its slopes.
+    """A neural compliance of several ports: one energy, ``E = net(x_1, x_2, ...)``, and its gradient.
 
-    The effort at port ``i`` is ``ports[i].e = dE/dx_i``: the element is conservative whatever the weights, the
+    The effort at port ``i`` is ``ports[i].e = dE/dx_i``: the element is conservative for all weights, the
     stiffness matrix symmetric. With one domain at each port it converts energy without loss, as a piezo stack or a
     capacitor with a movable plate does. ``passive=True`` makes ``E >= 0``, with no energy and no effort at zero;
     ``convex=True`` makes a rest position stable; ``odd=True`` makes the efforts odd in all displacements together.
@@ -71,8 +72,8 @@ class MultiportCompliance(PartialNetwork):
         pseudo = [kind for kind in connectors if not kind.power]
         if pseudo and any(kind is not pseudo[0] for kind in connectors):
             raise ac.DeclarationError(
-                f"MultiportCompliance: difference times flow is no power for {pseudo[0].__name__}, so that it shares "
-                "no energy with other domains; give ports of one domain"
+                f"MultiportCompliance: difference times flow is not a power for {pseudo[0].__name__}, so that it "
+                "shares no energy with other domains; give ports of one domain"
             )
         self.connectors, self.secondary = tuple(connectors), tuple(secondary)
         self.ports = [CompliancePort(kind) for kind in connectors]
@@ -86,7 +87,7 @@ class MultiportCompliance(PartialNetwork):
         time = "" if kind.rate is not None else "s"
         return product_unit(across_unit(kind), flow_unit(kind), time)
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Energy(
             inputs=len(self.ports),
             secondary=len(self.secondary),

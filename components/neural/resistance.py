@@ -6,9 +6,9 @@ from typing import Any
 import acausal as ac
 from acausal.components.thermal import HeatPort
 
-from .interfaces import PartialNeural, across_unit, per_second
-
-ZERO_CROSSING = (None, "regularizer", "offset", "exact")
+from .choices import ZERO_CROSSING
+from .interfaces import PartialNeural
+from .units import across_unit, per_second
 
 
 class Resistance(PartialNeural):
@@ -32,14 +32,14 @@ class Resistance(PartialNeural):
     passive = ac.Option(False, doc="the law has the sign of its first input")
     monotone = ac.Option(False, doc="the law never falls")
     zero_crossing = ac.Option(None, choices=ZERO_CROSSING, doc="how the law comes to vanish at 0")
-    floor = ac.Option(0.0, doc="least slope of a monotone law, relative to that of the scales")
+    floor = ac.Option(0.0, doc="least derivative of a monotone law, relative to that of the scales")
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     heatPort = HeatPort(when="useHeatPort")
     lossPower = ac.Variable(unit="W", when="useHeatPort", doc="power that leaves as heat")
     promises = (*PartialNeural.promises, "passive", "monotone", "zero_crossing", "floor")
 
     def modify(self, **modifiers: Any) -> None:
-        """As of every component; promises that do not go together are refused here."""
+        """Change modifiers; raises an error for promises that contradict each other."""
         super().modify(**modifiers)
         if self.useHeatPort and not (self.passive and self.connector.power):
             missing = "passive=True" if self.connector.power else "a domain whose flow has a power"
@@ -53,7 +53,7 @@ class Resistance(PartialNeural):
             unit = per_second(across_unit(self.connector))
             setattr(self, self.connector.rate, ac.Variable(unit=unit, doc="rate of the difference"))
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return ac.networks.Law(
             passive=self.passive,
             monotone=self.monotone,

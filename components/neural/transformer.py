@@ -7,9 +7,10 @@ import acausal as ac
 from acausal.components.rotational import Flange
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
-from .interfaces import PartialNetwork, across_unit, flow_unit, per_second
+from .interfaces import PartialNetwork
+from .units import across_unit, flow_unit, per_second
 
-LEAST = 0.15
+_LEAST = 0.15
 """Least efficiency. Above 0.107 the effort on one side falls with that on the other, so that it is determined by it."""
 
 
@@ -60,7 +61,7 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
         for connector in (connector_a, connector_b):
             if not connector.power:
                 raise ac.DeclarationError(
-                    f"LossyTransformer: difference times flow is no power for {connector.__name__}; "
+                    f"LossyTransformer: difference times flow is not a power for {connector.__name__}; "
                     "take mechanical or electrical ports"
                 )
         self.connector_a, self.connector_b = connector_a, connector_b
@@ -91,7 +92,7 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
             names = [tuple(n + mark for n in same) for same, mark in zip(names, marks, strict=True)]
         return ("a", kinds[0], names[0]), ("b", kinds[1], names[1])
 
-    def _recipe(self) -> Callable[[Any], Any]:
+    def _spec(self) -> Callable[[Any], Any]:
         return self._efficiency
 
     def _efficiency(self, key: Any) -> Any:
@@ -103,7 +104,7 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
             "input_scale": (rate, 1.0, *others),
         }
         net = ac.MLP(1 + inputs, **{**self._sizes, **chosen}, key=key)
-        return ac.networks.Between(net, LEAST, 1.0, start=2.0)
+        return ac.networks.Between(net, _LEAST, 1.0, start=2.0)
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

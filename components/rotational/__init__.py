@@ -7,148 +7,19 @@ inertia = rot.Inertia(J=1.0)
 ```
 """
 
-from acausal.components import (
-    translational as translational,
-)  # comes first: its vehicle has our wheels
+from acausal.components.mechanics.rolling import *
+from acausal.components.mechanics.rotational import *
+from acausal.components.modelica import export
 
-from . import utilities
-from .components import (
-    AngleToTorqueAdaptor,
-    BearingFriction,
-    Brake,
-    Clutch,
-    Coupling,
-    Damper,
-    Disc,
-    ElastoBacklash,
-    ElastoBacklash2,
-    Fixed,
-    Gearbox,
-    GeneralAngleToTorqueAdaptor,
-    GeneralTorqueToAngleAdaptor,
-    IdealGear,
-    IdealGearR2T,
-    IdealPlanetary,
-    IdealRollingWheel,
-    Inertia,
-    InitializeFlange,
-    LossyGear,
-    OneWayClutch,
-    RelativeStates,
-    Spring,
-    SpringDamper,
-    TorqueToAngleAdaptor,
-)
-from .interfaces import (
-    Flange,
-    Flange_a,
-    Flange_b,
-    PartialAbsoluteSensor,
-    PartialCompliant,
-    PartialCompliantWithRelativeStates,
-    PartialElementaryOneFlangeAndSupport2,
-    PartialElementaryRotationalToTranslational,
-    PartialElementaryTwoFlangesAndSupport2,
-    PartialFriction,
-    PartialOneFlangeAndSupport,
-    PartialRelativeSensor,
-    PartialTorque,
-    PartialTwoFlanges,
-    PartialTwoFlangesAndSupport,
-    Support,
-)
-from .sensors import (
-    AccSensor,
-    AngleSensor,
-    MultiSensor,
-    PowerSensor,
-    RelAccSensor,
-    RelAngleSensor,
-    RelSpeedSensor,
-    SpeedSensor,
-    TorqueSensor,
-)
-from .sources import (
-    Accelerate,
-    ConstantSpeed,
-    ConstantTorque,
-    EddyCurrentTorque,
-    InverseSpeedDependentTorque,
-    LinearSpeedDependentTorque,
-    Move,
-    Position,
-    QuadraticSpeedDependentTorque,
-    SignTorque,
-    Speed,
-    Torque,
-    Torque2,
-    TorqueStep,
-)
+from . import utilities as utilities
+from .adaptors import *
+from .compliances import *
+from .components import *
+from .friction import *
+from .gears import *
+from .interfaces import *
+from .sensors import *
+from .sources import *
+from .torques import *
 
-__all__ = [
-    "AccSensor",
-    "Accelerate",
-    "AngleSensor",
-    "AngleToTorqueAdaptor",
-    "BearingFriction",
-    "Brake",
-    "Clutch",
-    "ConstantSpeed",
-    "ConstantTorque",
-    "Coupling",
-    "Damper",
-    "Disc",
-    "EddyCurrentTorque",
-    "ElastoBacklash",
-    "ElastoBacklash2",
-    "Fixed",
-    "Flange",
-    "Flange_a",
-    "Flange_b",
-    "Gearbox",
-    "GeneralAngleToTorqueAdaptor",
-    "GeneralTorqueToAngleAdaptor",
-    "IdealGear",
-    "IdealGearR2T",
-    "IdealPlanetary",
-    "IdealRollingWheel",
-    "Inertia",
-    "InitializeFlange",
-    "InverseSpeedDependentTorque",
-    "LinearSpeedDependentTorque",
-    "LossyGear",
-    "Move",
-    "MultiSensor",
-    "OneWayClutch",
-    "PartialAbsoluteSensor",
-    "PartialCompliant",
-    "PartialCompliantWithRelativeStates",
-    "PartialElementaryOneFlangeAndSupport2",
-    "PartialElementaryRotationalToTranslational",
-    "PartialElementaryTwoFlangesAndSupport2",
-    "PartialFriction",
-    "PartialOneFlangeAndSupport",
-    "PartialRelativeSensor",
-    "PartialTorque",
-    "PartialTwoFlanges",
-    "PartialTwoFlangesAndSupport",
-    "Position",
-    "PowerSensor",
-    "QuadraticSpeedDependentTorque",
-    "RelAccSensor",
-    "RelAngleSensor",
-    "RelSpeedSensor",
-    "RelativeStates",
-    "SignTorque",
-    "Speed",
-    "SpeedSensor",
-    "Spring",
-    "SpringDamper",
-    "Support",
-    "Torque",
-    "Torque2",
-    "TorqueSensor",
-    "TorqueStep",
-    "TorqueToAngleAdaptor",
-    "utilities",
-]
+export(__name__, "utilities")

@@ -3,8 +3,11 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
 
-from .interfaces import STATE_SELECT, Flange, PartialTwoFlanges
+from .interfaces import Flange, PartialTwoFlanges
+
+__modelica__ = "Modelica.Mechanics.Rotational.Components"
 
 
 class InitializeFlange(ac.Component):
@@ -153,8 +156,8 @@ class GeneralAngleToTorqueAdaptor(ac.Component):
     """A flange as signals, motion in, torque out: ``flange.phi = p``, ``f = -flange.tau``.
 
     ``f`` [N.m] drives what is connected to the flange. With ``use_pder`` and ``use_pder2`` the inputs
-    ``pder`` and ``pder2`` are taken for the derivatives of ``p`` wherever the model needs them;
-    without, ``p`` is differentiated.
+    ``pder`` and ``pder2`` serve as the derivatives of ``p`` where the model needs them;
+    without them, ``p`` is differentiated.
     """
 
     use_pder = ac.Option(True, doc="whether the speed is an input")

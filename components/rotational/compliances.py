@@ -9,7 +9,10 @@ from acausal.components.thermal.interfaces import PartialElementaryConditionalHe
 
 from .interfaces import PartialCompliant, PartialCompliantWithRelativeStates
 
-NO_BACKLASH = 1e-10
+__modelica__ = "Modelica.Mechanics.Rotational.Components"
+
+
+_NO_BACKLASH = 1e-10
 """A backlash up to this angle [rad] counts as none."""
 
 
@@ -74,7 +77,7 @@ class _Backlash(PartialCompliantWithRelativeStates, PartialElementaryConditional
         pushes = self.tau_c * (self.tau_c + self.tau_d) > 0
 
         def contact(always: Any, pushing: Any) -> Any:
-            return ac.where(self.b <= NO_BACKLASH, always, ac.where(pushes, pushing, 0))
+            return ac.where(self.b <= _NO_BACKLASH, always, ac.where(pushes, pushing, 0))
 
         yield ac.Eq(self.tau_c, self.c * (angle - bounded(angle, self.b / 2)))
         yield ac.Eq(self.tau_d, self.d * self.w_rel)

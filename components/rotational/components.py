@@ -3,54 +3,11 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
 
-from .adaptors import (
-    AngleToTorqueAdaptor,
-    GeneralAngleToTorqueAdaptor,
-    GeneralTorqueToAngleAdaptor,
-    InitializeFlange,
-    RelativeStates,
-    TorqueToAngleAdaptor,
-)
-from .compliances import Damper, ElastoBacklash, ElastoBacklash2, Spring, SpringDamper
-from .friction import BearingFriction, Brake, Clutch, OneWayClutch
-from .gears import (
-    Gearbox,
-    IdealGear,
-    IdealGearR2T,
-    IdealPlanetary,
-    IdealRollingWheel,
-    LossyGear,
-)
-from .interfaces import STATE_SELECT, Flange, PartialTwoFlanges
+from .interfaces import Flange, PartialTwoFlanges
 
-__all__ = [
-    "AngleToTorqueAdaptor",
-    "BearingFriction",
-    "Brake",
-    "Clutch",
-    "Coupling",
-    "Damper",
-    "Disc",
-    "ElastoBacklash",
-    "ElastoBacklash2",
-    "Fixed",
-    "Gearbox",
-    "GeneralAngleToTorqueAdaptor",
-    "GeneralTorqueToAngleAdaptor",
-    "IdealGear",
-    "IdealGearR2T",
-    "IdealPlanetary",
-    "IdealRollingWheel",
-    "Inertia",
-    "InitializeFlange",
-    "LossyGear",
-    "OneWayClutch",
-    "RelativeStates",
-    "Spring",
-    "SpringDamper",
-    "TorqueToAngleAdaptor",
-]
+__modelica__ = "Modelica.Mechanics.Rotational.Components"
 
 
 class Fixed(ac.Component):

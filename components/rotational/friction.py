@@ -13,6 +13,8 @@ from .interfaces import (
     PartialFriction,
 )
 
+__modelica__ = "Modelica.Mechanics.Rotational.Components"
+
 
 class _TabulatedFriction(PartialFriction, PartialElementaryConditionalHeatPortWithoutT):
     """Friction with a sliding part from a table and a peak at rest; it may heat a port."""

@@ -6,21 +6,23 @@ from typing import Any
 import numpy as np
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
 from acausal.components.laws import SMOOTHNESS, lookup
 from acausal.components.thermal import HeatPort
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
 from .compliances import ElastoBacklash
 from .interfaces import (
-    STATE_SELECT,
     Flange,
-    PartialElementaryRotationalToTranslational,
     PartialElementaryTwoFlangesAndSupport2,
     PartialFriction,
     PartialTwoFlangesAndSupport,
 )
 
-LOSSLESS = (0.0, 1.0, 1.0, 0.0, 0.0)
+__modelica__ = "Modelica.Mechanics.Rotational.Components"
+
+
+_LOSSLESS = (0.0, 1.0, 1.0, 0.0, 0.0)
 """The only row of a loss table without losses."""
 
 
@@ -53,40 +55,12 @@ class IdealPlanetary(ac.Component):
         yield ac.Eq(self.carrier.tau, -(1 + self.ratio) * self.sun.tau)
 
 
-class IdealGearR2T(PartialElementaryRotationalToTranslational):
-    """Ideal gear from rotation to translation, such as a rack and pinion.
-
-    ``phi = ratio s``, ``0 = ratio flangeR.tau + flangeT.f``; angle and position count from the supports.
-    """
-
-    ratio = ac.Parameter(unit="rad/m", doc="transmission ratio flangeR.phi / flangeT.s")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield from super().equations()
-        yield ac.Eq(self.phi, self.ratio * self.s)
-        yield ac.Eq(0, self.ratio * self.flangeR.tau + self.flangeT.f)
-
-
-class IdealRollingWheel(PartialElementaryRotationalToTranslational):
-    """A wheel without inertia that rolls without slip.
-
-    ``phi radius = s``, ``0 = radius flangeT.f + flangeR.tau``; angle and position count from the supports.
-    """
-
-    radius = ac.Parameter(unit="m", doc="radius of the wheel")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield from super().equations()
-        yield ac.Eq(self.phi * self.radius, self.s)
-        yield ac.Eq(0, self.radius * self.flangeT.f + self.flangeR.tau)
-
-
 class _Lossy(ac.Component):
     """A gear with a table of losses: rows of ``|w_a|, eta_mf1, eta_mf2, |tau_bf1|, |tau_bf2|``."""
 
     ratio = ac.Parameter(doc="transmission ratio flange_a.phi / flange_b.phi")
     lossTable = ac.Parameter(
-        [LOSSLESS], shape=(":", ":"), doc="rows of speed, two efficiencies, two bearing torques"
+        [_LOSSLESS], shape=(":", ":"), doc="rows of speed, two efficiencies, two bearing torques"
     )
     ideal = ac.Option(True, doc="whether there are no losses: no lossTable, or one without")
 
@@ -94,12 +68,12 @@ class _Lossy(ac.Component):
         """Set parameters, options and starts by name; a ``lossTable`` decides on ``ideal``."""
         if "lossTable" in modifiers:
             table = np.asarray(modifiers["lossTable"], dtype=object)
-            if table.ndim != 2 or table.shape[1] != len(LOSSLESS):
+            if table.ndim != 2 or table.shape[1] != len(_LOSSLESS):
                 raise ac.DeclarationError(
                     f"{type(self).__name__}.lossTable needs rows of 5 numbers: |w_a|, eta_mf1, "
                     f"eta_mf2, |tau_bf1|, |tau_bf2|; its shape is {table.shape}"
                 )
-            modifiers = {"ideal": bool(np.array_equal(table, [LOSSLESS])), **modifiers}
+            modifiers = {"ideal": bool(np.array_equal(table, [_LOSSLESS])), **modifiers}
         super().modify(**modifiers)
 
 

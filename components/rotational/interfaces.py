@@ -1,38 +1,17 @@
-"""The rotational flange, and the bases that components and users' own elements extend.
-
-Along one axis of rotation: a positive angle, speed or torque points in its direction. A flange's
-torque ``tau`` is positive where it turns the component that way.
-"""
+"""Bases that components and users' own elements extend; for the flange see `acausal.components.mechanics`."""
 
 from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import translational
+from acausal.components.choices import STATE_SELECT
+from acausal.components.mechanics.rotational import Flange, Support
 
-STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
-
-
-class Flange(ac.Connector):
-    """Angle ``phi`` [rad] and cut torque ``tau`` [N.m], positive into the component."""
-
-    phi = ac.Potential(unit="rad", doc="absolute angle of the flange")
-    tau = ac.Flow(unit="N.m", doc="cut torque in the flange")
-
-    pair = ("flange_a", "flange_b")
-    across = "phi_rel"
-    through = "tau"
-    rate = "w_rel"
-    second_minus_first = True
-
-
-Flange_a = Flange
-Flange_b = Flange
-Support = Flange
+__modelica__ = "Modelica.Mechanics.Rotational.Interfaces"
 
 
 class PartialTwoFlanges(ac.Component):
-    """Two flanges, and nothing said about them."""
+    """Two flanges without equations."""
 
     flange_a = Flange()
     flange_b = Flange()
@@ -151,38 +130,6 @@ class PartialElementaryTwoFlangesAndSupport2(PartialTwoFlanges):
             yield ac.Eq(self.support.tau, -self.flange_a.tau - self.flange_b.tau)
 
 
-class PartialElementaryRotationalToTranslational(ac.Component):
-    """A rotational flange ``flangeR`` and a translational one ``flangeT``, each with its support.
-
-    The supports exist with ``useSupportR`` and ``useSupportT``; else that side works against the
-    ground. ``supportR.tau = -flangeR.tau``, ``supportT.f = -flangeT.f``.
-    """
-
-    useSupportR = ac.Option(False, doc="whether there is a rotational support flange")
-    useSupportT = ac.Option(False, doc="whether there is a translational support flange")
-    flangeR = Flange()
-    flangeT = translational.Flange()
-    supportR = Support(when="useSupportR")
-    supportT = translational.Support(when="useSupportT")
-
-    @property
-    def phi(self) -> Any:
-        """Angle of ``flangeR`` relative to its support."""
-        return self.flangeR.phi - self.supportR.phi if self.useSupportR else self.flangeR.phi
-
-    @property
-    def s(self) -> Any:
-        """Position of ``flangeT`` relative to its support."""
-        return self.flangeT.s - self.supportT.s if self.useSupportT else self.flangeT.s
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield from super().equations()
-        if self.useSupportR:
-            yield ac.Eq(self.supportR.tau, -self.flangeR.tau)
-        if self.useSupportT:
-            yield ac.Eq(self.supportT.f, -self.flangeT.f)
-
-
 class PartialTorque(PartialElementaryOneFlangeAndSupport2):
     """A torque ``tau = -flange.tau`` [N.m] that drives what is connected to the flange."""
 
@@ -215,7 +162,7 @@ class PartialFriction(ac.Component):
     """What friction elements share: the speed ``w_small`` [rad/s] that smooths the law around rest.
 
     Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
-    creeps instead, and it is the stiffer the smaller ``w_small`` is.
+    creeps instead, and it is stiffer for a smaller ``w_small``.
     """
 
     DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")

@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import PartialAbsoluteSensor, PartialRelativeSensor
 
+__modelica__ = "Modelica.Mechanics.Rotational.Sensors"
+
 
 class AngleSensor(PartialAbsoluteSensor):
     """Absolute angle: ``phi = flange.phi`` [rad]."""
@@ -78,7 +80,7 @@ class RelAccSensor(PartialRelativeSensor):
         yield ac.Eq(self.flange_a.tau, 0)
 
 
-class PartialCutSensor(PartialRelativeSensor):
+class _CutSensor(PartialRelativeSensor):
     """Base of sensors in a rigid cut: ``flange_a.phi = flange_b.phi``."""
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -86,7 +88,7 @@ class PartialCutSensor(PartialRelativeSensor):
         yield ac.Eq(self.flange_a.phi, self.flange_b.phi)
 
 
-class TorqueSensor(PartialCutSensor):
+class TorqueSensor(_CutSensor):
     """Cut torque: ``tau = flange_a.tau`` [N.m]."""
 
     tau = ac.Output(unit="N.m", doc="torque in flange_a, = -flange_b.tau")
@@ -96,7 +98,7 @@ class TorqueSensor(PartialCutSensor):
         yield ac.Eq(self.tau, self.flange_a.tau)
 
 
-class PowerSensor(PartialCutSensor):
+class PowerSensor(_CutSensor):
     """Power through the cut: ``power = flange_a.tau der(flange_a.phi)`` [W]."""
 
     power = ac.Output(unit="W", doc="power into flange_a")
@@ -106,7 +108,7 @@ class PowerSensor(PartialCutSensor):
         yield ac.Eq(self.power, self.flange_a.tau * ac.der(self.flange_a.phi))
 
 
-class MultiSensor(PartialCutSensor):
+class MultiSensor(_CutSensor):
     """Speed ``w`` [rad/s], cut torque ``tau`` [N.m] and ``power = tau w`` [W] at once."""
 
     power = ac.Output(unit="W", doc="power into flange_a")

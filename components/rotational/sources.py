@@ -5,34 +5,8 @@ from collections.abc import Iterator
 import acausal as ac
 
 from .interfaces import PartialElementaryOneFlangeAndSupport2
-from .torques import (
-    ConstantTorque,
-    EddyCurrentTorque,
-    InverseSpeedDependentTorque,
-    LinearSpeedDependentTorque,
-    QuadraticSpeedDependentTorque,
-    SignTorque,
-    Torque,
-    Torque2,
-    TorqueStep,
-)
 
-__all__ = [
-    "Accelerate",
-    "ConstantSpeed",
-    "ConstantTorque",
-    "EddyCurrentTorque",
-    "InverseSpeedDependentTorque",
-    "LinearSpeedDependentTorque",
-    "Move",
-    "Position",
-    "QuadraticSpeedDependentTorque",
-    "SignTorque",
-    "Speed",
-    "Torque",
-    "Torque2",
-    "TorqueStep",
-]
+__modelica__ = "Modelica.Mechanics.Rotational.Sources"
 
 
 class Position(PartialElementaryOneFlangeAndSupport2):
@@ -130,8 +104,8 @@ class Accelerate(PartialElementaryOneFlangeAndSupport2):
 class Move(PartialElementaryOneFlangeAndSupport2):
     """The flange follows ``u = [phi, w, a]``: angle [rad], speed [rad/s] and acceleration [rad/s2].
 
-    Wherever the model needs a derivative of the angle, the signal is taken for it; whether the three
-    fit together is the user's care.
+    Where the model needs a derivative of the angle, it takes the signal; you must make sure that the three fit
+    together.
     """
 
     u = ac.Input(shape=3, doc="angle, speed and acceleration of the flange")

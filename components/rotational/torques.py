@@ -15,6 +15,8 @@ from acausal.components.thermal.interfaces import PartialElementaryConditionalHe
 
 from .interfaces import PartialElementaryOneFlangeAndSupport2, PartialTorque, PartialTwoFlanges
 
+__modelica__ = "Modelica.Mechanics.Rotational.Sources"
+
 
 class Torque(PartialElementaryOneFlangeAndSupport2):
     """A torque signal ``tau`` [N.m] that drives what is connected: ``flange.tau = -tau``."""

@@ -5,10 +5,12 @@ from typing import Any
 
 import acausal as ac
 
-from . import components
+from . import compliances, components
 from .adaptors import GeneralAngleToTorqueAdaptor, GeneralTorqueToAngleAdaptor
 from .interfaces import PartialCompliant
-from .sources import Torque
+from .torques import Torque
+
+__modelica__ = "Modelica.Mechanics.Rotational.Examples.Utilities"
 
 
 class DirectInertia(ac.Component):
@@ -110,7 +112,7 @@ class Spring(ac.Component):
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
-        self.spring = components.Spring(c=self.c, phi_rel0=self.phi_rel0)
+        self.spring = compliances.Spring(c=self.c, phi_rel0=self.phi_rel0)
         self.angleToTorque1 = GeneralAngleToTorqueAdaptor(use_pder=False, use_pder2=False)
         self.angleToTorque2 = GeneralAngleToTorqueAdaptor(use_pder=False, use_pder2=False)
         self.connect(self.angleToTorque1.flange, self.spring.flange_a)

@@ -11,72 +11,15 @@ Temperatures are in kelvin. The modules `celsius`, `fahrenheit` and `rankine` ho
 conversions with other scales.
 """
 
-from . import celsius, fahrenheit, rankine
-from .components import (
-    BodyRadiation,
-    Convection,
-    ConvectiveResistor,
-    GeneralHeatFlowToTemperatureAdaptor,
-    GeneralTemperatureToHeatFlowAdaptor,
-    HeatCapacitor,
-    ThermalCollector,
-    ThermalCollectorMatrix,
-    ThermalConductor,
-    ThermalResistor,
-)
-from .conditional import PartialConditionalHeatPort
-from .interfaces import (
-    Element1D,
-    HeatPort,
-    HeatPort_a,
-    HeatPort_b,
-    PartialElementaryConditionalHeatPort,
-    PartialElementaryConditionalHeatPortWithoutT,
-)
-from .sensors import (
-    ConditionalFixedHeatFlowSensor,
-    HeatFlowSensor,
-    RelTemperatureSensor,
-    TemperatureSensor,
-)
-from .sources import (
-    FixedHeatFlow,
-    FixedTemperature,
-    PrescribedHeatFlow,
-    PrescribedTemperature,
-)
-from .utilities import Conduction, DirectCapacity, InverseCapacity
+from acausal.components.modelica import export
 
-__all__ = [
-    "BodyRadiation",
-    "ConditionalFixedHeatFlowSensor",
-    "Conduction",
-    "Convection",
-    "ConvectiveResistor",
-    "DirectCapacity",
-    "Element1D",
-    "FixedHeatFlow",
-    "FixedTemperature",
-    "GeneralHeatFlowToTemperatureAdaptor",
-    "GeneralTemperatureToHeatFlowAdaptor",
-    "HeatCapacitor",
-    "HeatFlowSensor",
-    "HeatPort",
-    "HeatPort_a",
-    "HeatPort_b",
-    "InverseCapacity",
-    "PartialConditionalHeatPort",
-    "PartialElementaryConditionalHeatPort",
-    "PartialElementaryConditionalHeatPortWithoutT",
-    "PrescribedHeatFlow",
-    "PrescribedTemperature",
-    "RelTemperatureSensor",
-    "TemperatureSensor",
-    "ThermalCollector",
-    "ThermalCollectorMatrix",
-    "ThermalConductor",
-    "ThermalResistor",
-    "celsius",
-    "fahrenheit",
-    "rankine",
-]
+from . import celsius as celsius, fahrenheit as fahrenheit, rankine as rankine
+from .adaptors import *
+from .components import *
+from .conditional import *
+from .interfaces import *
+from .sensors import *
+from .sources import *
+from .utilities import *
+
+export(__name__, "celsius", "fahrenheit", "rankine")

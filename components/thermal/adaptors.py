@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import HeatPort
 
+__modelica__ = "Modelica.Thermal.HeatTransfer.Components"
+
 
 class GeneralHeatFlowToTemperatureAdaptor(ac.Component):
     """A heat port as signals, heat flow in, temperature out: ``f = heatPort.Q_flow``, ``p = heatPort.T``.

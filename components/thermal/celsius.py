@@ -1,18 +1,10 @@
 """Sources, sensors and conversions of temperatures in degrees Celsius."""
 
-from collections.abc import Iterator
-
 import acausal as ac
 
 from . import scales, sensors, sources
 
-__all__ = [
-    "FixedTemperature",
-    "FromKelvin",
-    "PrescribedTemperature",
-    "TemperatureSensor",
-    "ToKelvin",
-]
+__modelica__ = "Modelica.Thermal.HeatTransfer.Celsius"
 
 
 class FixedTemperature(scales.Celsius, sources.FixedTemperature):
@@ -33,21 +25,13 @@ class TemperatureSensor(scales.Celsius, sensors.TemperatureSensor):
     T = ac.Output(unit="degC", doc="absolute temperature of the port")
 
 
-class ToKelvin(scales.Celsius):
+class ToKelvin(scales.Celsius, scales.ToKelvin):
     """A temperature signal in degrees Celsius as one in kelvin: ``Kelvin = Celsius + 273.15``."""
 
     Celsius = ac.Input(unit="degC", doc="temperature")
-    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.Kelvin, self.to_kelvin(self.Celsius))
 
 
-class FromKelvin(scales.Celsius):
+class FromKelvin(scales.Celsius, scales.FromKelvin):
     """A temperature signal in kelvin as one in degrees Celsius: ``Celsius = Kelvin - 273.15``."""
 
-    Kelvin = ac.Input(unit="K", doc="temperature")
     Celsius = ac.Output(unit="degC", doc="the same in degrees Celsius")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.Celsius, self.from_kelvin(self.Kelvin))

@@ -5,21 +5,9 @@ from typing import Any
 
 import acausal as ac
 
-from .adaptors import GeneralHeatFlowToTemperatureAdaptor, GeneralTemperatureToHeatFlowAdaptor
 from .interfaces import Element1D, HeatPort
 
-__all__ = [
-    "BodyRadiation",
-    "Convection",
-    "ConvectiveResistor",
-    "GeneralHeatFlowToTemperatureAdaptor",
-    "GeneralTemperatureToHeatFlowAdaptor",
-    "HeatCapacitor",
-    "ThermalCollector",
-    "ThermalCollectorMatrix",
-    "ThermalConductor",
-    "ThermalResistor",
-]
+__modelica__ = "Modelica.Thermal.HeatTransfer.Components"
 
 
 class HeatCapacitor(ac.Component):
@@ -73,7 +61,7 @@ class BodyRadiation(Element1D):
         yield ac.Eq(self.Q_flow, self.Gr * self.sigma * (self.port_a.T**4 - self.port_b.T**4))
 
 
-class PartialConvection(ac.Component):
+class _Convection(ac.Component):
     """What convective elements share: heat flows from ``solid`` to ``fluid``.
 
     ``dT = solid.T - fluid.T`` [K], ``solid.Q_flow = Q_flow``, ``fluid.Q_flow = -Q_flow`` [W].
@@ -90,7 +78,7 @@ class PartialConvection(ac.Component):
         yield ac.Eq(self.fluid.Q_flow, -self.Q_flow)
 
 
-class Convection(PartialConvection):
+class Convection(_Convection):
     """Heat convection with a conductance that is a signal: ``Q_flow = Gc dT``."""
 
     Gc = ac.Input(unit="W/K", doc="convective thermal conductance")
@@ -100,7 +88,7 @@ class Convection(PartialConvection):
         yield ac.Eq(self.Q_flow, self.Gc * self.dT)
 
 
-class ConvectiveResistor(PartialConvection):
+class ConvectiveResistor(_Convection):
     """Heat convection with a resistance that is a signal, and may be zero: ``dT = Rc Q_flow``."""
 
     Rc = ac.Input(unit="K/W", doc="convective thermal resistance")
@@ -110,7 +98,7 @@ class ConvectiveResistor(PartialConvection):
         yield ac.Eq(self.dT, self.Rc * self.Q_flow)
 
 
-class PartialCollector(ac.Component):
+class _Collector(ac.Component):
     """What collectors share: ``port_b`` carries the heat of all ports ``port_a`` at one temperature."""
 
     port_b = HeatPort()
@@ -125,7 +113,7 @@ class PartialCollector(ac.Component):
             yield ac.Eq(port.T, self.port_b.T)
 
 
-class ThermalCollector(PartialCollector):
+class ThermalCollector(_Collector):
     """Joins ``m`` heat ports ``port_a[1]`` to ``port_a[m]`` with ``port_b``.
 
     All have one temperature, and ``port_b.Q_flow + sum(port_a.Q_flow) = 0``.
@@ -137,7 +125,7 @@ class ThermalCollector(PartialCollector):
         super().__init__(m, m=m, **modifiers)
 
 
-class ThermalCollectorMatrix(PartialCollector):
+class ThermalCollectorMatrix(_Collector):
     """Joins ``Ns`` rows of ``Np`` heat ports with ``port_b``, as `ThermalCollector` does.
 
     The ports are numbered row by row: Modelica's ``port_a[i,j]`` is ``port_a[(i - 1) Np + j]`` here.

@@ -7,6 +7,8 @@ import acausal as ac
 from .interfaces import HeatPort
 from .sources import FixedTemperature
 
+__modelica__ = "Modelica.Thermal.HeatTransfer.Interfaces"
+
 
 class PartialConditionalHeatPort(ac.Component):
     """Base of a composite component that may have a heat port.

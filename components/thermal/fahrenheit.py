@@ -1,18 +1,10 @@
 """Sources, sensors and conversions of temperatures in degrees Fahrenheit."""
 
-from collections.abc import Iterator
-
 import acausal as ac
 
 from . import scales, sensors, sources
 
-__all__ = [
-    "FixedTemperature",
-    "FromKelvin",
-    "PrescribedTemperature",
-    "TemperatureSensor",
-    "ToKelvin",
-]
+__modelica__ = "Modelica.Thermal.HeatTransfer.Fahrenheit"
 
 
 class FixedTemperature(scales.Fahrenheit, sources.FixedTemperature):
@@ -33,21 +25,13 @@ class TemperatureSensor(scales.Fahrenheit, sensors.TemperatureSensor):
     T = ac.Output(unit="degF", doc="absolute temperature of the port")
 
 
-class ToKelvin(scales.Fahrenheit):
+class ToKelvin(scales.Fahrenheit, scales.ToKelvin):
     """A temperature signal in degrees Fahrenheit as one in kelvin: ``Kelvin = (Fahrenheit + 459.67) 5/9``."""
 
     Fahrenheit = ac.Input(unit="degF", doc="temperature")
-    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.Kelvin, self.to_kelvin(self.Fahrenheit))
 
 
-class FromKelvin(scales.Fahrenheit):
+class FromKelvin(scales.Fahrenheit, scales.FromKelvin):
     """A temperature signal in kelvin as one in degrees Fahrenheit: ``Fahrenheit = 9/5 Kelvin - 459.67``."""
 
-    Kelvin = ac.Input(unit="K", doc="temperature")
     Fahrenheit = ac.Output(unit="degF", doc="the same in degrees Fahrenheit")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.Fahrenheit, self.from_kelvin(self.Kelvin))

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import acausal as ac
 
+__modelica__ = "Modelica.Thermal.HeatTransfer.Interfaces"
+
 
 class HeatPort(ac.Connector):
     """Temperature ``T`` [K] and heat flow rate ``Q_flow`` [W], positive into the component."""

@@ -1,18 +1,10 @@
 """Sources, sensors and conversions of temperatures in degrees Rankine."""
 
-from collections.abc import Iterator
-
 import acausal as ac
 
 from . import scales, sensors, sources
 
-__all__ = [
-    "FixedTemperature",
-    "FromKelvin",
-    "PrescribedTemperature",
-    "TemperatureSensor",
-    "ToKelvin",
-]
+__modelica__ = "Modelica.Thermal.HeatTransfer.Rankine"
 
 
 class FixedTemperature(scales.Rankine, sources.FixedTemperature):
@@ -33,21 +25,13 @@ class TemperatureSensor(scales.Rankine, sensors.TemperatureSensor):
     T = ac.Output(unit="degR", doc="absolute temperature of the port")
 
 
-class ToKelvin(scales.Rankine):
+class ToKelvin(scales.Rankine, scales.ToKelvin):
     """A temperature signal in degrees Rankine as one in kelvin: ``Kelvin = 5/9 Rankine``."""
 
     Rankine = ac.Input(unit="degR", doc="temperature")
-    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.Kelvin, self.to_kelvin(self.Rankine))
 
 
-class FromKelvin(scales.Rankine):
+class FromKelvin(scales.Rankine, scales.FromKelvin):
     """A temperature signal in kelvin as one in degrees Rankine: ``Rankine = 9/5 Kelvin``."""
 
-    Kelvin = ac.Input(unit="K", doc="temperature")
     Rankine = ac.Output(unit="degR", doc="the same in degrees Rankine")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.Rankine, self.from_kelvin(self.Kelvin))

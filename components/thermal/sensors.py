@@ -4,11 +4,13 @@ from collections.abc import Iterator
 
 import acausal as ac
 
+from . import scales
 from .interfaces import HeatPort
-from .scales import Kelvin
+
+__modelica__ = "Modelica.Thermal.HeatTransfer.Sensors"
 
 
-class TemperatureSensor(Kelvin):
+class TemperatureSensor(scales.Kelvin):
     """Absolute temperature: ``T = port.T`` [K]."""
 
     T = ac.Output(unit="K", doc="absolute temperature of the port")
@@ -49,7 +51,7 @@ class ConditionalFixedHeatFlowSensor(ac.Component):
     """A heat flow sensor for ports that may be absent.
 
     ``Q_flow = -port_b.Q_flow`` [W], ``port_a.T = port_b.T``; with ``useFixedTemperature`` both are held
-    at ``T`` = 293.15 K, so that a sensor with nothing connected is no singular model. Else
+    at ``T`` = 293.15 K, so that the model is not singular with nothing connected. Else
     ``port_a.Q_flow + port_b.Q_flow = 0``, as of a `HeatFlowSensor`.
     """
 

@@ -5,11 +5,13 @@ from typing import Any
 
 import acausal as ac
 
+from . import scales
 from .interfaces import HeatPort
-from .scales import Kelvin
+
+__modelica__ = "Modelica.Thermal.HeatTransfer.Sources"
 
 
-class FixedTemperature(Kelvin):
+class FixedTemperature(scales.Kelvin):
     """A constant temperature, whatever the heat flow: ``port.T = T`` [K]."""
 
     T = ac.Parameter(unit="K", doc="temperature at the port")
@@ -19,7 +21,7 @@ class FixedTemperature(Kelvin):
         yield ac.Eq(self.port.T, self.to_kelvin(self.T))
 
 
-class PrescribedTemperature(Kelvin):
+class PrescribedTemperature(scales.Kelvin):
     """A temperature signal ``T`` [K], whatever the heat flow: ``port.T = T``."""
 
     T = ac.Input(unit="K", doc="temperature at the port")
@@ -29,7 +31,7 @@ class PrescribedTemperature(Kelvin):
         yield ac.Eq(self.port.T, self.to_kelvin(self.T))
 
 
-class PartialHeatFlow(ac.Component):
+class _HeatFlow(ac.Component):
     """Base of heat sources: ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``.
 
     A positive ``Q_flow`` [W] heats what is connected. A subclass says where it comes from.
@@ -45,17 +47,17 @@ class PartialHeatFlow(ac.Component):
         yield ac.Eq(self.port.Q_flow, -self.Q_flow * warm)
 
 
-class FixedHeatFlow(PartialHeatFlow):
+class FixedHeatFlow(_HeatFlow):
     """A constant heat flow rate into what is connected.
 
-    ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, say, that grow
+    ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``: the losses of a machine, for example, that grow
     with its temperature.
     """
 
     Q_flow = ac.Parameter(unit="W", doc="heat flow rate at the reference temperature")
 
 
-class PrescribedHeatFlow(PartialHeatFlow):
+class PrescribedHeatFlow(_HeatFlow):
     """A heat flow signal ``Q_flow`` [W] into what is connected.
 
     ``port.Q_flow = -Q_flow (1 + alpha (port.T - T_ref))``.

@@ -8,7 +8,7 @@ from .adaptors import GeneralHeatFlowToTemperatureAdaptor, GeneralTemperatureToH
 from .components import HeatCapacitor, ThermalConductor
 from .sources import PrescribedHeatFlow
 
-__all__ = ["Conduction", "DirectCapacity", "InverseCapacity"]
+__modelica__ = "Modelica.Thermal.HeatTransfer.Examples.Utilities"
 
 
 class DirectCapacity(ac.Component):

@@ -7,128 +7,18 @@ mass = tl.Mass(m=1.0)
 ```
 """
 
-from . import utilities
-from .components import (
-    Brake,
-    Damper,
-    ElastoGap,
-    Fixed,
-    GeneralForceToPositionAdaptor,
-    GeneralPositionToForceAdaptor,
-    IdealGear,
-    InitializeFlange,
-    Mass,
-    MassWithStopAndFriction,
-    RelativeStates,
-    Rod,
-    RollingResistance,
-    Spring,
-    SpringDamper,
-    SupportFriction,
-)
-from .interfaces import (
-    Flange,
-    Flange_a,
-    Flange_b,
-    PartialAbsoluteSensor,
-    PartialCompliant,
-    PartialCompliantWithRelativeStates,
-    PartialElementaryOneFlangeAndSupport2,
-    PartialElementaryTwoFlangesAndSupport2,
-    PartialForce,
-    PartialFriction,
-    PartialRelativeSensor,
-    PartialRigid,
-    PartialSpeedDependentForce,
-    PartialTwoFlanges,
-    Support,
-)
-from .sensors import (
-    AccSensor,
-    ForceSensor,
-    MultiSensor,
-    PositionSensor,
-    PowerSensor,
-    RelAccSensor,
-    RelPositionSensor,
-    RelSpeedSensor,
-    SpeedSensor,
-)
-from .sources import (
-    Accelerate,
-    ConstantForce,
-    ConstantSpeed,
-    EddyCurrentForce,
-    Force,
-    Force2,
-    ForceStep,
-    InverseSpeedDependentForce,
-    LinearSpeedDependentForce,
-    Move,
-    Position,
-    QuadraticSpeedDependentForce,
-    SignForce,
-    Speed,
-)
-from .vehicle import IdealGearR2T, IdealRollingWheel, Vehicle
+from acausal.components.mechanics.rolling import *
+from acausal.components.mechanics.translational import *
+from acausal.components.modelica import export
 
-__all__ = [
-    "AccSensor",
-    "Accelerate",
-    "Brake",
-    "ConstantForce",
-    "ConstantSpeed",
-    "Damper",
-    "EddyCurrentForce",
-    "ElastoGap",
-    "Fixed",
-    "Flange",
-    "Flange_a",
-    "Flange_b",
-    "Force",
-    "Force2",
-    "ForceSensor",
-    "ForceStep",
-    "GeneralForceToPositionAdaptor",
-    "GeneralPositionToForceAdaptor",
-    "IdealGear",
-    "IdealGearR2T",
-    "IdealRollingWheel",
-    "InitializeFlange",
-    "InverseSpeedDependentForce",
-    "LinearSpeedDependentForce",
-    "Mass",
-    "MassWithStopAndFriction",
-    "Move",
-    "MultiSensor",
-    "PartialAbsoluteSensor",
-    "PartialCompliant",
-    "PartialCompliantWithRelativeStates",
-    "PartialElementaryOneFlangeAndSupport2",
-    "PartialElementaryTwoFlangesAndSupport2",
-    "PartialForce",
-    "PartialFriction",
-    "PartialRelativeSensor",
-    "PartialRigid",
-    "PartialSpeedDependentForce",
-    "PartialTwoFlanges",
-    "Position",
-    "PositionSensor",
-    "PowerSensor",
-    "QuadraticSpeedDependentForce",
-    "RelAccSensor",
-    "RelPositionSensor",
-    "RelSpeedSensor",
-    "RelativeStates",
-    "Rod",
-    "RollingResistance",
-    "SignForce",
-    "Speed",
-    "SpeedSensor",
-    "Spring",
-    "SpringDamper",
-    "Support",
-    "SupportFriction",
-    "Vehicle",
-    "utilities",
-]
+from . import utilities as utilities
+from .adaptors import *
+from .components import *
+from .forces import *
+from .friction import *
+from .interfaces import *
+from .sensors import *
+from .sources import *
+from .vehicle import *
+
+export(__name__, "utilities")

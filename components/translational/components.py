@@ -3,18 +3,11 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
 from acausal.components.laws import contact
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
-from .adaptors import (
-    GeneralForceToPositionAdaptor,
-    GeneralPositionToForceAdaptor,
-    InitializeFlange,
-    RelativeStates,
-)
-from .friction import Brake, MassWithStopAndFriction, RollingResistance, SupportFriction
 from .interfaces import (
-    STATE_SELECT,
     Flange,
     PartialCompliant,
     PartialCompliantWithRelativeStates,
@@ -22,24 +15,7 @@ from .interfaces import (
     PartialRigid,
 )
 
-__all__ = [
-    "Brake",
-    "Damper",
-    "ElastoGap",
-    "Fixed",
-    "GeneralForceToPositionAdaptor",
-    "GeneralPositionToForceAdaptor",
-    "IdealGear",
-    "InitializeFlange",
-    "Mass",
-    "MassWithStopAndFriction",
-    "RelativeStates",
-    "Rod",
-    "RollingResistance",
-    "Spring",
-    "SpringDamper",
-    "SupportFriction",
-]
+__modelica__ = "Modelica.Mechanics.Translational.Components"
 
 
 class Fixed(ac.Component):
@@ -150,6 +126,8 @@ class IdealGear(PartialElementaryTwoFlangesAndSupport2):
 
     ``ratio`` must not be zero (Modelica lets go of both flanges then).
     """
+
+    __modelica__ = None
 
     ratio = ac.Parameter(doc="transmission ratio s_a / s_b")
 

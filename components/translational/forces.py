@@ -20,6 +20,8 @@ from .interfaces import (
     PartialTwoFlanges,
 )
 
+__modelica__ = "Modelica.Mechanics.Translational.Sources"
+
 
 class Force(PartialElementaryOneFlangeAndSupport2):
     """A force signal ``f`` [N] that drives what is connected: ``flange.f = -f``."""

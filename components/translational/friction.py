@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
 from acausal.components.laws import (
     REGULARIZATION,
     SMOOTHNESS,
@@ -14,12 +15,13 @@ from acausal.components.laws import (
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
 from .interfaces import (
-    STATE_SELECT,
     PartialElementaryTwoFlangesAndSupport2,
     PartialFriction,
     PartialRigid,
     PartialSpeedDependentForce,
 )
+
+__modelica__ = "Modelica.Mechanics.Translational.Components"
 
 
 class _SlidingContact(

@@ -1,37 +1,17 @@
-"""The translational flange, and the bases that components and users' own elements extend.
-
-Along one axis of movement: a positive position, speed or force points in its positive direction. A
-flange's force ``f`` is positive where it pushes the component that way.
-"""
+"""Bases that components and users' own elements extend; for the flange see `acausal.components.mechanics`."""
 
 from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components.choices import STATE_SELECT
+from acausal.components.mechanics.translational import Flange, Support
 
-STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
-
-
-class Flange(ac.Connector):
-    """Position ``s`` [m] and cut force ``f`` [N], positive into the component."""
-
-    s = ac.Potential(unit="m", doc="absolute position of the flange")
-    f = ac.Flow(unit="N", doc="cut force in the flange")
-
-    pair = ("flange_a", "flange_b")
-    across = "s_rel"
-    through = "f"
-    rate = "v_rel"
-    second_minus_first = True
-
-
-Flange_a = Flange
-Flange_b = Flange
-Support = Flange
+__modelica__ = "Modelica.Mechanics.Translational.Interfaces"
 
 
 class PartialTwoFlanges(ac.Component):
-    """Two flanges, and nothing said about them."""
+    """Two flanges without equations."""
 
     flange_a = Flange()
     flange_b = Flange()
@@ -152,6 +132,8 @@ class PartialForce(PartialElementaryOneFlangeAndSupport2):
 class PartialSpeedDependentForce(PartialForce):
     """A force that depends on the flange's speed ``v = der(s)`` [m/s] against the support."""
 
+    __modelica__ = None
+
     v = ac.Variable(unit="m/s", doc="speed of the flange relative to the support")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -181,7 +163,7 @@ class PartialFriction(ac.Component):
     """What friction elements share: the speed ``v_small`` [m/s] that smooths the law around rest.
 
     Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
-    creeps instead, and it is the stiffer the smaller ``v_small`` is.
+    creeps instead, and it is stiffer for a smaller ``v_small``.
     """
 
     DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")

@@ -6,6 +6,8 @@ import acausal as ac
 
 from .interfaces import PartialAbsoluteSensor, PartialRelativeSensor
 
+__modelica__ = "Modelica.Mechanics.Translational.Sensors"
+
 
 class PositionSensor(PartialAbsoluteSensor):
     """Absolute position: ``s = flange.s`` [m]."""
@@ -78,7 +80,7 @@ class RelAccSensor(PartialRelativeSensor):
         yield ac.Eq(self.flange_a.f, 0)
 
 
-class PartialCutSensor(PartialRelativeSensor):
+class _CutSensor(PartialRelativeSensor):
     """Base of sensors in a rigid cut: ``flange_a.s = flange_b.s``."""
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -86,7 +88,7 @@ class PartialCutSensor(PartialRelativeSensor):
         yield ac.Eq(self.flange_a.s, self.flange_b.s)
 
 
-class ForceSensor(PartialCutSensor):
+class ForceSensor(_CutSensor):
     """Cut force: ``f = flange_a.f`` [N]."""
 
     f = ac.Output(unit="N", doc="force in flange_a, = -flange_b.f")
@@ -96,7 +98,7 @@ class ForceSensor(PartialCutSensor):
         yield ac.Eq(self.f, self.flange_a.f)
 
 
-class PowerSensor(PartialCutSensor):
+class PowerSensor(_CutSensor):
     """Power through the cut: ``power = flange_a.f der(flange_a.s)`` [W]."""
 
     power = ac.Output(unit="W", doc="power into flange_a")
@@ -106,7 +108,7 @@ class PowerSensor(PartialCutSensor):
         yield ac.Eq(self.power, self.flange_a.f * ac.der(self.flange_a.s))
 
 
-class MultiSensor(PartialCutSensor):
+class MultiSensor(_CutSensor):
     """Speed ``v`` [m/s], cut force ``f`` [N] and ``power = f v`` [W] at once."""
 
     power = ac.Output(unit="W", doc="power into flange_a")

@@ -4,35 +4,9 @@ from collections.abc import Iterator
 
 import acausal as ac
 
-from .forces import (
-    ConstantForce,
-    EddyCurrentForce,
-    Force,
-    Force2,
-    ForceStep,
-    InverseSpeedDependentForce,
-    LinearSpeedDependentForce,
-    QuadraticSpeedDependentForce,
-    SignForce,
-)
 from .interfaces import PartialElementaryOneFlangeAndSupport2, PartialSpeedDependentForce
 
-__all__ = [
-    "Accelerate",
-    "ConstantForce",
-    "ConstantSpeed",
-    "EddyCurrentForce",
-    "Force",
-    "Force2",
-    "ForceStep",
-    "InverseSpeedDependentForce",
-    "LinearSpeedDependentForce",
-    "Move",
-    "Position",
-    "QuadraticSpeedDependentForce",
-    "SignForce",
-    "Speed",
-]
+__modelica__ = "Modelica.Mechanics.Translational.Sources"
 
 
 class Position(PartialElementaryOneFlangeAndSupport2):
@@ -128,8 +102,8 @@ class Accelerate(PartialElementaryOneFlangeAndSupport2):
 class Move(PartialElementaryOneFlangeAndSupport2):
     """The flange follows ``u = [s, v, a]``: position [m], speed [m/s] and acceleration [m/s2].
 
-    Wherever the model needs a derivative of the position, the signal is taken for it; whether the
-    three fit together is the user's care.
+    Where the model needs a derivative of the position, it takes the signal; you must make sure that the three
+    fit together.
     """
 
     u = ac.Input(shape=3, doc="position, speed and acceleration of the flange")

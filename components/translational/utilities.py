@@ -8,8 +8,10 @@ import acausal as ac
 
 from . import components
 from .adaptors import GeneralForceToPositionAdaptor, GeneralPositionToForceAdaptor
+from .forces import Force
 from .interfaces import PartialCompliant
-from .sources import Force
+
+__modelica__ = "Modelica.Mechanics.Translational.Examples.Utilities"
 
 
 class DirectMass(ac.Component):

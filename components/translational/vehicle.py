@@ -6,17 +6,16 @@ from typing import Any
 import acausal as ac
 from acausal.components import nature
 from acausal.components.blocks import Atan, Constant, Gain, Sin
+from acausal.components.mechanics import rotational, translational
+from acausal.components.mechanics.rolling import IdealRollingWheel
 from acausal.components.rotational.components import Inertia
-from acausal.components.rotational.gears import IdealGearR2T, IdealRollingWheel
-from acausal.components.rotational.interfaces import Flange as RotationalFlange
 
 from .components import Mass
-from .forces import QuadraticSpeedDependentForce
+from .forces import Force, QuadraticSpeedDependentForce
 from .friction import RollingResistance
-from .interfaces import Flange
-from .sources import Force, Speed
+from .sources import Speed
 
-__all__ = ["IdealGearR2T", "IdealRollingWheel", "Vehicle"]
+__modelica__ = "Modelica.Mechanics.Translational.Components"
 
 
 class Vehicle(ac.Component):
@@ -25,7 +24,7 @@ class Vehicle(ac.Component):
     With the slope's angle ``alpha``, ``tan(alpha) = inclination``:
     ``(m + J/R**2) a = flangeR.tau/R + flangeT.f - Cd rho A/2 u |u| - Cr m g cos(alpha) sign(v) - m g sin(alpha)``
     with the speed ``u = v - vWind`` against the air. The sign is linear below ``vReg``. Wind, rolling
-    resistance ``cr`` and inclination are parameters or input signals. The parts bear Modelica's names.
+    resistance ``cr`` and inclination are parameters or input signals. The parts have Modelica's names.
     """
 
     m = ac.Parameter(unit="kg", min=0, doc="total mass")
@@ -42,8 +41,8 @@ class Vehicle(ac.Component):
     vReg = ac.Parameter(1e-3, unit="m/s", min=0, doc="speed below which the sign is smoothed")
     useInclinationInput = ac.Option(False, doc="whether inclination is an input")
     inclinationConstant = ac.Parameter(0.0, doc="inclination without input, = tan(angle)")
-    flangeR = RotationalFlange()
-    flangeT = Flange()
+    flangeR = rotational.Flange()
+    flangeT = translational.Flange()
     inclination = ac.Input(when="useInclinationInput", doc="inclination, = tan(angle)")
     cr = ac.Input(when="useCrInput", doc="coefficient of rolling resistance")
     vWind = ac.Input(unit="m/s", when="useWindInput", doc="speed of the wind")

@@ -138,7 +138,7 @@ def test_media(name):
 
 def test_a_medium_is_a_record():
     with pytest.raises(
-        ac.DeclarationError, match=r"is no medium; give a record such as fluid\.Wat"
+        ac.DeclarationError, match=r"is not a medium; give a record such as fluid\.Wat"
     ):
         fluid.Ambient(medium=fluid.Water)
 

@@ -151,9 +151,9 @@ def test_options_keep_the_balance(component):
 
 
 def test_a_material_must_be_one():
-    with pytest.raises(ac.DeclarationError, match=r"is no soft magnetic material.*M350_50A\(\)"):
+    with pytest.raises(ac.DeclarationError, match=r"is not a soft magnetic material.*M350_50A\(\)"):
         mag.Cuboid(material="M350_50A")
-    with pytest.raises(ac.DeclarationError, match="is no hard magnetic material"):
+    with pytest.raises(ac.DeclarationError, match="is not a hard magnetic material"):
         mag.GenericLinearPermanentMagnet(mat=mag.M350_50A())
 
 

@@ -354,7 +354,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
         "useHeatPort=True needs a domain whose flow has a power",
     ),
     "hot inertia": (lambda: neural.Inductance(thermal.HeatPort), "heat has no inertia"),
-    "no connector": (lambda: neural.Compliance(tl.Flange()), "is no class of connectors"),
+    "no connector": (lambda: neural.Compliance(tl.Flange()), "is not a class of connectors"),
     "scales": (lambda: neural.Resistance(input_scale=0.0), "give positive numbers"),
     "scales of inputs": (
         lambda: neural.Resistance(secondary=("T",), input_scale=(1.0, 2.0, 3.0)),
@@ -367,7 +367,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
     ),
     "pseudo power": (
         lambda: neural.LossyTransformer(thermal.HeatPort, tl.Flange),
-        "difference times flow is no power for HeatPort",
+        "difference times flow is not a power for HeatPort",
     ),
     "shared energy": (
         lambda: neural.MultiportCompliance((tl.Flange, fluid.FlowPort)),

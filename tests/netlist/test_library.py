@@ -1,5 +1,6 @@
 """Libraries: how names in files find classes, and only these."""
 
+import subprocess
 import sys
 import types
 from typing import Any
@@ -52,7 +53,7 @@ def test_names_find_classes(name: str, cls: Any) -> None:
         "acausal.components.translational.Mass.__init__",
         "acausal.components.__builtins__",
         "acausal.components.import_module",
-        "acausal.components.modelica.CATALOG",
+        "acausal.components.modelica.MODELICA",
         "acausal.components.blocks.filters._Pair",
         "Modelica.Mechanics.Translational.Components.Vehicle.x",
     ],
@@ -107,19 +108,34 @@ def test_records_have_names() -> None:
     assert MSL.constant_name(object()) is None
 
 
-def test_every_class_of_the_catalog_that_exists_is_what_its_name_says() -> None:
+def test_every_name_of_modelica_finds_a_component_a_connector_or_a_signal() -> None:
     for name, path in MSL.modelica_names.items():
         cls = MSL.find(name)
         assert issubclass(cls, ac.Component | ac.Connector) or cls in (ac.Input, ac.Output), name
         assert path.startswith("acausal.components."), name
+        assert not MSL.lacks(name), name
 
 
-def test_the_catalog_lists_a_class_once() -> None:
-    names = [(p, n) for p, (_, names) in components.CATALOG.items() for n in names]
-    assert len(names) == len(set(names))
-    places = [(p, n) for p, names in components.CATALOG.values() for n in names]
-    twice = {pair for pair in places if places.count(pair) > 1}
-    assert twice == {("blocks", "Edge")}, "two Modelica classes in one Python place"
+def test_a_name_of_modelica_imports_its_own_package_only() -> None:
+    program = """if True:
+        import sys
+        from acausal import components
+        from acausal.netlist import Library
+        assert Library(components).find("Modelica.Thermal.HeatTransfer.Components.HeatCapacitor")
+        loaded = (n.split(".") for n in sys.modules if n.startswith("acausal.components."))
+        print(*sorted({words[2] for words in loaded} & set(components.PACKAGES)))
+        """
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["thermal"]
+
+
+def test_two_classes_of_modelica_may_be_one_here() -> None:
+    rotational = "Modelica.Mechanics.Rotational.Components.IdealGearR2T"
+    translational = "Modelica.Mechanics.Translational.Components.IdealGearR2T"
+    assert MSL.find(rotational) is MSL.find(translational) is tl.IdealGearR2T
+    assert MSL.name_of(tl.IdealGearR2T) == rotational
 
 
 def test_the_library_is_announced() -> None:
@@ -133,13 +149,28 @@ def test_a_users_library(monkeypatch: pytest.MonkeyPatch) -> None:
     module = types.ModuleType("springs")
     monkeypatch.setitem(sys.modules, "springs", module)
     CubicSpring.__module__, CubicSpring.__qualname__ = "springs", "CubicSpring"
-    module.__dict__.update(CubicSpring=CubicSpring, CATALOG={"Mine": (".", ("CubicSpring",))})
+    module.__dict__.update(CubicSpring=CubicSpring, MODELICA_NAMES={"Mine.Cubic": "CubicSpring"})
     mine = Library(module)
     assert mine.find("springs.CubicSpring") is CubicSpring
-    assert mine.name_of(CubicSpring) == "springs.CubicSpring"
+    assert mine.find("Mine.Cubic") is CubicSpring
+    assert mine.name_of(CubicSpring) == "Mine.Cubic"
     assert mine.constant("Water()") is None
     module.__dict__.update(RECORDS={"Oil": fluid.MineralOil()})
     assert Library(module).constant("My.Oil()") == fluid.MineralOil()
+
+
+def test_the_old_spelling_of_a_librarys_names_warns(monkeypatch: pytest.MonkeyPatch) -> None:
+    module, inner = types.ModuleType("springs"), types.ModuleType("springs.cubic")
+
+    class Spring(tl.PartialCompliant):
+        pass
+
+    inner.__dict__.update(Spring=Spring)
+    module.__dict__.update(cubic=inner, CATALOG={"Mine": ("cubic", ("Spring", "Bar"))})
+    old = Library(module)
+    with pytest.warns(DeprecationWarning, match="springs.MODELICA_NAMES"):
+        assert old.find("Mine.Spring") is Spring
+    assert old.lacks("Mine.Bar")
 
 
 def test_importing_the_library_is_cheap() -> None:
