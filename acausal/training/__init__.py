@@ -6,7 +6,7 @@ It may know every room below; none of them knows it.
 
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
-from acausal.training.history import History as History
+from acausal.training.history import Divergence as Divergence, History as History
 from acausal.training.logs import CsvLog as CsvLog, TensorBoardLog as TensorBoardLog
 from acausal.training.objective.modal import (
     DampingRatio as DampingRatio,
@@ -19,5 +19,6 @@ from acausal.training.objective.regularizers import (
     ZeroCrossing as ZeroCrossing,
 )
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
+from acausal.training.options import FitOptions as FitOptions
 from acausal.training.result import Fit as Fit, Seen as Seen
 from acausal.training.uncertainty.confidence import Band as Band
