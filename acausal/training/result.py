@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
@@ -138,7 +139,7 @@ class Fit:
 
     def residuals(self) -> tuple[Residuals, ...]:
         """The residuals of every target over the record."""
-        left = np.asarray(self.problem.residuals(self.predicted))
+        left = np.asarray(self.problem.residuals(jnp.asarray(self.predicted)))
         u = np.asarray(self.problem.inputs)
         drivers = {n: u[:, i] for i, n in enumerate(self.system.inputs)}
         sigmas = np.asarray(self.problem.sigma).tolist()

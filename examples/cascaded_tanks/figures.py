@@ -67,7 +67,7 @@ def page(
     shown.text(
         f"The curve as a formula, distilled from the network and trained on: {law} V, of the level x in m."
     )
-    for sentence in sure.words():
+    for sentence in sure.summary():
         shown.text(sentence)
     shown.section("The outflow, if nothing is known of it but its promises")
     shown.figure(
