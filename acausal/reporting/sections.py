@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 from jaxtyping import Float
@@ -149,14 +149,12 @@ def add_predictions(
 ) -> None:
     """What was measured, and what members of an ensemble predict on average, by target."""
     page.section("Measured and simulated")
+    rows = _middle(len(measured))
     for i, (name, band) in enumerate(predicted.items()):
-        rows = _middle(len(band.x))
         shown = _Part(band.x[rows], band.law[rows], band.sigma[rows])
 
-        def draw(
-            ax: Axes, name: str = name, values: Any = measured[rows, i], shown: _Part = shown
-        ) -> None:
-            ax.plot(shown.x, values, color=MEASURED, lw=1.6, alpha=0.5, label="measured")
+        def draw(ax: Axes, i: int = i, name: str = name, shown: _Part = shown) -> None:
+            ax.plot(shown.x, measured[rows, i], color=MEASURED, lw=1.6, alpha=0.5, label="measured")
             plot_band(ax, shown, color=AFTER, label="mean of the members")
             _label_trajectory(ax, name, units[name], columns=2)
 
@@ -172,11 +170,10 @@ def add_laws(page: Page, laws: Mapping[str, Law]) -> None:
         "The band is two standard deviations wide to either side. Dashed and solid lines mark one and two standard "
         "deviations of what the network has seen; in the shaded part it extrapolates. Ticks are samples."
     )
-    for name, (band, seen, samples) in laws.items():
+    for name, law in laws.items():
 
-        def draw(
-            ax: Axes, name: str = name, band: Band = band, seen: Seen = seen, samples: Any = samples
-        ) -> None:
+        def draw(ax: Axes, name: str = name, law: Law = law) -> None:
+            band, seen, samples = law
             plot_band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
             room = 0.25 * (high - low) + 1e-12
@@ -201,7 +198,7 @@ def add_parameters(
 
 def add_residuals(page: Page, found: Sequence[Correlated]) -> None:
     """Correlations of residuals with themselves and with inputs, target by target."""
-    page.section("What is left over")
+    page.section("Residuals")
     for residuals in found:
         page.text(residuals.summary())
         rows = {"itself": (residuals.own, residuals.bound)}

@@ -1,7 +1,8 @@
 """Train: the networks and parameters of a model learn from a record.
 
-In: a `System`, `Data`, options. Out: a `Fit` or an `Ensemble`, which answer further questions.
-It may know every room below; none of them knows it.
+In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit` or an `Ensemble`, which answer further questions.
+It may know every room below; none of them knows it. Inside, `objective` is what to minimise, `optimizers` how, and
+`uncertainty` how sure the result is; only `objective` knows how records are laid out.
 """
 
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
@@ -21,4 +22,4 @@ from acausal.training.objective.regularizers import (
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
 from acausal.training.result import Fit as Fit, Seen as Seen
-from acausal.training.uncertainty.confidence import Band as Band
+from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

@@ -22,7 +22,8 @@ from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import train_from_starts
-from acausal.training.uncertainty.confidence import BAND_POINTS, SIGMAS, Band
+from acausal.training.uncertainty.bumps import SIGMAS
+from acausal.training.uncertainty.confidence import BAND_POINTS, Band
 from acausal.training.uncertainty.conformal import predicted
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ class Ensemble:
             (k, f"{fit.loss_before:.4g}", f"{fit.loss:.4g}", f"{fit.score:.4g}")
             for k, fit in enumerate(self.fits)
         ]
-        page.table(("member", "loss before", "after", "of what decides"), rows)
+        page.table(("member", "loss before", "after", "deciding loss"), rows)
         add_losses(page, {f"member {k}": fit.history for k, fit in enumerate(self.fits)})
         measured = np.asarray(best.problem.measured)
         units = {name: best.system.unit(name) for name in best.problem.targets}

@@ -74,7 +74,7 @@ class FitOptions:
 
     Attributes:
         train: names of the networks to train; by default all.
-        modifiers: parameters to train beside them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
+        modifiers: parameters to train besides them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
             by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
         gamma: the γ of modifiers without their own.
         parameter_spread: parameters that differ from run to run, with their standard deviations: the loss of a

@@ -56,7 +56,7 @@ def page(
     shown.figure(
         friction(training, fits),
         "Left: the measured force without inertia (grey), and the learned laws in the middle of the way: "
-        "Coulomb friction and a viscous one, stronger backwards. Training with a parameter spread bends the law where the axis "
+        "Coulomb friction and a viscous one, stronger backwards. Training with tolerances bends the law where the axis "
         "is not, for the sake of other runs. Middle and right: both networks with one sigma of confidence; between the "
         "dashed lines there were data.",
     )

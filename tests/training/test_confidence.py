@@ -1,4 +1,4 @@
-"""What a record tells of laws and parameters, what is left over, and the page about it."""
+"""How well a record determines laws and parameters, the residuals, and the page about them."""
 
 from __future__ import annotations
 
@@ -215,16 +215,16 @@ def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
 @pytest.mark.parametrize("count", [2, 3, 5, 12])
 def test_few_samples_tell_nothing(count: int):
     found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0}, 1.0)
-    assert (
-        found.summary() == f"'y': {count} samples are too few to tell what is left over from noise."
-    )
+    assert found.summary() == f"'y': {count} samples are too few to tell residuals from noise."
 
 
 def test_what_is_followed_exactly_leaves_nothing_to_learn():
     u = np.sin(np.arange(1000) / 20)
     found = residuals("y", 1e-9 * u, {"u": u}, 2.0)
     assert found.drivers == ("u",)
-    assert found.summary() == ("'y': what is left over is 4e-08 % of it; no more is to be learned.")
+    assert found.summary() == (
+        "'y': the residuals are 4e-08 % of it; there is nothing more to learn."
+    )
 
 
 def test_residuals_of_a_fit():
@@ -234,6 +234,14 @@ def test_residuals_of_a_fit():
     assert len(found.own) == 50
 
 
+def test_the_old_names_of_summaries_still_work():
+    sure, (left,) = trained().confidence(), trained().residuals()
+    with pytest.warns(DeprecationWarning, match=r"Confidence\.words\(\) is now called summary"):
+        assert sure.words() == sure.summary()
+    with pytest.warns(DeprecationWarning, match=r"Residuals\.words\(\) is now called summary"):
+        assert left.words() == left.summary()
+
+
 # -- the page ----------------------------------------------------------------------------------------
 
 
@@ -241,7 +249,7 @@ def test_the_page_holds_everything_itself(tmp_path: Any):
     path = trained().report(tmp_path / "out", "An oscillator")
     text = path.read_text(encoding="utf-8")
     assert path == tmp_path / "out" / "index.html"
-    for word in ("An oscillator", "extra.net", "mass.m", "What is left over", "mass.a"):
+    for word in ("An oscillator", "extra.net", "mass.m", "Residuals", "mass.a"):
         assert word in text
     assert text.count("data:image/png;base64,") == 4
     assert not re.search(r'(src|href)="(?!data:)', text)

@@ -15,7 +15,7 @@ SAMPLES = 1000
 
 
 def context(problem: Problem) -> Context:
-    """What regularizers may know beside the parameters.
+    """What regularizers may know besides the parameters.
 
     Raises:
         TrainingError: if states are not measured, and the model diverges.

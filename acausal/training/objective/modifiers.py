@@ -1,4 +1,4 @@
-"""Parameters trained beside networks: how each may move, as a function of a free variable δ that is 0 at the start."""
+"""Parameters that are trained besides networks: how each moves with a free variable δ, which starts at 0."""
 
 from __future__ import annotations
 

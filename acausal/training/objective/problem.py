@@ -270,7 +270,7 @@ class Problem(eqx.Module):
         return self._integrate(packed, x0, self._record.steps, direct=True)[1]
 
     def predictions(self, trainable: Trainable) -> Float[Array, "n_models n_samples n_targets"]:
-        """The same of every model that the parameter spread asks for."""
+        """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
         return self.parameter_spread.each(lambda p: self.predict(trainable, p), params)
 

@@ -1,4 +1,4 @@
-"""Regularizers: what training wants of a model beside fitting the data.
+"""Regularizers: penalties that a training minimises along with the loss.
 
 A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace. Outputs of networks are
 taken relative to their ``output_scale``, so that weights are pure numbers. For a network that is an energy, the law
@@ -42,7 +42,7 @@ class Trajectory(eqx.Module):
 
 
 class Context(eqx.Module):
-    """What a regularizer may know beside the parameters.
+    """What a regularizer may know besides the parameters.
 
     Attributes:
         networks: names of the networks that are trained.

@@ -1,4 +1,4 @@
-"""The gradient of a batch's loss, and its Gauss-Newton Hessian where an optimizer asks for it."""
+"""The gradient of a batch's loss, and its Gauss-Newton Hessian where an optimizer needs it."""
 
 from __future__ import annotations
 

@@ -18,19 +18,16 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.scipy.special import erf
 from jaxtyping import Array, Float
 from scipy.linalg import solve_triangular
 
 from acausal.errors import TrainingError
-from acausal.networks import Potential, law_of, output_scale
+from acausal.networks import law_of, output_scale
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.optimizers.gradients import value_and_jacobian
+from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.residuals import correlation_time
-
-BUMPS, SIGMAS = 12, 3.0
-"""Bumps of each law, evenly over so many sigmas of its inputs to either side."""
 
 BAND_POINTS = 201
 """Points of a band over the argument of a law."""
@@ -46,33 +43,6 @@ CORRELATED = 2.0
 
 LEAST_NOISE = 1e-12
 """The least noise that is considered possible, relative to a target's standard deviation."""
-
-
-Network = Callable[..., Any]
-"""A module that is called with scalars."""
-
-
-class Bumped(eqx.Module):
-    """A network whose law may change by bumps of its first argument, ``F(x) + Σ a_k exp(−(x − c_k)²/2w²)``."""
-
-    net: Network
-    heights: Float[Array, " n_bumps"]
-    centres: Float[Array, " n_bumps"]
-    width: Float[Array, ""]
-
-    def __call__(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
-        """The law, or the energy whose derivative it is."""
-        shapes = self.areas if isinstance(self.net, Potential) else self.bumps
-        return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
-
-    def bumps(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
-        """The bumps at x."""
-        return jnp.exp(-0.5 * ((x - self.centres) / self.width) ** 2)
-
-    def areas(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
-        """The energies whose derivatives the bumps are."""
-        z = (x - self.centres) / self.width
-        return self.width * jnp.sqrt(jnp.pi / 2) * erf(z / jnp.sqrt(2.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +100,7 @@ class Confidence:
             if abs(self.correlation[i, j]) > INDISTINGUISHABLE
         ]
         slow = [
-            f"What is left over of '{n}' is alike over {count:.0f} samples, which count as one here. If the "
+            f"Residuals of '{n}' are correlated over {count:.0f} samples, which count as one here. If the "
             "model lacks something, it is further off than its deviations say: see fit.residuals()."
             for n, count in self.alike.items()
             if count > CORRELATED
@@ -163,7 +133,7 @@ def confidence(
     """
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
-    bumped = {n: _bumped(params[n], seen[n]) for n in laws}
+    bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
     heights = [np.full(BUMPS, output_scale(params[n])) for n in laws]
     prior, moves = _prior(problem, params), np.ones(_moves(trainable))
     deviations = np.concatenate([*heights, prior, moves])
@@ -271,14 +241,6 @@ def _inverse(jacobian: Float[np.ndarray, "rows n"]) -> Float[np.ndarray, "n n"]:
     triangle = np.linalg.qr(np.concatenate([jacobian, np.eye(count)]), mode="r")
     inverse = solve_triangular(triangle, np.eye(count))
     return inverse @ inverse.T
-
-
-def _bumped(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"]) -> Bumped:
-    first = seen[:, 0]
-    spread = float(first.std()) or 1.0
-    centres = first.mean() + spread * np.linspace(-SIGMAS, SIGMAS, BUMPS)
-    width = jnp.asarray(centres[1] - centres[0])
-    return Bumped(network, jnp.zeros(BUMPS), jnp.asarray(centres), width)
 
 
 def _sensitivity(

@@ -16,7 +16,7 @@ CHANCE = 4.0
 """Standard deviations that a correlation may reach by chance; in one of 300 records of white noise a lag has more."""
 
 NEGLIGIBLE = 1e-6
-"""Share of a target that no measurement resolves."""
+"""Residuals of a smaller share of the target count as none: no measurement resolves them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,19 +63,19 @@ class Residuals:
     def summary(self) -> str:
         """What this means, in a sentence."""
         if self.bound >= 1:
-            return f"'{self.target}': {len(self.values)} samples are too few to tell what is left over from noise."
+            return f"'{self.target}': {len(self.values)} samples are too few to tell residuals from noise."
         if self.share < NEGLIGIBLE:
-            return f"'{self.target}': what is left over is {100 * self.share:.1g} % of it; no more is to be learned."
+            return f"'{self.target}': the residuals are {100 * self.share:.1g} % of it; there is nothing more to learn."
         if self.drivers:
             largest = max(float(np.max(np.abs(self.inputs[n]))) for n in self.drivers)
             return (
-                f"'{self.target}': what is left over still follows {', '.join(map(repr, self.drivers))}, up to "
+                f"'{self.target}': the residuals still follow {', '.join(map(repr, self.drivers))}, up to "
                 f"a correlation of {largest:.2g}: the model lacks something, or trained too little."
             )
         if self.is_white:
-            return f"'{self.target}': what is left over looks like white noise; nothing more is to be learned from it."
+            return f"'{self.target}': the residuals look like white noise; there is nothing more to learn from them."
         return (
-            f"'{self.target}': what is left over is no white noise, up to a correlation of "
+            f"'{self.target}': the residuals are not white noise, up to a correlation of "
             f"{np.max(np.abs(self.own)):.2g}: coloured noise, or something that the model lacks."
         )
 
