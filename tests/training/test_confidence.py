@@ -187,7 +187,7 @@ def test_residuals_are_judged():
     quiet = residuals("y", white, {"u": u}, 1.0)
     assert quiet.is_white
     assert quiet.drivers == ()
-    assert "looks like white noise" in quiet.summary()
+    assert "look like white noise" in quiet.summary()
     assert not residuals("y", slow, {"u": u}, 1.0).is_white
     follows = residuals("y", driven, {"u": u}, 1.0)
     lag = int(np.argmax(np.abs(follows.inputs["u"]))) - len(follows.inputs["u"]) // 2
