@@ -1,7 +1,8 @@
-"""Reports: plots, pages and diagrams.
+"""Report: plots, pages and diagrams.
 
 In: arrays with names and units, a component tree. Out: matplotlib axes, HTML, SVG.
-It knows no results: a result that can be shown calls it.
+It knows no results, for results have methods such as `Fit.report` that call it: it takes plain data, or anything with
+the attributes of a small protocol.
 """
 
 from acausal.reporting.diagram import diagram as diagram
@@ -15,4 +16,14 @@ from acausal.reporting.plot import (
     plot_learned as plot_learned,
     plot_losses as plot_losses,
     plot_modifiers as plot_modifiers,
+)
+from acausal.reporting.sections import (
+    Law as Law,
+    add_divergences as add_divergences,
+    add_laws as add_laws,
+    add_losses as add_losses,
+    add_parameters as add_parameters,
+    add_predictions as add_predictions,
+    add_residuals as add_residuals,
+    add_trajectories as add_trajectories,
 )

@@ -1,4 +1,4 @@
-"""Draw a model: boxes for components, dots for the nodes that they meet in, arrows for signals."""
+"""Draw a model: boxes for components, dots for the nodes where they meet, arrows for signals."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIGNAL = "#808080"
 
 @dataclass(frozen=True)
 class _Wire:
-    """A node of the drawing that joins ends of components; ``kind`` is a connector class, None for signals."""
+    """A node of the drawing that joins ends of components; ``kind`` is a connector class, ``None`` for signals."""
 
     kind: type[Connector] | None
     ends: tuple[tuple[str, str], ...]
@@ -107,7 +107,7 @@ def _layers(model: Component, wires: list[_Wire]) -> dict[str, tuple[float, floa
     return positions
 
 
-def _height(graph: Any, node: str, placed: dict[str, tuple[float, float]]) -> float:
+def _height(graph: nx.Graph[str], node: str, placed: dict[str, tuple[float, float]]) -> float:
     """Mean height of the neighbours that are placed already, downwards."""
     heights = [-placed[n][1] for n in graph.neighbors(node) if n in placed]
     return sum(heights) / len(heights) if heights else 0.0

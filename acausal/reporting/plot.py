@@ -4,23 +4,98 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from itertools import cycle
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Float
+from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from acausal.training import Band, Fit, History, Seen
 
 TRUTH = "#22303c"
 LEARNED = ("#1f77b4", "#d1603d", "#3d8c5a", "#8a5a9e", "#b8860b", "#417f8a")
 """Colours of learned curves, in turn."""
 GUIDE = "#8795a1"
-SPAN = 3.0
+SIGMAS = 3.0
 """Learned functions are drawn over this many sigmas of their inputs."""
+
+
+class Seen(Protocol):
+    """Mean and standard deviation of the arguments that a network was called with, such as `Fit.seen`."""
+
+    @property
+    def mean(self) -> Float[np.ndarray, " n_arguments"]:
+        """Of every argument."""
+        ...
+
+    @property
+    def sigma(self) -> Float[np.ndarray, " n_arguments"]:
+        """The standard deviation."""
+        ...
+
+
+class Band(Protocol):
+    """A curve with its standard deviation, such as `Confidence.laws`."""
+
+    @property
+    def x(self) -> Float[np.ndarray, " points"]:
+        """The argument or the time."""
+        ...
+
+    @property
+    def law(self) -> Float[np.ndarray, " points"]:
+        """The curve."""
+        ...
+
+    @property
+    def sigma(self) -> Float[np.ndarray, " points"]:
+        """The standard deviation."""
+        ...
+
+
+class Losses(Protocol):
+    """Losses over the updates of a training, such as `Fit.history`; (epochs done, loss) in rows of two columns."""
+
+    @property
+    def epochs(self) -> int:
+        """Updates done."""
+        ...
+
+    @property
+    def loss(self) -> Float[np.ndarray, " epochs"]:
+        """Of the batches."""
+        ...
+
+    @property
+    def full_loss(self) -> Float[np.ndarray, "k 2"]:
+        """Over the whole record."""
+        ...
+
+    @property
+    def validation_loss(self) -> Float[np.ndarray, "k 2"]:
+        """Over what is held out."""
+        ...
+
+
+class Changes(Protocol):
+    """Changes of parameters over the updates of a training, such as `Fit.history`."""
+
+    @property
+    def modifiers(self) -> Mapping[str, Float[np.ndarray, " epochs"]]:
+        """By parameter."""
+        ...
+
+
+class WithHistory(Protocol):
+    """A result that has such changes, such as `Fit`."""
+
+    @property
+    def history(self) -> Changes:
+        """The changes."""
+        ...
 
 
 def plot_learned(
@@ -28,7 +103,7 @@ def plot_learned(
     functions: Mapping[str, Callable[..., Any]],
     seen: Seen,
     *,
-    truth: Callable[[Any], Any] | None = None,
+    truth: Callable[[Float[np.ndarray, " points"]], ArrayLike] | None = None,
     xlabel: str = "",
     ylabel: str = "",
 ) -> None:
@@ -43,7 +118,7 @@ def plot_learned(
         truth: the true function, where it is known.
     """
     mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
-    x = np.linspace(mean - SPAN * sigma, mean + SPAN * sigma, 601)
+    x = np.linspace(mean - SIGMAS * sigma, mean + SIGMAS * sigma, 601)
     if truth is not None:
         ax.plot(x, np.asarray(truth(x)), color=TRUTH, lw=2.4, alpha=0.55, label="truth")
     for (label, function), color in zip(functions.items(), cycle(LEARNED), strict=False):
@@ -72,11 +147,12 @@ def plot_band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") 
 
 
 def plot_losses(
-    ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None
+    ax: Axes, histories: Mapping[str, Losses], *, levels: Mapping[str, float] | None = None
 ) -> None:
     """Draw losses over epochs: of the batches (thin), over the whole record (dots) and over what is held out (squares).
 
     Arguments:
+        histories: by label.
         levels: horizontal lines by label, such as a published loss.
     """
     for (label, history), color in zip(histories.items(), cycle(LEARNED), strict=False):
@@ -97,7 +173,9 @@ def plot_losses(
     ax.legend(frameon=False)
 
 
-def plot_modifiers(ax: Axes, fit: Fit, *, targets: Mapping[str, float] | None = None) -> None:
+def plot_modifiers(
+    ax: Axes, fit: WithHistory, *, targets: Mapping[str, float] | None = None
+) -> None:
     """Draw the changes of trained parameters over epochs, and their targets where these are known."""
     for (name, values), color in zip(fit.history.modifiers.items(), cycle(LEARNED), strict=False):
         ax.plot(values, color=color, lw=1.4, label=name)

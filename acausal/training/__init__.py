@@ -1,12 +1,13 @@
 """Train: the networks and parameters of a model learn from a record.
 
-In: a `System`, `Data`, options. Out: a `Fit` or an `Ensemble`, which answer further questions.
-It may know every room below; none of them knows it.
+In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit` or an `Ensemble`, which answer further questions.
+It may know every room below; none of them knows it. Inside, `objective` is what to minimise, `optimizers` how, and
+`uncertainty` how sure the result is; only `objective` knows how records are laid out.
 """
 
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
-from acausal.training.history import History as History
+from acausal.training.history import Divergence as Divergence, History as History
 from acausal.training.logs import CsvLog as CsvLog, TensorBoardLog as TensorBoardLog
 from acausal.training.objective.modal import (
     DampingRatio as DampingRatio,
@@ -19,5 +20,6 @@ from acausal.training.objective.regularizers import (
     ZeroCrossing as ZeroCrossing,
 )
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
+from acausal.training.options import FitOptions as FitOptions
 from acausal.training.result import Fit as Fit, Seen as Seen
-from acausal.training.uncertainty.confidence import Band as Band
+from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

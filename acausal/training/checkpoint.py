@@ -7,27 +7,32 @@ import warnings
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, TrainingError, listing, reason
 from acausal.training.history import Rows
+from acausal.training.objective.trainable import Trainable
+from acausal.training.optimizers.trainer import State
 
-KIND = "checkpoint of a training, version 2"
+KIND = "checkpoint of a training, version 3"
+
+EARLIER = ("checkpoint of a training, version 1", "checkpoint of a training, version 2")
+"""What earlier versions of acausal wrote: names in them differ."""
 
 LOG = "log {}: "
-"""What columns of a training's log are called in a file, before their names."""
+"""Prefix of the names of a training log's columns in a file."""
 
 
 class Kept(NamedTuple):
-    """The best of a training: see `acausal.training.member.Best`, less what follows from the rest."""
+    """The best of a training: `acausal.training.member.Best` without its simulation, which can be repeated."""
 
     loss: float
     validation: float | None
     epoch: int
-    trainable: Any
+    trainable: Trainable
 
 
 class Snapshot(NamedTuple):
@@ -43,7 +48,7 @@ class Snapshot(NamedTuple):
 
     leg: int
     before: int
-    state: Any
+    state: State
     bests: tuple[Kept, ...]
     evaluated: int
     seconds: float
@@ -102,6 +107,11 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
         DataError: if it cannot be read, is damaged, or belongs to another training.
     """
     arrays, about = read_arrays(path)
+    if about.get("kind") in EARLIER:
+        raise DataError(
+            f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
+            "or begin anew with another file."
+        )
     if about.get("kind") != KIND:
         raise DataError(f"'{path}' is no {KIND}, but: {about.get('kind', 'it does not say what')}.")
     theirs = about["fingerprint"]
@@ -123,7 +133,7 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
 
 @contextmanager
 def keeping(path: Path | None, every: float, fingerprint: Mapping[str, str]) -> Generator[Keep]:
-    """Write checkpoints: at once, then at intervals of ``every`` seconds, and at the end, however it comes.
+    """Write checkpoints: at once, then at intervals of ``every`` seconds, and at the end, also after an error.
 
     Raises:
         TrainingError: if the first one cannot be written. When a later one can't, this warns and goes on.
@@ -157,7 +167,9 @@ class _Keeper:
             error = self._try()
             if error and not self.warned:
                 self.warned = True
-                warnings.warn(f"{self._told(error)} The training goes on.", stacklevel=2)
+                warnings.warn(
+                    f"{self._cannot_be_written(error)} The training goes on.", stacklevel=2
+                )
 
     def close(self) -> None:
         """Write the latest snapshot if that was not done yet."""
@@ -166,7 +178,7 @@ class _Keeper:
         error = self._try()
         if error:
             warnings.warn(
-                f"{self._told(error)} The training has ended: save its result elsewhere, "
+                f"{self._cannot_be_written(error)} The training has ended: save its result elsewhere, "
                 "ac.save_params(fit.params, ...).",
                 stacklevel=2,
             )
@@ -197,7 +209,7 @@ class _Keeper:
         self.written = self.latest
         return None
 
-    def _told(self, error: OSError) -> str:
+    def _cannot_be_written(self, error: OSError) -> str:
         assert self.latest is not None
         assert self.written is not None
         now, before = (_epochs(logs[0]) for _, logs in (self.latest, self.written))

@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-import inspect
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError, nearest, need_compiled
+from acausal.errors import TrainingError, need_compiled
 from acausal.networks import law_of
-from acausal.training.ensemble_page import write_ensemble_page
-from acausal.training.fit import fit
-from acausal.training.objective.build_problem import Start
+from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_predictions
+from acausal.training.objective.initial_state import InitialState
+from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import together
-from acausal.training.uncertainty.confidence import POINTS, REACH, Band
+from acausal.training.train_from_starts import train_from_starts
+from acausal.training.uncertainty.bumps import SIGMAS
+from acausal.training.uncertainty.confidence import BAND_POINTS, Band
 from acausal.training.uncertainty.conformal import predicted
 
 if TYPE_CHECKING:
@@ -33,9 +34,9 @@ if TYPE_CHECKING:
 class Ensemble:
     """The results of trainings that differ in their seed alone.
 
-    Their spread shows what the record and the training leave open: standard deviations are those of trainings that one
-    might add, estimated from those that there are. What is wrong for all of them, such as a law that follows the
-    record's noise, it does not show: `Fit.confidence` tells of that.
+    Their spread shows what the record and the training leave open: standard deviations are those of further trainings,
+    estimated from these. The spread does not show what is wrong for all of them, such as a law that overfits the
+    record's noise: see `Fit.confidence`.
 
     Attributes:
         fits: one for each member.
@@ -47,38 +48,42 @@ class Ensemble:
     def laws(self) -> dict[str, Band]:
         """By network, mean and standard deviation of what the members have learned.
 
-        Over the first argument, over what all have seen of it; other arguments are held at their mean.
+        Over the values of the first argument that all have seen; other arguments are held at their mean.
         """
         return {name: self._law(name) for name in self.fits[0].seen}
 
     def _law(self, name: str) -> Band:
         seen = np.concatenate([fit.arguments[name] for fit in self.fits])
-        centre, spread = seen[:, 0].mean(), seen[:, 0].std() or 1.0
-        x = np.linspace(centre - REACH * spread, centre + REACH * spread, POINTS)
+        centre, sigma = seen[:, 0].mean(), seen[:, 0].std() or 1.0
+        x = np.linspace(centre - SIGMAS * sigma, centre + SIGMAS * sigma, BAND_POINTS)
         rest = seen[:, 1:].mean(axis=0)
 
-        def values(network: Any) -> np.ndarray:
+        def values(network: Callable[..., Any]) -> Float[np.ndarray, " points"]:
             law = np.asarray(jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x)))
             return law if law.ndim == 1 else law[:, 0]
 
-        return _spread(x, [values(fit.params[name]) for fit in self.fits])
+        return _mean_and_deviation(x, [values(fit.params[name]) for fit in self.fits])
 
     @cached_property
     def predicted(self) -> dict[str, Band]:
         """By target, mean and standard deviation over the time of the record, in one simulation by each member."""
-        time = np.asarray(self.fits[0].problem.record.steps.t)
+        time = np.asarray(self.fits[0].problem.times)
         return self._predictions(time, [fit.predicted for fit in self.fits])
 
     def predict(
-        self, data: Data | Mapping[str, ArrayLike], x0: Start | Mapping[str, float] = "data"
+        self, data: Data | Mapping[str, ArrayLike], x0: InitialState = "data"
     ) -> dict[str, Band]:
         """The same over another record; arguments as those of `Fit.conformal`."""
         found = [predicted(fit.problem, fit.trained, data, x0) for fit in self.fits]
         return self._predictions(found[0][0], [y for _, y, _ in found])
 
-    def _predictions(self, time: np.ndarray, ys: Sequence[np.ndarray]) -> dict[str, Band]:
+    def _predictions(
+        self, time: Float[np.ndarray, " N"], ys: Sequence[Float[np.ndarray, "N n_targets"]]
+    ) -> dict[str, Band]:
         names = self.fits[0].problem.targets
-        return {name: _spread(time, [y[:, i] for y in ys]) for i, name in enumerate(names)}
+        return {
+            name: _mean_and_deviation(time, [y[:, i] for y in ys]) for i, name in enumerate(names)
+        }
 
     @property
     def modifiers(self) -> dict[str, tuple[float, float]]:
@@ -93,7 +98,28 @@ class Ensemble:
 
     def report(self, folder: str | Path, title: str = "Ensemble") -> Path:
         """Write a self-contained page, ``index.html`` in a folder; returns its path."""
-        return write_ensemble_page(self, Path(folder) / "index.html", title)
+        best = self.best
+        trained = ", ".join((*best.seen, *best.modifiers))
+        page = Page(
+            title,
+            f"{trained} trained {len(self.fits)} times on {best.problem.samples} samples of "
+            f"{', '.join(best.problem.targets)} in {best.seconds:.3g} s.",
+        )
+        rows = [
+            (k, f"{fit.loss_before:.4g}", f"{fit.loss:.4g}", f"{fit.score:.4g}")
+            for k, fit in enumerate(self.fits)
+        ]
+        page.table(("member", "loss before", "after", "deciding loss"), rows)
+        add_losses(page, {f"member {k}": fit.history for k, fit in enumerate(self.fits)})
+        measured = np.asarray(best.problem.measured)
+        units = {name: best.system.unit(name) for name in best.problem.targets}
+        add_predictions(page, measured, self.predicted, units)
+        add_laws(page, best.with_bands(self.laws))
+        changes = [
+            (name, f"{mean:+.4g}", f"{sigma:.2g}") for name, (mean, sigma) in self.modifiers.items()
+        ]
+        add_parameters(page, ("parameter", "change", "standard deviation"), changes)
+        return page.write(Path(folder) / "index.html")
 
     def __repr__(self) -> str:
         losses = ", ".join(f"{fit.score:.4g}" for fit in self.fits)
@@ -107,6 +133,7 @@ class Ensemble:
         return "\n".join([*lines, *([f"  modifiers {', '.join(changes)}"] if changes else [])])
 
 
+@documented
 def ensemble(
     system: System,
     data: Data | Mapping[str, ArrayLike],
@@ -115,7 +142,7 @@ def ensemble(
     members: int = 5,
     params: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None = None,
     seed: int = 0,
-    **wishes: Any,
+    **options: Unpack[FitKeywords],
 ) -> Ensemble:
     """Train several times from different seeds, in one compiled program.
 
@@ -123,30 +150,24 @@ def ensemble(
         system, data, targets: as of `acausal.fit`.
         members: how many.
         params: where to start: the numbers of all members, whose networks come from their own seeds; or all
-            parameters of each member, which then differ in nothing else than their networks.
+            parameters of each member, which then differ only in their networks.
         seed: of the first member; the others follow by one each.
-        wishes: further arguments of `acausal.fit`, all but ``devices``.
+        options: see `acausal.training.FitOptions`, each by its name. Not ``devices``.
 
     Raises:
         DataError, TrainingError: as `acausal.fit` does; if there are fewer than two members, or their networks are
             not alike.
-        TypeError: for a wish that `acausal.fit` does not know.
+        TypeError: for a keyword that is no option.
     """
     need_compiled(system, "ensemble")
     if not isinstance(members, int | np.integer) or members < 2:
         raise TrainingError(f"members={members!r}; an ensemble has two at least.")
-    unknown = [name for name in wishes if name not in _defaults()]
-    if unknown:
-        raise TypeError(
-            f"ensemble has no argument '{unknown[0]}': {nearest(unknown[0], _defaults())}"
-        )
-    arguments = {**_defaults(), **wishes}
-    if arguments["devices"] is not None:
+    chosen = FitOptions.of("ensemble", options)
+    if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
     seeds = tuple(range(seed, seed + members))
-    return Ensemble(
-        together(system, data, targets, seeds=seeds, params=_starts(system, params, seeds), **arguments)
-    )  # fmt: skip
+    starts = _starts(system, params, seeds)
+    return Ensemble(train_from_starts(system, data, targets, chosen, seeds=seeds, params=starts))
 
 
 def _starts(
@@ -163,15 +184,7 @@ def _starts(
     return [{**system.parameters(s), **own} for s, own in zip(seeds, params, strict=True)]
 
 
-def _defaults() -> dict[str, Any]:
-    """What `acausal.fit` takes by default, less what an ensemble says itself."""
-    given = inspect.signature(fit).parameters.values()
-    return {
-        p.name: p.default
-        for p in given
-        if p.kind is p.KEYWORD_ONLY and p.name not in ("params", "seed")
-    }
-
-
-def _spread(x: np.ndarray, curves: Sequence[np.ndarray]) -> Band:
+def _mean_and_deviation(
+    x: Float[np.ndarray, " points"], curves: Sequence[Float[np.ndarray, " points"]]
+) -> Band:
     return Band(x, np.mean(curves, axis=0), np.std(curves, axis=0, ddof=1))

@@ -16,14 +16,15 @@ import sympy as sp
 from acausal.data import named_arrays
 from acausal.system import System
 from acausal.training.objective.held_out import HeldOut
-from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Leg
 
-ASIDE = ("context", "nodes", "mesh")
+ASIDE = ("context", "shooting", "mesh")
 """Parts of a problem that follow from the others, or say only where to compute it."""
 
 ARGUMENTS = {
-    "system": "system", "networks": "train", "record": "data", "substeps": "dt",
+    "system": "system", "networks": "train", "records": "data", "substeps": "dt",
     "sequences": "sequence_length, batch_size or subsample",
 }  # fmt: skip
 """What parts of a problem are called by those who pose it, where they have another name."""
@@ -50,14 +51,14 @@ def fingerprint(
     parts = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     posed = {ARGUMENTS.get(n, n): part for n, part in parts.items() if n not in ASIDE}
     planned = {
-        "data": (problem.record, signals),
+        "data": (problem.records, signals),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
-        "x0": (problem.x0, problem.nodes is None),
+        "x0": (problem.x0, problem.shooting is None),
         "strategy": [leg.name for leg in legs],
         "epochs": [leg.epochs for leg in legs],
         "evaluate_every": [leg.evaluate_every for leg in legs],
         "patience": [leg.patience for leg in legs],
-        "validation": held and (held.problem.record, held.problem.x0, held.first),
+        "validation": held and (held.problem.records, held.problem.x0, held.first),
         "optimizer": [leg.trainer for leg in legs],
         "seed": seeds,
         "members": others,

@@ -1,12 +1,13 @@
-"""The record of a training: what every update told, and the losses over the whole record now and then."""
+"""The history of a training: what every update reports, and the losses over the whole record now and then."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
+from jaxtyping import Array, Bool, Float, Int
 
 from acausal.errors import DataError, listing
 
@@ -40,21 +41,21 @@ class History:
     """A training, update by update.
 
     Attributes:
-        loss: mean loss of each update's batch, before the update, shape (epochs,).
-        penalties: by regularizer, shape (epochs,).
-        modifiers: by parameter, its change before the update, as of `acausal.Fit.modifiers`, shape (epochs,).
-        seconds: time since the start of the training at the end of each update, shape (epochs,).
-        full_loss: loss over the whole record, (epochs done, loss) in rows, shape (k, 2).
-        validation_loss: loss over what is held out, likewise, shape (k, 2); (0, 2) where nothing is.
+        loss: mean loss of each update's batch, before the update.
+        penalties: by regularizer.
+        modifiers: by parameter, its change before the update, as of `acausal.Fit.modifiers`.
+        seconds: time since the start of the training at the end of each update.
+        full_loss: loss over the whole record, (epochs done, loss) in rows.
+        validation_loss: loss over what is held out, likewise; no rows without validation.
         divergences: what diverged and was left out.
     """
 
-    loss: np.ndarray
-    penalties: dict[str, np.ndarray]
-    modifiers: dict[str, np.ndarray]
-    seconds: np.ndarray
-    full_loss: np.ndarray
-    validation_loss: np.ndarray
+    loss: Float[np.ndarray, " epochs"]
+    penalties: dict[str, Float[np.ndarray, " epochs"]]
+    modifiers: dict[str, Float[np.ndarray, " epochs"]]
+    seconds: Float[np.ndarray, " epochs"]
+    full_loss: Float[np.ndarray, "k 2"]
+    validation_loss: Float[np.ndarray, "k 2"]
     divergences: tuple[Divergence, ...]
 
     @property
@@ -97,16 +98,53 @@ class Rows(NamedTuple):
 EVALUATIONS = "evaluations"
 
 
+class LogEntry(Protocol):
+    """What some updates report, with a leading axis: see `acausal.training.optimizers.trainer.Entry`."""
+
+    @property
+    def loss(self) -> Float[Array, " n"]:
+        """Of the batch."""
+        ...
+
+    @property
+    def diverged(self) -> Int[Array, " n"]:
+        """How many sequences were left out."""
+        ...
+
+    @property
+    def first(self) -> Int[Array, " n"]:
+        """Where the first of them starts: a sample's index."""
+        ...
+
+    @property
+    def rejected(self) -> Bool[Array, " n"]:
+        """Whether the update was rejected."""
+        ...
+
+    @property
+    def penalties(self) -> Mapping[str, Float[Array, " n"]]:
+        """By regularizer."""
+        ...
+
+    @property
+    def logged(self) -> Mapping[str, Float[Array, " n"]]:
+        """By parameter, its change."""
+        ...
+
+
 class Log:
     """Collects a `History` while training runs.
 
     Arguments:
         times: of the record's samples.
-        penalties, modifiers: names of what updates tell.
+        penalties, modifiers: names of what updates report.
     """
 
     def __init__(
-        self, times: np.ndarray, penalties: tuple[str, ...], modifiers: tuple[str, ...]
+        self,
+        times: Float[np.ndarray, " n_samples"],
+        penalties: tuple[str, ...],
+        modifiers: tuple[str, ...],
     ) -> None:
         self._times, self._penalties, self._modifiers = times, penalties, modifiers
         whole = {n: np.zeros(0, int) for n in ("diverged", "first")}
@@ -117,9 +155,9 @@ class Log:
         self.divergences: list[Divergence] = []
         self.epochs = 0
 
-    def add(self, entry: Any, count: int, started: float, ended: float) -> list[Divergence]:
+    def add(self, entry: LogEntry, count: int, started: float, ended: float) -> list[Divergence]:
         """Add the first ``count`` rows of a chunk's log; returns its divergences."""
-        told = {
+        reported = {
             "loss": entry.loss,
             "diverged": entry.diverged,
             "first": entry.first,
@@ -128,7 +166,7 @@ class Log:
             **{_modifier(n): entry.logged[n] for n in self._modifiers},
         }
         seconds = started + (ended - started) * np.arange(1, count + 1) / count
-        rows = {n: np.asarray(column)[:count] for n, column in told.items()}
+        rows = {n: np.asarray(column)[:count] for n, column in reported.items()}
         return self._append({**rows, "seconds": seconds})
 
     def _append(self, chunk: dict[str, np.ndarray]) -> list[Divergence]:
@@ -162,7 +200,7 @@ class Log:
         return Rows(tuple(self._chunks), tuple(self.evaluations))
 
     def go_on(self, columns: Mapping[str, np.ndarray]) -> None:
-        """Take what another log had collected (its ``rows().columns()``) for the beginning of this empty one.
+        """Begin this empty log with what another one had collected: its ``rows().columns()``.
 
         Raises:
             DataError: if they are not the columns of such a log.

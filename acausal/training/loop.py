@@ -11,23 +11,32 @@ from statistics import fmean as mean
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Int, PRNGKeyArray
 
 from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Kept, Snapshot, Stored
 from acausal.training.history import Divergence, History, Log
-from acausal.training.member import Best, Member, joined, parted
+from acausal.training.member import Best, Member, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
-from acausal.training.objective.problem import Problem, Trainable
-from acausal.training.objective.sharding import agreed, local, shared
-from acausal.training.optimizers.trainer import CHUNK, Entry, State, advance, begin, converged
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.sharding import of_first_process, on_default_device, replicate
+from acausal.training.objective.trainable import Trainable
+from acausal.training.optimizers.gradients import Objective
+from acausal.training.optimizers.trainer import (
+    UPDATES_PER_CALL,
+    Entry,
+    State,
+    advance,
+    begin,
+    converged,
+)
 from acausal.training.progress import Observer, Progress
 from acausal.training.strategy import Leg
 
-LOOK = 0.5
-"""Seconds between two looks at the training, about."""
+REPORT_EVERY = 0.5
+"""Seconds between two reports to the observers, about."""
 
-PATIENCE = 50
+REJECTIONS = 50
 """So many updates rejected in a row end a training."""
 
 
@@ -56,7 +65,7 @@ def train(
     problem: Problem,
     starts: Sequence[Trainable],
     legs: Sequence[Leg],
-    keys: Sequence[Array],
+    keys: Sequence[PRNGKeyArray],
     observers: Sequence[Observer],
     keep: Keep = lambda snapshot, rows: None,
     stored: Stored | None = None,
@@ -67,8 +76,7 @@ def train(
     Several trainings of one problem go through one program. A leg ends when it has ended for all of them.
 
     Arguments:
-        problem: what every leg serves: evaluations over the whole record, among which the best is chosen where
-            nothing is held out.
+        problem: evaluated over the whole record; the best evaluation is chosen where nothing is held out.
         starts: where each training begins.
         legs: what to minimise and how.
         keys: sources of all batches, one for each training.
@@ -78,13 +86,13 @@ def train(
         held: what is held out; the best is the one with the lowest loss over it.
 
     Raises:
-        TrainingError: if `PATIENCE` updates in a row had to be rejected.
+        TrainingError: if `REJECTIONS` updates in a row had to be rejected.
         DataError: if what was stored is of another training.
     """
     run = _Run(problem, legs, keys, observers, keep, held)
     interrupted = False
     if stored is None:
-        run.evaluate(shared(joined(starts), problem.mesh))
+        run.evaluate(replicate(stacked(starts), problem.mesh))
         first, state = 0, None
     else:
         first, state = run.resume(stored, starts)
@@ -96,7 +104,7 @@ def train(
         interrupted = True
         run.evaluate(run.last)
     seconds = time.perf_counter() - run.began
-    last = parted(run.last, len(run.members))
+    last = unstacked(run.last, len(run.members))
     return tuple(
         Trained(m.best, end, m.log.history(), seconds, run.compiling, run.updating, interrupted)
         for m, end in zip(run.members, last, strict=True)
@@ -104,7 +112,7 @@ def train(
 
 
 class _Run:
-    """Trainings on their way."""
+    """Trainings while they run."""
 
     last: Trainable
 
@@ -112,14 +120,14 @@ class _Run:
         self,
         problem: Problem,
         legs: Sequence[Leg],
-        keys: Sequence[Array],
+        keys: Sequence[PRNGKeyArray],
         observers: Sequence[Observer],
         keep: Keep,
         held: HeldOut | None,
     ) -> None:
         self.began = time.perf_counter()
         self.mesh = problem.mesh
-        on_devices = shared((problem, held), self.mesh)
+        on_devices = replicate((problem, held), self.mesh)
         self.members = [Member(*on_devices, key) for key in keys]
         self.legs, self.observers, self.keep = legs, observers, keep
         self.epochs = sum(leg.epochs for leg in legs)
@@ -133,12 +141,12 @@ class _Run:
         return self.members[0].log.epochs
 
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
-        """Be where a training was when it was stored; returns its leg and the trainer's state."""
+        """Restore a training; returns its leg and the trainer's state."""
         validation = None if self.members[0].held is None else 0.0
         bests = tuple(Kept(0.0, validation, 0, start) for start in starts)
         state = self._begin(stored.leg, starts)
         like = Snapshot(stored.leg, 0, state, bests, 0, 0.0, 0.0, 0.0)
-        snapshot = shared(stored.snapshot(like), self.mesh)
+        snapshot = replicate(stored.snapshot(like), self.mesh)
         for member, columns, best in zip(self.members, stored.columns, snapshot.bests, strict=True):
             member.log.go_on(columns)
             member.best = Best(*best, member.problem.simulate(best.trainable))
@@ -151,41 +159,40 @@ class _Run:
     def enter(self, i: int) -> State:
         """The trainer's state at the start of a leg."""
         self.before = self.done
-        return shared(self._begin(i, [m.best.trainable for m in self.members]), self.mesh)
+        return replicate(self._begin(i, [m.best.trainable for m in self.members]), self.mesh)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
         leg = self.legs[i]
         keys = [jax.random.fold_in(m.key, i) if i else m.key for m in self.members]
         begins = [
-            begin(leg.trainer, local(_entry(leg, entry), self.mesh), key)
+            begin(leg.trainer, on_default_device(_entry(leg, entry), self.mesh), key)
             for entry, key in zip(entries, keys, strict=True)
         ]
-        return joined(begins)
+        return stacked(begins)
 
     def follow(self, i: int, state: State) -> None:
         """Make all updates of a leg that are not done yet."""
         leg = self.legs[i]
-        objective = shared(leg.objective, self.mesh)
+        objective = replicate(leg.objective, self.mesh)
         self._keep(i, state)
         if self.done - self.before < leg.epochs:
             clock = time.perf_counter()
-            jax.block_until_ready(
-                advance(objective, leg.trainer, state, jnp.max(state.epoch))
-            )  # compiles, and does nothing
+            # This compiles, and makes no update.
+            jax.block_until_ready(_advance(objective, leg, state, jnp.max(state.epoch)))
             self.compiling += time.perf_counter() - clock
         size = 1
         while (done := self.done - self.before) < leg.epochs and not self._is_over(leg, state):
             due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
-            count = min(size, due - done, CHUNK)
+            count = min(size, due - done, UPDATES_PER_CALL)
             clock = time.perf_counter()
-            until = shared(jnp.asarray(done + count, int), self.mesh)
-            state, told = jax.block_until_ready(advance(objective, leg.trainer, state, until))
+            until = replicate(jnp.asarray(done + count, int), self.mesh)
+            state, entries = jax.block_until_ready(_advance(objective, leg, state, until))
             ended = time.perf_counter()
             count = int(jnp.max(state.epoch)) - done
-            new = self._log(state, told, count, clock - self.began, ended - self.began)
-            per_epoch = agreed((ended - clock) / count, self.mesh)
+            new = self._log(state, entries, count, clock - self.began, ended - self.began)
+            per_epoch = of_first_process((ended - clock) / count, self.mesh)
             self.updating += ended - clock
-            size = max(1, min(CHUNK, int(LOOK / per_epoch)))
+            size = max(1, min(UPDATES_PER_CALL, int(REPORT_EVERY / per_epoch)))
             if done + count == due:
                 self.evaluate(state.trainable)
             self._keep(i, state)
@@ -204,12 +211,12 @@ class _Run:
         self._keep(i, state)
 
     def _log(
-        self, state: State, told: Entry, count: int, started: float, ended: float
+        self, state: State, entries: Entry, count: int, started: float, ended: float
     ) -> list[Divergence]:
-        """Write down what some updates told; returns what diverged."""
+        """Log some updates; returns what diverged."""
         size, new = len(self.members), []
-        rejected = parted(state.rejected, size)
-        for k, entry in enumerate(parted(jax.tree.map(np.asarray, told), size, axis=1)):
+        rejected = unstacked(state.rejected, size)
+        for k, entry in enumerate(unstacked(jax.tree.map(np.asarray, entries), size, axis=1)):
             log = self.members[k].log
             new += log.add(entry, count, started, ended)
             _check_rejections(log, int(rejected[k]))
@@ -230,18 +237,25 @@ class _Run:
         if self.evaluated == self.done:
             return
         self.evaluated = self.done
-        for member, own in zip(self.members, parted(trainable, len(self.members)), strict=True):
+        for member, own in zip(self.members, unstacked(trainable, len(self.members)), strict=True):
             member.evaluate(own)
         self.last = trainable
 
     def _is_over(self, leg: Leg, state: State) -> bool:
         """Whether a leg has nothing more to find, or found nothing better for too long, for any member."""
-        ended = parted(converged(state), len(self.members))
+        ended = unstacked(converged(state), len(self.members))
         patience = math.inf if leg.patience is None else leg.patience
         return all(
-            bool(e) or m.vain(self.before) >= patience
+            bool(e) or m.evaluations_without_improvement(self.before) >= patience
             for e, m in zip(ended, self.members, strict=True)
         )
+
+
+def _advance(
+    objective: Objective, leg: Leg, state: State, until: Int[Array, ""]
+) -> tuple[State, Entry]:
+    on_accelerator = jax.default_backend() != "cpu"
+    return advance(objective, leg.trainer, state, until, side_by_side=on_accelerator)
 
 
 def _entry(leg: Leg, best: Trainable) -> Trainable:
@@ -253,7 +267,7 @@ def _entry(leg: Leg, best: Trainable) -> Trainable:
 
 
 def _check_rejections(log: Log, rejected: int) -> None:
-    if rejected < PATIENCE:
+    if rejected < REJECTIONS:
         return
     first = log.epochs - rejected
     sequences = [d for d in log.divergences if d.epoch >= first and d.count]

@@ -17,7 +17,7 @@ class Progress:
     """How far a training is.
 
     Attributes:
-        epoch, epochs: updates done, and wanted.
+        epoch, epochs: updates done, and planned.
         loss: of the last update's batch.
         best: the lowest loss over the whole record so far, or over what is held out.
         seconds: time since the start.
@@ -38,12 +38,12 @@ Observer = Callable[[Progress], None]
 
 
 @contextmanager
-def display(wanted: bool, epochs: int) -> Generator[Observer]:
+def display(show: bool, epochs: int) -> Generator[Observer]:
     """A live line with epoch, loss, rate and remaining time; nothing where there is no terminal."""
     from rich.console import Console
 
     console = Console(stderr=True)
-    if not (wanted and (console.is_terminal or console.is_jupyter)):
+    if not (show and (console.is_terminal or console.is_jupyter)):
         yield lambda progress: None
         return
     from rich.progress import (
@@ -66,7 +66,7 @@ def display(wanted: bool, epochs: int) -> Generator[Observer]:
     with Bar(*columns, console=console) as bar:
         task = bar.add_task("train", total=epochs, loss="...", best="...", rate="compiling")
 
-        def show(progress: Progress) -> None:
+        def update(progress: Progress) -> None:
             nonlocal shown
             for divergence in progress.divergences[: max(SHOWN - shown, 0)]:
                 bar.console.print(str(divergence), style="yellow")
@@ -80,4 +80,4 @@ def display(wanted: bool, epochs: int) -> Generator[Observer]:
                 rate=f"{rate * 1e3:.3g} ms/epoch" if rate < 1 else f"{rate:.3g} s/epoch",
             )
 
-        yield show
+        yield update

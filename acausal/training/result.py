@@ -8,20 +8,32 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.analysis import Distilled, distill
 from acausal.data import Data
 from acausal.errors import TrainingError, nearest
 from acausal.networks import remove_offset
+from acausal.reporting import (
+    Law,
+    Page,
+    add_divergences,
+    add_laws,
+    add_losses,
+    add_parameters,
+    add_residuals,
+    add_trajectories,
+)
 from acausal.training.history import History
 from acausal.training.loop import Trained
-from acausal.training.objective.build_problem import Start
-from acausal.training.objective.problem import Problem, Trainable, modified
-from acausal.training.objective.sharding import local
-from acausal.training.page import write_page
-from acausal.training.uncertainty.confidence import Confidence, confidence
+from acausal.training.objective.initial_state import InitialState
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.sharding import on_default_device
+from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.uncertainty.confidence import Band, Confidence, confidence
 from acausal.training.uncertainty.conformal import Conformal, conformal
 from acausal.training.uncertainty.residuals import Residuals, residuals
 
@@ -34,14 +46,16 @@ class Seen:
     """What a network was called with over the record, in one simulation with the trained parameters.
 
     Attributes:
-        mean: of every argument, shape (number of arguments,).
-        sigma: standard deviation, likewise.
+        mean: of every argument.
+        sigma: standard deviation of every argument.
     """
 
-    mean: np.ndarray
-    sigma: np.ndarray
+    mean: Float[np.ndarray, " n_arguments"]
+    sigma: Float[np.ndarray, " n_arguments"]
 
-    def interval(self, sigmas: float = 2.0) -> tuple[np.ndarray, np.ndarray]:
+    def interval(
+        self, sigmas: float = 2.0
+    ) -> tuple[Float[np.ndarray, " n_arguments"], Float[np.ndarray, " n_arguments"]]:
         """Bounds ``mean ± sigmas · σ`` of every argument; outside of 2σ a network extrapolates."""
         return self.mean - sigmas * self.sigma, self.mean + sigmas * self.sigma
 
@@ -61,14 +75,14 @@ class Fit:
         x0: the state at the record's start, by name.
         modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
             absolute, p̃ − p.
-        predicted: the targets in one simulation of the record, shape (N, number of targets).
-        arguments: by network, what it was called with in that simulation, shape (N, number of arguments).
+        predicted: the targets in one simulation of the record.
+        arguments: by network, what it was called with in that simulation.
         seen: by network, the statistics of that.
         history: the training, update by update.
         seconds: what all of it took, of which ``compile_seconds`` in XLA's compiler.
         seconds_per_epoch: what an update took on average.
         interrupted: whether the user ended it early.
-        problem, trained: what was posed and what came of it, for further questions.
+        problem, trained: the training problem and what was trained, for further questions.
     """
 
     system: System
@@ -79,8 +93,8 @@ class Fit:
     best_epoch: int
     x0: dict[str, float]
     modifiers: dict[str, float]
-    predicted: np.ndarray
-    arguments: dict[str, np.ndarray]
+    predicted: Float[np.ndarray, "N n_targets"]
+    arguments: dict[str, Float[np.ndarray, "n_calls n_arguments"]]
     seen: dict[str, Seen]
     history: History
     seconds: float
@@ -107,13 +121,13 @@ class Fit:
         self,
         data: Data | Mapping[str, ArrayLike],
         level: float = 0.9,
-        x0: Start | Mapping[str, float] = "data",
+        x0: InitialState = "data",
     ) -> Conformal:
-        """Bands around predictions that hold a share of all measurements, calibrated on a record of its own.
+        """Bands around predictions that hold a share of all measurements, calibrated on another record.
 
         Arguments:
-            data: a record with inputs and targets, of which the training has seen nothing; that by which it was
-                chosen (``validation``) is none.
+            data: a record with inputs and targets that the training has never used, not even to choose the best
+                (``validation``).
             level: the share, in (0, 1).
             x0: the state at the record's start: ``"data"`` as measured, ``"model"`` as the model starts, or
                 values by name that replace the measured ones.
@@ -124,35 +138,34 @@ class Fit:
         return conformal(self.problem, self.trained, data, level, x0)
 
     def residuals(self) -> tuple[Residuals, ...]:
-        """What the trained model leaves over of every target."""
-        record, inputs = self.problem.record, self.system.inputs
-        left = np.asarray(record.y - self.predicted)
-        u = np.asarray(record.steps.inputs.start)
-        drivers = {n: u[:, i] for i, n in enumerate(inputs)}
-        sigmas = np.asarray(record.sigma).tolist()
+        """The residuals of every target over the record."""
+        left = np.asarray(self.problem.residuals(jnp.asarray(self.predicted)))
+        u = np.asarray(self.problem.inputs)
+        drivers = {n: u[:, i] for i, n in enumerate(self.system.inputs)}
+        sigmas = np.asarray(self.problem.sigma).tolist()
         rows = zip(self.problem.targets, left.T, sigmas, strict=True)
         return tuple(residuals(n, column, drivers, sigma) for n, column, sigma in rows)
 
     @cached_property
-    def predicted_before(self) -> np.ndarray:
-        """What was `predicted` before training."""
+    def predicted_before(self) -> Float[np.ndarray, "N n_targets"]:
+        """The targets in one simulation of the record before training."""
         return np.asarray(self.problem.simulate(self.problem.start()).y)
 
-    def samples(self, network: str, most: int = 400) -> np.ndarray:
+    def samples(self, network: str, most: int = 400) -> Float[np.ndarray, " n_samples"]:
         """Some of the values that a network's first argument had over the record, at most so many."""
         values = self.arguments[self._known(network)][:, 0]
         return values[:: max(1, len(values) // most)]
 
-    def distill(self, network: str, sigmas: float = 2.0, **wishes: Any) -> Distilled:
+    def distill(self, network: str, sigmas: float = 2.0, **options: Any) -> Distilled:
         """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of what it has seen.
 
         Arguments:
             network: its name, such as ``"damper.net"``.
-            sigmas: how far the formula reaches.
-            wishes: further arguments of `acausal.distill`.
+            sigmas: how far the formula reaches to either side.
+            options: further arguments of `acausal.distill`.
         """
         low, high = self.seen[self._known(network)].interval(sigmas)
-        return distill(self.params[network], float(low[0]), float(high[0]), **wishes)
+        return distill(self.params[network], float(low[0]), float(high[0]), **options)
 
     def _known(self, network: str) -> str:
         """The name of a trained network, or a sentence about another one."""
@@ -164,7 +177,58 @@ class Fit:
 
     def report(self, folder: str | Path, title: str = "Training") -> Path:
         """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""
-        return write_page(self, Path(folder) / "index.html", title)
+        trained = ", ".join((*self.seen, *self.modifiers))
+        end = ", ended by the user" if self.interrupted else ""
+        page = Page(
+            title,
+            f"{trained} trained on {self.problem.samples} samples of {', '.join(self.problem.targets)} in "
+            f"{self.seconds:.3g} s, {self.history.epochs} updates{end}.",
+        )
+        page.table(("figure", "before", "after"), self._losses())
+        add_losses(page, {"whole record": self.history})
+        add_trajectories(
+            page,
+            np.asarray(self.problem.times),
+            np.asarray(self.problem.measured),
+            self.predicted_before,
+            self.predicted,
+            {name: self.system.unit(name) for name in self.problem.targets},
+        )
+        if np.isfinite(self.loss):
+            sure = self.confidence()
+            add_laws(page, self.with_bands(sure.laws))
+            header = ("parameter", "value", "change", "one sigma")
+            add_parameters(page, header, self._parameters(sure), sure.summary())
+            add_residuals(page, self.residuals())
+        else:
+            page.text(
+                "The trained model diverges over the record; nothing can be said of what it has learned."
+            )
+        add_divergences(page, self.history.divergences)
+        return page.write(Path(folder) / "index.html")
+
+    def _losses(self) -> list[tuple[str, str, str]]:
+        """Losses before and after, in rows."""
+        rows = [("loss over the record", f"{self.loss_before:.4g}", f"{self.loss:.4g}")]
+        for before in self.history.validation_loss[:1, 1]:
+            rows.append(
+                ("loss over what is held out", f"{before:.4g}", f"{self.validation_loss:.4g}")
+            )
+        return rows
+
+    def _parameters(self, sure: Confidence) -> list[tuple[str, str, str, str]]:
+        """Value, change and standard deviation of every trained parameter, in rows."""
+        written, rows = self.problem.modifiers.written, []
+        for name, change in self.modifiers.items():
+            unit = self.system.unit(name)
+            value = f"{float(self.params[name]):.6g} {unit}".removesuffix(" 1")
+            sigma = written(name, sure.parameters[name], ".2g", unit)
+            rows.append((name, value, written(name, change, "+.3g", unit), sigma))
+        return rows
+
+    def with_bands(self, bands: Mapping[str, Band]) -> dict[str, Law]:
+        """Learned laws as reports show them: bands over what their networks have seen."""
+        return {n: Law(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
@@ -189,8 +253,8 @@ class Fit:
 
 
 def result(problem: Problem, trained: Trained) -> Fit:
-    """What came of a training."""
-    best, history = local(trained.best, problem.mesh), trained.history
+    """The result of a training."""
+    best, history = on_default_device(trained.best, problem.mesh), trained.history
     problem = replace(problem, mesh=None)
     seen = problem.seen(best.trainable, best.simulated.x)
     arguments = {n: np.asarray(seen[n]) for n in problem.networks}
@@ -202,7 +266,7 @@ def result(problem: Problem, trained: Trained) -> Fit:
         validation_loss=best.validation,
         best_epoch=best.epoch,
         x0=dict(zip(problem.system.states, best.simulated.x[0].tolist(), strict=True)),
-        modifiers={n: float(value) for n, value in modified(problem, best.trainable).items()},
+        modifiers={n: float(value) for n, value in changes_of(problem, best.trainable).items()},
         predicted=np.asarray(best.simulated.y),
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},

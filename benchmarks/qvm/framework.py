@@ -9,10 +9,11 @@ import jax
 import jax.numpy as jnp
 
 import acausal as ac
-from acausal.training.objective.build_problem import pose
+from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.record import Batch
-from acausal.training.objective.sharding import shared
+from acausal.training.objective.sharding import replicate
+from acausal.training.options import FitOptions
 from benchmarks.qvm.task import NETWORKS, Gradient, Task, flat
 from examples.qvm.model import with_networks
 from examples.qvm.record import OUTPUTS, SAMPLE_TIME
@@ -23,7 +24,7 @@ def gradient(task: Task, **choice: Any) -> Callable[[], Gradient]:
     problem = posed(task, **choice)
     batch = Batch(jnp.asarray(task.starts), jnp.ones(len(task.starts)), None)
     compiled = jax.jit(jax.value_and_grad(_loss))
-    arguments = shared((problem.start(), problem, batch), problem.mesh)
+    arguments = replicate((problem.start(), problem, batch), problem.mesh)
 
     def run() -> Gradient:
         loss, by = jax.block_until_ready(compiled(*arguments))
@@ -35,24 +36,12 @@ def gradient(task: Task, **choice: Any) -> Callable[[], Gradient]:
 def posed(task: Task, **choice: Any) -> Problem:
     """The training problem behind a task."""
     is_whole = len(task.starts) == 1
-    return pose(
-        ac.compile(with_networks()),
-        task.record,
-        OUTPUTS,
-        task.params,
-        train=None,
-        modifiers=None,
-        gamma=0.2,
-        loss="nrmse",
-        regularizers=(),
+    options = FitOptions(
         sequence_length=None if is_whole else task.length * SAMPLE_TIME,
         batch_size=len(task.starts),
-        subsample=None,
-        dt=None,
-        solver="heun",
-        x0="data",
         **choice,
     )
+    return build_problem(ac.compile(with_networks()), task.record, OUTPUTS, task.params, options)
 
 
 def _loss(trainable: Any, problem: Problem, batch: Batch) -> Any:

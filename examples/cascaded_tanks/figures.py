@@ -17,6 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import acausal as ac
+from acausal.training import Confidence
 from examples.cascaded_tanks import model, study
 from examples.cascaded_tanks.model import CURVE, LAW, LEARNED, OURS, OUTPUT, PROMISING, WHITE
 from examples.measured.present import Row, opening
@@ -67,7 +68,7 @@ def page(
     shown.text(
         f"The curve as a formula, distilled from the network and trained on: {law} V, of the level x in m."
     )
-    for sentence in sure.words():
+    for sentence in sure.summary():
         shown.text(sentence)
     shown.section("The outflow, if nothing is known of it but its promises")
     shown.figure(
@@ -98,7 +99,7 @@ def record(measured: Mapping[str, np.ndarray], fits: Mapping[str, ac.Fit]) -> Fi
     return figure
 
 
-def sensor(fits: Mapping[str, ac.Fit], sure: ac.Confidence, short: ac.Fit) -> Figure:
+def sensor(fits: Mapping[str, ac.Fit], sure: Confidence, short: ac.Fit) -> Figure:
     """Voltage over level: straight in the white box, learned, and a formula."""
     x = np.linspace(0.03, 0.17, 281)
     band, white = sure.laws[CURVE], fits[WHITE].params

@@ -140,14 +140,14 @@ class Kind:
         trained: parameters that are trained beside networks.
         learned: whether there are a dry friction and a neural spring beside ``friction``.
         ripple: whether the motor's torque has a part that repeats with its turns.
-        tolerances: of parameters that are not the same in every run.
+        parameter_spread: of parameters that are not the same in every run.
     """
 
     friction: Callable[[], ac.Component]
     trained: tuple[str, ...] = TRAINED
     learned: bool = False
     ripple: bool = False
-    tolerances: Mapping[str, float] | None = None
+    parameter_spread: Mapping[str, float] | None = None
 
     def build(self, whole: type[Axis]) -> ac.System:
         """The axis alone or controlled, compiled."""
@@ -159,15 +159,15 @@ class Kind:
         return replace(self, friction=friction)
 
 
-def learning(*, passive: bool = True, ripple: bool = False, **tolerances: float) -> Kind:
-    """A network beside a dry friction, a neural spring for the cables; tolerances in N."""
+def learning(*, passive: bool = True, ripple: bool = False, **parameter_spread: float) -> Kind:
+    """A network beside a dry friction, a neural spring for the cables; the spread in N."""
     names = {"friction": "dry.Fc", "offset": "offset.f_constant"}
     return Kind(
         lambda: network(passive=passive),
         (*TRAINED, "dry.Fc"),
         learned=True,
         ripple=ripple,
-        tolerances={names[n]: d for n, d in tolerances.items()} or None,
+        parameter_spread={names[n]: d for n, d in parameter_spread.items()} or None,
     )
 
 

@@ -91,7 +91,7 @@ def train(kind: Kind, measured: Measured, span: tuple[int, int] = ALL, seed: int
             params=params,
             modifiers=parameters,
             gamma=0.9,
-            tolerances=kind.tolerances,
+            parameter_spread=kind.parameter_spread,
             strategy=strategy,
             epochs=epochs,
             seed=seed,
@@ -183,7 +183,9 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     started = time.time()
     training, test = load(folder, "EMPS", ["DATA_EMPS.mat", "DATA_EMPS_PULSES.mat"])
     models = {
-        name: [trained(kind, training, seed=s) for s in range(seeds if kind.tolerances else 1)]
+        name: [
+            trained(kind, training, seed=s) for s in range(seeds if kind.parameter_spread else 1)
+        ]
         for name, kind in KINDS.items()
     }
     errors = {

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.codegen import Values
 from acausal.networks.trainable import networks
 from acausal.training.objective.arguments import arguments, calls
 from tests.support.oscillator import learned
@@ -75,7 +76,7 @@ def test_arguments_of_a_network_in_a_model():
     system = learned()
     x, packed = jnp.asarray([0.3, 0.0]), system.pack(system.parameters(0))
     np.testing.assert_allclose(
-        arguments(system, "extra.net", 0.0, x, jnp.zeros(1), packed), [[0.3]]
+        arguments(system, "extra.net", Values(0.0, x, jnp.zeros(1), packed)), [[0.3]]
     )
     with pytest.raises(ac.ModelError, match=r"no module 'extra\.nut': did you mean 'extra\.net'"):
         calls(system, "extra.nut")
@@ -95,7 +96,8 @@ def test_arguments_with_expressions_and_several_calls():
 
     system = ac.compile(Two())
     packed = system.pack(system.parameters(0))
-    seen = arguments(system, "net", 0.0, jnp.asarray([0.5]), jnp.asarray([20.0]), packed)
+    at = Values(0.0, jnp.asarray([0.5]), jnp.asarray([20.0]), packed)
+    seen = arguments(system, "net", at)
     assert sorted(np.asarray(seen).tolist()) == [[-0.5, 6.0], [1.5, 20.0]]
 
 

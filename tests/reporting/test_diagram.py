@@ -35,5 +35,8 @@ def test_positions_follow_the_chain() -> None:
 def test_an_empty_model_and_one_without_connections_can_be_drawn() -> None:
     alone = ac.Component()
     alone.mass = tl.Mass(m=1.0)
-    for model in (ac.Component(), alone):
-        plt.close(ac.diagram(model).figure)
+    for model, names in ((ac.Component(), []), (alone, ["mass"])):
+        ax = ac.diagram(model)
+        assert [text.get_text().split("\n")[0] for text in ax.texts] == names
+        assert not ax.lines
+        plt.close(ax.figure)

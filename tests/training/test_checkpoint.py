@@ -20,11 +20,13 @@ import pytest
 
 import acausal as ac
 from acausal.data import tensors
-from acausal.training import checkpoint as checkpoints, loop
+from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import digest
+from acausal.training.history import Log
 from tests.support.interrupted import EPOCHS, train
 from tests.support.oscillator import learned, plain, record
 from tests.support.paths import ROOT
+from tests.support.slow_machine import slow_down
 
 NAME = "checkpoint.safetensors"
 
@@ -58,8 +60,8 @@ def stop(epoch: int, error: type[BaseException] = KeyboardInterrupt) -> Any:
 
 @pytest.fixture
 def one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A look at the training after every update."""
-    monkeypatch.setattr(loop, "LOOK", 0.0)
+    """A report after every update."""
+    slow_down(monkeypatch)
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +69,7 @@ def interrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A checkpoint of a training that was interrupted at epoch 10."""
     folder = tmp_path_factory.mktemp("interrupted")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(loop, "LOOK", 0.0)
+        slow_down(patch)
         fit = train(checkpoint=folder, observers=[stop(10)])
     assert fit.interrupted
     assert fit.history.epochs == 10
@@ -226,6 +228,18 @@ def test_files_of_other_kinds_are_refused(tmp_path: Path):
         train(checkpoint=path, resume=True)
 
 
+def test_a_checkpoint_of_an_earlier_version_is_refused(tmp_path: Path):
+    path = tmp_path / NAME
+    about = {"kind": "checkpoint of a training, version 2", "fingerprint": {}}
+    tensors.write_arrays(path, {"weights": np.zeros(3)}, about)
+    with pytest.raises(ac.DataError) as error:
+        train(checkpoint=path, resume=True)
+    assert str(error.value) == (
+        f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
+        "or begin anew with another file."
+    )
+
+
 def failing(error: OSError) -> Any:
     def fail(*arguments: Any, **named: Any) -> None:
         raise error
@@ -290,7 +304,7 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr(
         "acausal.training.checkpoint.write_arrays", lambda *arguments: written.append(now[0])
     )
-    log = loop.Log(np.zeros(1), (), ())
+    log = Log(np.zeros(1), (), ())
     snapshot = checkpoints.Snapshot(0, 0, None, (), 0, 0.0, 0.0, 0.0)
     with checkpoints.keeping(tmp_path / NAME, 60.0, {}) as keep:
         for now[0] in np.arange(0.0, 200.0, 25.0):

@@ -1,4 +1,4 @@
-"""What a record tells of laws and parameters, what is left over, and the page about it."""
+"""How well a record determines laws and parameters, the residuals, and the page about them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from scipy.signal import lfilter
 
 import acausal as ac
 from acausal.components import translational as tl
-from acausal.training.uncertainty.confidence import _covariance  # pyright: ignore[reportPrivateUsage]
+from acausal.training.uncertainty.confidence import posterior_covariance
 from acausal.training.uncertainty.residuals import residuals
 from tests.support.oscillator import Oscillator, learned, plain, record
 
@@ -99,7 +99,7 @@ def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure
     told = np.mean([list(s.parameters.values()) for s in sure], axis=0)
     np.testing.assert_allclose(told, found, rtol=0.5)
     assert all(s.alike["mass.a"] > 4 for s in sure)
-    assert "which count as one here" in sure[0].words()[-1]
+    assert "which count as one here" in sure[0].summary()[-1]
 
 
 def test_a_covariance_keeps_its_digits():
@@ -109,15 +109,17 @@ def test_a_covariance_keeps_its_digits():
     p, q, r = 2 * a * a + 1, a * b + a * d, b * b + d * d + 1
     det = p * r - q * q
     exact = np.array([[float(r / det), float(-q / det)], [float(-q / det), float(p / det)]])
-    np.testing.assert_allclose(_covariance(J, 1e20), exact, rtol=1e-6)
+    np.testing.assert_allclose(posterior_covariance(J, 1e20), exact, rtol=1e-6)
 
 
 def test_few_samples_make_less_sure_than_they_leave_over():
     """A linear model of 4 numbers and 20 samples: the unbiased estimate divides by 16."""
     J = 1e3 * np.random.default_rng(0).standard_normal((20, 4))
-    np.testing.assert_allclose(_covariance(J, 20.0), np.linalg.inv(J.T @ J) * 20 / 16, rtol=1e-4)
+    np.testing.assert_allclose(
+        posterior_covariance(J, 20.0), np.linalg.inv(J.T @ J) * 20 / 16, rtol=1e-4
+    )
     unseen = np.concatenate([J, np.zeros((20, 1))], axis=1)
-    assert _covariance(unseen, 20.0)[4, 4] == pytest.approx(1.0)
+    assert posterior_covariance(unseen, 20.0)[4, 4] == pytest.approx(1.0)
 
 
 class TwoSprings(ac.Component):
@@ -139,8 +141,8 @@ def test_what_cannot_be_told_apart_is_said():
         ac.compile(TwoSprings()), noisy(0, 0.0), "mass.a", x0="model", strategy="whole_record",
         epochs=5, modifiers=["one.c", "other.c"], progress=False,
     )  # fmt: skip
-    words = fit.confidence().words()
-    assert words[-1].startswith("The data can hardly tell 'other.c' from 'one.c' (correlation -")
+    summary = fit.confidence().summary()
+    assert summary[-1].startswith("The data can hardly tell 'other.c' from 'one.c' (correlation -")
 
 
 class Beside(ac.Component):
@@ -169,9 +171,9 @@ def test_what_no_target_depends_on_is_told_of():
             ac.compile(Beside()), twice, "one.mass.a", x0="model", strategy="whole_record", epochs=5,
             modifiers={"one.mass.m": 0.2, "other.mass.m": 0.2}, progress=False,
         )  # fmt: skip
-    words = fit.confidence().words()
-    assert words[0].startswith("'one.mass.m' is known to ±")
-    assert words[1].startswith("The data tell nothing of 'other.mass.m'")
+    summary = fit.confidence().summary()
+    assert summary[0].startswith("'one.mass.m' is known to ±")
+    assert summary[1].startswith("The data tell nothing of 'other.mass.m'")
 
 
 # -- residuals ---------------------------------------------------------------------------------------
@@ -185,7 +187,7 @@ def test_residuals_are_judged():
     quiet = residuals("y", white, {"u": u}, 1.0)
     assert quiet.is_white
     assert quiet.drivers == ()
-    assert "looks like white noise" in quiet.words()
+    assert "look like white noise" in quiet.summary()
     assert not residuals("y", slow, {"u": u}, 1.0).is_white
     follows = residuals("y", driven, {"u": u}, 1.0)
     lag = int(np.argmax(np.abs(follows.inputs["u"]))) - len(follows.inputs["u"]) // 2
@@ -213,16 +215,16 @@ def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
 @pytest.mark.parametrize("count", [2, 3, 5, 12])
 def test_few_samples_tell_nothing(count: int):
     found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0}, 1.0)
-    assert (
-        found.words() == f"'y': {count} samples are too few to tell what is left over from noise."
-    )
+    assert found.summary() == f"'y': {count} samples are too few to tell residuals from noise."
 
 
 def test_what_is_followed_exactly_leaves_nothing_to_learn():
     u = np.sin(np.arange(1000) / 20)
     found = residuals("y", 1e-9 * u, {"u": u}, 2.0)
     assert found.drivers == ("u",)
-    assert found.words() == ("'y': what is left over is 4e-08 % of it; no more is to be learned.")
+    assert found.summary() == (
+        "'y': the residuals are 4e-08 % of it; there is nothing more to learn."
+    )
 
 
 def test_residuals_of_a_fit():
@@ -232,6 +234,14 @@ def test_residuals_of_a_fit():
     assert len(found.own) == 50
 
 
+def test_the_old_names_of_summaries_still_work():
+    sure, (left,) = trained().confidence(), trained().residuals()
+    with pytest.warns(DeprecationWarning, match=r"Confidence\.words\(\) is now called summary"):
+        assert sure.words() == sure.summary()
+    with pytest.warns(DeprecationWarning, match=r"Residuals\.words\(\) is now called summary"):
+        assert left.words() == left.summary()
+
+
 # -- the page ----------------------------------------------------------------------------------------
 
 
@@ -239,7 +249,7 @@ def test_the_page_holds_everything_itself(tmp_path: Any):
     path = trained().report(tmp_path / "out", "An oscillator")
     text = path.read_text(encoding="utf-8")
     assert path == tmp_path / "out" / "index.html"
-    for word in ("An oscillator", "extra.net", "mass.m", "What is left over", "mass.a"):
+    for word in ("An oscillator", "extra.net", "mass.m", "Residuals", "mass.a"):
         assert word in text
     assert text.count("data:image/png;base64,") == 4
     assert not re.search(r'(src|href)="(?!data:)', text)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import jax
@@ -15,24 +14,27 @@ import optax
 import pytest
 
 import acausal as ac
-from acausal.training import loop
-from acausal.training.optimizers import trainer
-from acausal.training.optimizers.trainer import State
+from acausal.training.build_problem import build_problem
+from acausal.training.objective.trainable import changes_of
+from acausal.training.optimizers.trainer import Trainer, advance, begin
+from acausal.training.options import FitOptions
 from tests.support.oscillator import learned, record
+from tests.support.slow_machine import slow_down
 from tests.training.test_checkpoint import stop
+from tests.training.test_held_out import noisy
 
 OPTIMIZER = optax.adam(0.01)
 SEEDS = (3, 4, 5)
-WISHES: dict[str, Any] = {
+OPTIONS: dict[str, Any] = {
     "strategy": ("sequences", "whole_record"), "epochs": (20, 12), "evaluate_every": 5,
     "sequence_length": 0.2, "batch_size": 3, "optimizer": OPTIMIZER, "modifiers": ["mass.m"],
     "regularizers": [ac.ZeroCrossing()], "validation": 0.2, "progress": False,
 }  # fmt: skip
 
 
-def train(**wishes: Any) -> ac.Ensemble:
+def train(**options: Any) -> ac.Ensemble:
     defaults: dict[str, Any] = {"members": len(SEEDS), "seed": SEEDS[0]}
-    return ac.ensemble(learned(), record(end=5.0), "mass.a", **(defaults | WISHES | wishes))
+    return ac.ensemble(learned(), record(end=5.0), "mass.a", **(defaults | OPTIONS | options))
 
 
 @cache
@@ -43,7 +45,7 @@ def trained() -> ac.Ensemble:
 def test_every_member_is_the_training_of_its_seed():
     """Adam on sequences, then L-BFGS, whose line searches differ from member to member."""
     member = trained().fits[1]
-    alone = ac.fit(learned(), record(end=5.0), "mass.a", seed=SEEDS[1], **WISHES)
+    alone = ac.fit(learned(), record(end=5.0), "mass.a", seed=SEEDS[1], **OPTIONS)
     np.testing.assert_allclose(member.history.loss, alone.history.loss, rtol=1e-6)
     np.testing.assert_allclose(member.history.full_loss, alone.history.full_loss, rtol=1e-6)
     assert member.best_epoch == alone.best_epoch
@@ -54,14 +56,21 @@ def test_every_member_is_the_training_of_its_seed():
     assert member.loss != trained().fits[0].loss
 
 
-def test_members_side_by_side_find_the_same(monkeypatch: pytest.MonkeyPatch):
+def test_members_side_by_side_find_the_same():
     """As on an accelerator: mapped over, L-BFGS with its line searches and all."""
-    monkeypatch.setattr(trainer, "_each", jax.vmap)
-    wishes = WISHES | {"strategy": "whole_record", "epochs": 12}
-    _, member = train(members=2, **wishes).fits
-    alone = ac.fit(learned(), record(end=5.0), "mass.a", seed=SEEDS[1], **wishes)
-    np.testing.assert_allclose(member.history.loss, alone.history.loss, rtol=1e-6)
-    np.testing.assert_allclose(member.history.full_loss, alone.history.full_loss, rtol=1e-6)
+    system, data = learned(), record(end=5.0)
+    params = [system.parameters(seed) for seed in SEEDS[:2]]
+    problem = build_problem(system, data, ("mass.a",), params[0], FitOptions(modifiers=["mass.m"]))
+    trainer = Trainer(ac.lbfgs(), 1e3, changes_of)
+    trainables = [replace(problem, params=own).start() for own in params]
+    keys = [jax.random.key(seed) for seed in SEEDS[:2]]
+    states = [begin(trainer, one, key) for one, key in zip(trainables, keys, strict=True)]
+    stacked = jax.tree.map(lambda *rows: jnp.stack(rows), *states)
+    _, both = advance(problem, trainer, stacked, jnp.asarray(12), side_by_side=True)
+    for k, state in enumerate(states):
+        _, alone = advance(problem, trainer, state, jnp.asarray(12))
+        np.testing.assert_allclose(both.loss[:12, k], alone.loss[:12], rtol=1e-6)
+    assert both.loss[0, 0] != both.loss[0, 1]
 
 
 def test_the_spread_is_that_of_the_members():
@@ -74,7 +83,7 @@ def test_the_spread_is_that_of_the_members():
     ys = np.stack([fit.predicted[:, 0] for fit in found.fits])
     np.testing.assert_allclose(told.law, ys.mean(axis=0))
     np.testing.assert_allclose(told.sigma, ys.std(axis=0, ddof=1))
-    assert len(told.x) == len(found.fits[0].problem.record)
+    assert len(told.x) == found.fits[0].problem.samples
     ahead = found.predict(record(end=5.0).between(2.5, 5.0))["mass.a"]
     sol = ac.simulate(
         learned(), (2.5, 5.0), dt=0.01, inputs=record(end=5.0).between(2.5, 5.0), solver="heun",
@@ -90,7 +99,7 @@ def test_the_spread_is_that_of_the_members():
 
 
 def test_an_ensemble_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(loop, "LOOK", 0.0)
+    slow_down(monkeypatch)
     for epoch in (8, 25):
         part = train(checkpoint=tmp_path, resume=True, observers=[stop(epoch)])
         assert part.fits[0].interrupted
@@ -105,19 +114,24 @@ def test_an_ensemble_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 def test_a_leg_ends_when_it_has_ended_for_all():
-    """One has converged; of the others one is still within its patience."""
+    """As many evaluations without a better one as patience allows, for every member, and no sooner."""
+    patience, epochs = 2, 400
+    found = ac.ensemble(
+        learned(), noisy(), "mass.a", members=2, epochs=epochs, evaluate_every=5, validation=0.4,
+        sequence_length=0.2, batch_size=3, optimizer=optax.adam(0.03), patience=patience, progress=False,
+    )  # fmt: skip
 
-    def is_over(*vain: int) -> bool:
-        members = [SimpleNamespace(vain=lambda since, n=n: n) for n in vain]
-        run: Any = SimpleNamespace(members=members, before=0)
-        zeros = jnp.zeros(3, int)
-        optimizer = jax.vmap(ac.lbfgs(memory=1).init)(jnp.zeros((3, 1)))
-        optimizer = replace(optimizer, converged=jnp.asarray([True, False, False]))
-        leg: Any = SimpleNamespace(patience=2)
-        return loop._Run._is_over(run, leg, State(None, optimizer, zeros, zeros, zeros))
+    def without_improvement(fit: ac.Fit, evaluations: int) -> int:
+        losses = fit.history.validation_loss[:evaluations, 1]
+        return evaluations - 1 - int(np.argmin(losses))
 
-    assert is_over(0, 2, 3)
-    assert not is_over(0, 1, 3)
+    count = len(found.fits[0].history.validation_loss)
+    since = [[without_improvement(f, n) for f in found.fits] for n in range(1, count + 1)]
+    assert all(n >= patience for n in since[-1])
+    assert all(any(n < patience for n in row) for row in since[:-1])
+    assert any(any(n >= patience for n in row) for row in since[:-1])  # one waits for the other
+    assert {fit.history.epochs for fit in found.fits} == {5 * (count - 1)}
+    assert 5 * (count - 1) < epochs
 
 
 def test_the_page_shows_bands(tmp_path: Path):
@@ -128,7 +142,7 @@ def test_the_page_shows_bands(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("wishes", "sentence"),
+    ("options", "sentence"),
     [
         ({"members": 1}, "members=1; an ensemble has two at least."),
         ({"members": 2.5}, "members=2.5; an ensemble has two at least."),
@@ -141,14 +155,16 @@ def test_the_page_shows_bands(tmp_path: Path):
     ],
     ids=["alone", "no number", "devices", "too few", "architectures"],
 )  # fmt: skip
-def test_mistakes_get_one_sentence(wishes: dict[str, Any], sentence: str):
+def test_mistakes_get_one_sentence(options: dict[str, Any], sentence: str):
     with pytest.raises(ac.TrainingError) as error:
-        train(**wishes)
+        train(**options)
     assert str(error.value) == sentence
 
 
-def test_a_wish_that_fit_does_not_know():
+def test_an_option_that_fit_does_not_know():
     with pytest.raises(
         TypeError, match=r"^ensemble has no argument 'epoch': did you mean 'epochs'"
     ):
         train(epoch=3)
+    with pytest.raises(TypeError, match=r"^fit has no argument 'epoch': did you mean 'epochs'"):
+        ac.fit(learned(), record(end=5.0), "mass.a", epoch=3)

@@ -1,5 +1,3 @@
-from typing import Any
-
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -9,28 +7,25 @@ import pytest
 
 import acausal as ac
 from acausal.simulation.fixed_steps import integrate
-from acausal.training import loop as training
+from acausal.training.build_problem import build_problem
 from acausal.training.objective import losses
-from acausal.training.objective.build_problem import pose
 from acausal.training.objective.modifiers import modifiers
-from acausal.training.objective.problem import modified
 from acausal.training.objective.record import sequences
 from acausal.training.objective.regularizers import Context
-from acausal.training.optimizers.trainer import Trainer, advance, begin
+from acausal.training.objective.trainable import changes_of
+from acausal.training.optimizers.trainer import Trainer, advance, begin, evaluate_healthy
+from acausal.training.options import FitOptions
 from tests.support.oscillator import force, learned, plain, record
+from tests.support.slow_machine import slow_down
 
 CUBIC = 80.0
 
 
 def problem(system=None, data=None, targets=("mass.a",), **wishes):
     system = learned() if system is None else system
-    defaults: dict[str, Any] = {
-        "train": None, "modifiers": None, "gamma": 0.2, "loss": "nrmse", "regularizers": (),
-        "sequence_length": 0.5, "batch_size": 4, "subsample": None, "dt": None, "solver": "heun",
-        "x0": "data",
-    }  # fmt: skip
+    options = FitOptions(**({"sequence_length": 0.5, "batch_size": 4} | wishes))
     data = (record() if data is None else ac.Data.of(data)).for_system(system)
-    return pose(system, data, targets, system.parameters(0), **(defaults | wishes))
+    return build_problem(system, data, targets, system.parameters(0), options)
 
 
 # -- the loss ----------------------------------------------------------------------------------------
@@ -74,12 +69,12 @@ def test_the_gradient_of_the_loss_is_that_of_differences(wishes):
         for k in (0, 1)
     ]
     for direction in directions:
-        slope = sum(jax.tree.leaves(jax.tree.map(lambda g, d: jnp.sum(g * d), gradient, direction)))
+        along = sum(jax.tree.leaves(jax.tree.map(lambda g, d: jnp.sum(g * d), gradient, direction)))
         ends = [
             total(jax.tree.map(lambda a, d, e=e: a + e * d, start, direction))
             for e in (1e-6, -1e-6)
         ]
-        assert float(slope) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
+        assert float(along) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
 
 
 def test_the_loss_of_sequences_is_that_of_simulations():
@@ -100,13 +95,15 @@ def test_the_loss_of_sequences_is_that_of_simulations():
 def test_substeps_are_smaller_steps():
     fine, coarse = problem(dt=0.0025), problem()
     packed = learned().pack(learned().parameters(0))
-    ends = [integrate(learned(), packed, jnp.zeros(2), p.record.steps, p.solver, substeps=p.substeps)[2]
+    ends = [integrate(learned(), packed, jnp.zeros(2), p.records[0].steps, p.solver, substeps=p.substeps)[2]
             for p in (fine, coarse)]  # fmt: skip
     sol = ac.simulate(
         learned(), (0, 20.0), dt=0.0025, solver="heun", params=learned().parameters(0),
         inputs=record(), saveat=record().time,
     )  # fmt: skip
-    xs = integrate(learned(), packed, jnp.zeros(2), fine.record.steps, fine.solver, substeps=4)[0]
+    xs = integrate(learned(), packed, jnp.zeros(2), fine.records[0].steps, fine.solver, substeps=4)[
+        0
+    ]
     np.testing.assert_allclose(xs, sol.x, atol=1e-9)
     assert float(jnp.abs(ends[0] - ends[1]).max()) > 1e-6
 
@@ -307,16 +304,14 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
     """With a bad sequence in the batch, the update is that of the others."""
     data = broken(slice(400, 500))
     posed = problem(data=data, batch_size=3)
-    trainer = Trainer(optax.with_extra_args_support(optax.sgd(1.0)), 1e3, modified)
+    trainer = Trainer(optax.with_extra_args_support(optax.sgd(1.0)), 1e3, changes_of)
     state = begin(trainer, posed.start(), jax.random.key(0))
     bad = eqx.tree_at(
         lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700])
     )
     good = jax.tree.map(lambda a: a[np.array([0, 2])], bad)
-    from acausal.training.optimizers.trainer import _slope  # the part under test is not public
-
-    _, mixed, mask = _slope(posed, trainer, state.trainable, bad)
-    _, alone, _ = _slope(posed, trainer, state.trainable, good)
+    _, mixed, mask = evaluate_healthy(posed, trainer, state.trainable, bad)
+    _, alone, _ = evaluate_healthy(posed, trainer, state.trainable, good)
     assert mask.tolist() == [False, True, False]
     jax.tree.map(
         lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-10, atol=1e-12),
@@ -356,7 +351,7 @@ def test_a_rejected_update_leaves_everything_as_it_was():
         return jnp.where(near, jnp.sqrt(jnp.maximum(m - 2.0, 0.0)), 0.0)
 
     posed = problem(plain(), modifiers=["mass.m"], regularizers=(poison,))
-    trainer = Trainer(optax.with_extra_args_support(optax.adam(0.1)), 1e3, modified)
+    trainer = Trainer(optax.with_extra_args_support(optax.adam(0.1)), 1e3, changes_of)
     state = begin(trainer, posed.start(), jax.random.key(0))
     after, log = advance(posed, trainer, state, jnp.asarray(1))
     assert bool(log.rejected[0])
@@ -395,7 +390,7 @@ def test_chunks_do_not_change_the_result(monkeypatch):
         ).history.loss
 
     many = run()
-    monkeypatch.setattr(training, "LOOK", 0.0)
+    slow_down(monkeypatch)
     np.testing.assert_array_equal(run(), many)
 
 

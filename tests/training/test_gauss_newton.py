@@ -13,12 +13,14 @@ import pytest
 from jax.flatten_util import ravel_pytree
 
 import acausal as ac
-from acausal.training import loop
-from acausal.training.objective.build_problem import over_whole_record, pose
+from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
-from acausal.training.optimizers.gradients import curvatures, gradients
+from acausal.training.objective.whole_record import over_whole_record
+from acausal.training.optimizers.gradients import with_gauss_newton_hessian, with_gradient
 from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
+from acausal.training.options import FitOptions
 from tests.support.oscillator import C, learned, plain, record
+from tests.support.slow_machine import slow_down
 
 QUIET: dict[str, Any] = {"progress": False}
 
@@ -32,12 +34,13 @@ def quartic(predicted: Any, measured: Any, sigma: Any) -> Any:
 
 def posed(**wishes: Any) -> Problem:
     """The learned oscillator, all that can be trained in it, and a second model beside it."""
-    system, given = learned(), {"loss": "nrmse", "regularizers": (), **wishes}
-    problem = pose(
-        system, record(end=2.0), ("mass.a", "mass.s"), system.parameters(0), train=None,
-        modifiers=["mass.m", "spring.c"], gamma=0.5, tolerances={"spring.d": 0.2},
-        sequence_length=None, batch_size=1, subsample=None, dt=None, solver="heun", x0="fit", **given,
+    system = learned()
+    options = FitOptions(
+        modifiers=["mass.m", "spring.c"], gamma=0.5, parameter_spread={"spring.d": 0.2}, x0="fit", **wishes
     )  # fmt: skip
+    problem = build_problem(
+        system, record(end=2.0), ("mass.a", "mass.s"), system.parameters(0), options
+    )
     return over_whole_record(problem)
 
 
@@ -50,7 +53,10 @@ def test_both_ways_give_one_gradient(wishes: dict[str, Any]):
     problem = posed(**wishes)
     at = jax.tree.map(lambda a: a + 0.01, problem.start())
     batch = problem.draw(jax.random.key(0))
-    back, forth = (eqx.filter_jit(way)(problem, at, batch) for way in (gradients, curvatures))
+    back, forth = (
+        eqx.filter_jit(way)(problem, at, batch)
+        for way in (with_gradient, with_gauss_newton_hessian)
+    )
     assert float(forth.total) == pytest.approx(float(back.total), rel=1e-12)
     np.testing.assert_allclose(forth.losses, back.losses, rtol=1e-12)
     a, b = (ravel_pytree(slope.gradient)[0] for slope in (forth, back))
@@ -65,13 +71,15 @@ def test_the_curvature_of_root_mean_squares_is_that_of_their_squares():
     rows = np.random.default_rng(0).choice(len(start), 4, replace=False)
     h = 1e-5
     slopes = [(predict(start.at[i].add(h)) - predict(start.at[i].add(-h))) / (2 * h) for i in rows]
-    record, at = problem.record, predict(start)
+    at = predict(start)
     losses = jax.vmap(problem.compare)(at)
-    J = jnp.stack(slopes) / record.sigma
-    expected = jnp.einsum("imnk,jmnk,m->ij", J, J, 1 / losses) / (len(record) * len(at))
-    found = eqx.filter_jit(curvatures)(problem, problem.start(), problem.draw(jax.random.key(0)))
+    J = jnp.stack(slopes) / problem.sigma
+    expected = jnp.einsum("imnk,jmnk,m->ij", J, J, 1 / losses) / (problem.samples * len(at))
+    found = eqx.filter_jit(with_gauss_newton_hessian)(
+        problem, problem.start(), problem.draw(jax.random.key(0))
+    )
     np.testing.assert_allclose(
-        np.asarray(found.curvature)[np.ix_(rows, rows)], expected, rtol=1e-4, atol=1e-6
+        np.asarray(found.hessian)[np.ix_(rows, rows)], expected, rtol=1e-4, atol=1e-6
     )
 
 
@@ -150,7 +158,7 @@ def test_parameters_and_the_first_state_are_found_exactly():
 
 def test_a_training_ends_at_the_same_update_however_often_it_is_looked_at(monkeypatch):
     whole = parameters()
-    monkeypatch.setattr(loop, "LOOK", 0.0)
+    slow_down(monkeypatch)
     each = parameters()
     np.testing.assert_array_equal(each.history.loss, whole.history.loss)
 
@@ -164,12 +172,14 @@ def test_networks_are_trained_with_a_leg_before():
     assert fit.loss < 0.5 * first
 
 
-def test_what_does_not_fit_into_memory_is_refused(monkeypatch):
-    monkeypatch.setattr("acausal.training.objective.build_problem.SLOPES", 1000)
+def test_what_does_not_fit_into_memory_is_refused():
+    wide = {"extra.net": ac.MLP(width=300, depth=2, key=0)}
+    weights = sum(a.size for a in jax.tree.leaves(eqx.filter(wide, eqx.is_inexact_array)))
     with pytest.raises(ac.TrainingError) as error:
-        parameters()
+        ac.fit(learned(), record(), "mass.a", params=wide, strategy="gauss_newton", **QUIET)
     assert str(error.value) == (
-        "The slopes of all predictions by 5 weights and parameters take 0.0 GB: take strategy='whole_record' "
+        f"The Jacobian of all predictions by {weights} weights and parameters takes "
+        f"{8 * weights * len(record()) / 2**30:.1f} GB: take strategy='whole_record' "
         "in place of 'gauss_newton', smaller networks, or a coarser record."
     )
 

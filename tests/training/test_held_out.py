@@ -13,8 +13,8 @@ import optax
 import pytest
 
 import acausal as ac
-from acausal.training import loop
 from tests.support.oscillator import learned, plain, record
+from tests.support.slow_machine import slow_down
 from tests.training.test_checkpoint import same, stop
 
 OPTIMIZER = optax.adam(0.03)
@@ -43,7 +43,7 @@ def trained() -> ac.Fit:
 
 def test_the_best_is_the_one_that_predicts_what_was_held_out():
     fit, data = trained(), noisy()
-    assert len(fit.problem.record) == 301
+    assert fit.problem.samples == 301
     epochs, losses = fit.history.validation_loss.T
     assert fit.validation_loss == losses.min()
     assert fit.best_epoch == epochs[losses.argmin()]
@@ -115,7 +115,7 @@ def test_a_training_goes_on_where_it_was_and_ends_where_it_would_have(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     """Breaks before and after the best, whose evaluations still count."""
-    monkeypatch.setattr(loop, "LOOK", 0.0)
+    slow_down(monkeypatch)
     best = trained().best_epoch
     for epoch in (best // 2, best + 2 * EVERY + 1):
         fit = train(checkpoint=tmp_path, resume=True, observers=[stop(epoch)])

@@ -95,10 +95,10 @@ def test_an_offset_is_found_from_zero_and_a_damping_within_its_bounds():
     assert fit.params["spring.d"] == pytest.approx(1.0, rel=1e-3)
     assert fit.modifiers["spring.d"] == pytest.approx(0.9, rel=1e-3)
     assert fit.modifiers["mass.m"] == pytest.approx(0.0, abs=1e-3)
-    words = fit.confidence().words()
-    assert "%" not in words[0] + words[1]
-    assert words[2].startswith("'mass.m' is known to ±")
-    assert "%" in words[2]
+    summary = fit.confidence().summary()
+    assert "%" not in summary[0] + summary[1]
+    assert summary[2].startswith("'mass.m' is known to ±")
+    assert "%" in summary[2]
 
 
 def test_a_bound_is_where_training_ends_that_wants_beyond():
@@ -113,7 +113,7 @@ def test_a_bound_is_where_training_ends_that_wants_beyond():
             modifiers={"spring.d": ac.Bounded(0.0, 0.5), "spring.c": 0.2},
         )  # fmt: skip
     assert 0.499 < fit.params["spring.d"] <= 0.5
-    assert fit.confidence().words()[0].endswith("How well it is known cannot be said.")
+    assert fit.confidence().summary()[0].endswith("How well it is known cannot be said.")
 
 
 @pytest.mark.parametrize(
@@ -141,9 +141,9 @@ def test_a_limit_is_reached_or_not(kind: Any, value: float, change: float, limit
         (ac.Bounded(0, INF), 3.0, 3.0), (ac.Bounded(-INF, 2), -1.0, 3.0),
     ],
 )  # fmt: skip
-def test_what_is_believed_of_a_change(kind: Any, value: float, size: float):
+def test_the_prior_deviation_of_a_change(kind: Any, value: float, size: float):
     """Between two bounds all is possible, however near to one of them a parameter is."""
-    assert kind.believed(value) == pytest.approx(size)
+    assert kind.prior_deviation(value) == pytest.approx(size)
 
 
 def test_one_name_is_no_list_of_letters():

@@ -11,9 +11,10 @@ import optax
 import acausal as ac
 from acausal.components import neural, translational as tl
 from acausal.networks import law_of
-from acausal.training.objective.build_problem import pose
+from acausal.training.build_problem import build_problem
 from acausal.training.objective.regularizers import Context
 from acausal.training.optimizers.trainer import Trainer, advance, begin
+from acausal.training.options import FitOptions
 from tests.support.oscillator import M, record
 
 UPDATES = 12
@@ -75,23 +76,8 @@ def check(params: dict[str, Any]) -> None:
 def test_promises_hold_before_during_and_after_training() -> None:
     system = ac.compile(Learner())
     data = record(end=2.0).for_system(system)
-    problem = pose(
-        system,
-        data,
-        ("mass.a",),
-        system.parameters(0),
-        train=None,
-        modifiers=None,
-        gamma=0.2,
-        loss="nrmse",
-        regularizers=(),
-        sequence_length=None,  # the memory of the hysteresis is not measured
-        batch_size=1,
-        subsample=None,
-        dt=None,
-        solver="heun",
-        x0="model",
-    )
+    options = FitOptions(x0="model")  # the memory of the hysteresis is not measured
+    problem = build_problem(system, data, ("mass.a",), system.parameters(0), options)
     trainer = Trainer(
         optax.with_extra_args_support(optax.adam(0.3)), np.inf, lambda problem, trainable: {}
     )

@@ -1,4 +1,6 @@
-"""Tolerances: parameters that differ from run to run, and a training that bears it."""
+"""Parameter spread: parameters that differ from run to run, and a training that bears it."""
+
+from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
@@ -6,7 +8,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import neural, translational as tl
-from acausal.training.objective.parameter_spread import tolerances
+from acausal.training.objective.parameter_spread import parameter_spread
 
 
 class Pushed(ac.Component):
@@ -35,10 +37,10 @@ def pushed() -> tuple[ac.System, ac.Data]:
 
 def test_the_mean_is_over_the_model_and_both_sides_of_each_parameter() -> None:
     params = {"a": jnp.asarray(1.0), "b": jnp.asarray(10.0), "c": jnp.asarray(5.0)}
-    given = tolerances({"a": 0.5, "b": 2.0}, params)
+    given = parameter_spread({"a": 0.5, "b": 2.0}, params)
     found = given.mean(lambda p: p["c"] + (p["a"] - 1) ** 2 + p["b"] ** 2, params)
     assert float(found) == pytest.approx(5 + (0.25 + 0.25) / 5 + (3 * 100 + 144 + 64) / 5)
-    assert tolerances(None, params).mean(lambda p: p["a"], params) == params["a"]
+    assert parameter_spread(None, params).mean(lambda p: p["a"], params) == params["a"]
 
 
 @pytest.mark.parametrize(
@@ -49,18 +51,18 @@ def test_the_mean_is_over_the_model_and_both_sides_of_each_parameter() -> None:
         ({"spring.net": 1.0}, "no parameter 'spring.net'"),
     ],
 )
-def test_what_is_no_tolerance_is_refused(pushed, given, message: str) -> None:
+def test_what_is_no_spread_is_refused(pushed, given, message: str) -> None:
     system, record = pushed
     with pytest.raises(ac.TrainingError, match=message):
-        ac.fit(system, record, ["mass.s"], tolerances=given, epochs=1, progress=False)
+        ac.fit(system, record, ["mass.s"], parameter_spread=given, epochs=1, progress=False)
 
 
-def test_a_model_with_tolerances_bears_another_offset(pushed) -> None:
+def test_a_model_with_a_spread_bears_another_offset(pushed) -> None:
     system, record = pushed
     loss = {}
     for name, given in {"exact": None, "tolerant": {"offset.f_constant": 0.2}}.items():
         fit = ac.fit(
-            system, record, ["mass.s"], tolerances=given, strategy="whole_record", epochs=40, progress=False
+            system, record, ["mass.s"], parameter_spread=given, strategy="whole_record", epochs=40, progress=False
         )  # fmt: skip
         other = {**fit.params, "offset.f_constant": 0.3}
         start = {n: record[n][0] for n in system.states}
@@ -68,3 +70,15 @@ def test_a_model_with_tolerances_bears_another_offset(pushed) -> None:
         ran = ac.simulate(system, (0.0, 8.0), dt=0.05, inputs=inputs, params=other, x0=start)
         loss[name] = float(np.mean((np.asarray(ran["mass.s"]) - record["mass.s"]) ** 2))
     assert loss["tolerant"] < 0.7 * loss["exact"]
+
+
+def test_the_old_name_of_the_option_still_works(pushed) -> None:
+    system, record = pushed
+    given: dict[str, Any] = {"epochs": 1, "progress": False}
+    with pytest.warns(DeprecationWarning, match="tolerances=.* is now called parameter_spread="):
+        old = ac.fit(system, record, "mass.s", tolerances={"offset.f_constant": 0.2}, **given)
+    new = ac.fit(system, record, "mass.s", parameter_spread={"offset.f_constant": 0.2}, **given)
+    assert old.loss == new.loss
+    both = {"tolerances": None, "parameter_spread": None}
+    with pytest.raises(TypeError, match="'tolerances' is the old name of 'parameter_spread'"):
+        ac.ensemble(system, record, "mass.s", **both, **given)

@@ -12,11 +12,13 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.training.build_problem import build_problem
 from acausal.training.history import Log
-from acausal.training.objective.build_problem import over_whole_record, pose
 from acausal.training.objective.record import Batch
 from acausal.training.objective.smoothing import smoothed
+from acausal.training.objective.whole_record import over_whole_record
 from acausal.training.optimizers.trainer import Trainer, advance, begin
+from acausal.training.options import FitOptions
 from tests.support.oscillator import learned, record
 
 QUIET: dict[str, Any] = {"progress": False}
@@ -207,11 +209,10 @@ def test_batches_of_sequences_need_no_measured_states():
 @cache
 def shooting() -> Any:
     system = learned()
-    return pose(
-        system, without_states().for_system(system), ("mass.a",), system.parameters(0),
-        train=None, modifiers=None, gamma=0.2, loss="nrmse", regularizers=(), sequence_length=0.5,
-        batch_size=3, subsample=None, dt=None, solver="heun", x0="fit",
-    )  # fmt: skip
+    data, options = without_states(), FitOptions(sequence_length=0.5, batch_size=3, x0="fit")
+    return build_problem(
+        system, data.for_system(system), ("mass.a",), system.parameters(0), options
+    )
 
 
 def test_sequences_lie_side_by_side():
@@ -219,12 +220,12 @@ def test_sequences_lie_side_by_side():
     starts = np.sort(cut.draw(jax.random.key(0)).start)
     assert len(set(starts.tolist())) == 3
     assert not np.any(starts % cut.length)
-    assert len(shooting().record) - cut.parts * cut.length < cut.parts
+    assert shooting().samples - cut.parts * cut.length < cut.parts
     assert over_whole_record(shooting()).sequences.always_alike
 
 
 def test_parts_of_one_trajectory_have_no_gaps():
-    """Nodes start on the model's own trajectory: sequences and the whole record agree."""
+    """Shooting states start on the model's own trajectory: sequences and the whole record agree."""
     problem = shooting()
     length, parts = problem.sequences.length, problem.sequences.parts
     batch = Batch(jnp.arange(parts) * length, jnp.ones(parts), None)
@@ -234,7 +235,7 @@ def test_parts_of_one_trajectory_have_no_gaps():
     assert float(jnp.sqrt(jnp.mean(losses**2))) == pytest.approx(float(total), rel=1e-3)
     moved = eqx.tree_at(lambda t: t.states, problem.start(), problem.start().states.at[2].add(0.1))
     gap = problem.losses(moved, batch) - losses
-    assert float(gap[1]) == pytest.approx(float(problem.nodes.continuity) * 0.01, rel=1e-6)
+    assert float(gap[1]) == pytest.approx(float(problem.shooting.continuity) * 0.01, rel=1e-6)
     assert float(gap[0]) == 0.0
 
 
@@ -249,9 +250,9 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
 
     gradient = jax.grad(total)(start)
     along = jax.tree.map(lambda a: jax.random.normal(jax.random.key(2), a.shape), start)
-    slope = sum(map(jnp.sum, jax.tree.leaves(jax.tree.map(jnp.multiply, gradient, along))))
+    change = sum(map(jnp.sum, jax.tree.leaves(jax.tree.map(jnp.multiply, gradient, along))))
     ends = [total(jax.tree.map(lambda a, d, e=e: a + e * d, start, along)) for e in (1e-6, -1e-6)]
-    assert float(slope) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
+    assert float(change) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
 
 
 # -- mistakes ----------------------------------------------------------------------------------------
@@ -267,7 +268,7 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
         ({"strategy": "equation_error", "targets": "mass.s"},
          ("At an instant no target depends on 'extra.net': the equation error cannot train it. "
           "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out.")),
-        ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('sequences',): give one number, or one for each leg."),
+        ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('sequences',): give one number, or one for each part."),
         ({"epochs": 0}, "epochs=0; at least one is needed."),
         ({"dt": "0.01"}, "dt='0.01' is no step; give a positive time in seconds."),
         ({"epochs": 2.5}, "epochs=2.5; give a whole number of updates."),

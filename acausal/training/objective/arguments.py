@@ -1,4 +1,4 @@
-"""What a network sees: the arguments with which a model's equations call a module."""
+"""The arguments with which a model's equations call a network."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import sympy as sp
-from jax import Array
+from jaxtyping import Array, Float
 
-from acausal.codegen import ModuleValue, Packed, evaluate
+from acausal.codegen import ModuleValue, Values, evaluate
 from acausal.errors import ModelError, nearest
 from acausal.flattening import EquationGroup
 from acausal.modeling import ModuleCall, time
@@ -72,19 +72,20 @@ def _slots(system: System, group: EquationGroup, row: int) -> tuple[Any, Any, An
     return variables, parameters, tuple(zip(template.modules, chosen, strict=True))
 
 
-def arguments(system: System, module: str, t: Any, x: Array, u: Array, packed: Packed) -> Array:
-    """The arguments of every call of a module at one point, shape (number of calls, number of arguments).
+def arguments(system: System, module: str, values: Values) -> Float[Array, "n_calls n_arguments"]:
+    """The arguments of every call of a module at one point.
 
     Raises:
         ModelError: for a name that is no module of the model.
     """
-    return jnp.stack([_values(system, call, t, x, u, packed) for call in calls(system, module)])
+    return jnp.stack([_arguments_of(system, call, values) for call in calls(system, module)])
 
 
-def _values(system: System, call: Call, t: Any, x: Array, u: Array, packed: Packed) -> Array:
+def _arguments_of(system: System, call: Call, values: Values) -> Float[Array, " n_arguments"]:
     present = {s for a in call.arguments for s in a.free_symbols}
-    values: dict[sp.Symbol, Any] = {time: t}
-    values |= {s: system.observe(n, t, x, u, packed) for s, n in call.variables if s in present}
-    values |= {s: 0.0 if p < 0 else packed.values[p] for s, p in call.parameters if s in present}
-    values |= {s: ModuleValue(packed.modules[m]) for s, m in call.modules}
-    return jnp.stack([jnp.asarray(evaluate(a, values), float) for a in call.arguments])
+    packed = values.packed
+    slots: dict[sp.Symbol, Any] = {time: values.t}
+    slots |= {s: system.read((n,), values)[0] for s, n in call.variables if s in present}
+    slots |= {s: 0.0 if p < 0 else packed.values[p] for s, p in call.parameters if s in present}
+    slots |= {s: ModuleValue(packed.modules[m]) for s, m in call.modules}
+    return jnp.stack([jnp.asarray(evaluate(a, slots), float) for a in call.arguments])

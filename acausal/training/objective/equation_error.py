@@ -8,16 +8,18 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float, Int, PRNGKeyArray
 
+from acausal.codegen import Values
 from acausal.errors import TrainingError, listing
 from acausal.training.objective.modifiers import Modifiers
-from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.problem import Problem
 from acausal.training.objective.record import Batch
 from acausal.training.objective.smoothing import smoothed
+from acausal.training.objective.trainable import Trainable
 
-POINTS = 5000
-"""Samples of the record that are looked at, evenly spread."""
+SAMPLES = 5000
+"""At most so many samples of the record count, evenly spread."""
 
 
 class EquationError(eqx.Module):
@@ -28,14 +30,14 @@ class EquationError(eqx.Module):
     does not).
 
     Attributes:
-        problem: the model and the record.
+        problem: the model and the data.
         rows: indices of the samples that count.
-        x: the states there, smoothed, shape (number of rows, number of states).
+        x: the states there, smoothed.
     """
 
     problem: Problem
-    rows: Array
-    x: Array
+    rows: Int[Array, " n_rows"]
+    x: Float[Array, "n_rows n_states"]
 
     @property
     def modifiers(self) -> Modifiers:
@@ -46,22 +48,21 @@ class EquationError(eqx.Module):
         """What is trained, where training starts."""
         return self.problem.start()
 
-    def draw(self, key: Array) -> Batch:
-        """All of it, whatever the key."""
+    def draw(self, key: PRNGKeyArray) -> Batch:
+        """All samples, whatever the key."""
         return Batch(jnp.zeros(1, int), jnp.ones(1), None)
 
-    def losses(self, trainable: Trainable, batch: Batch) -> Array:
-        """The loss over all samples, shape (1,)."""
+    def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " 1"]:
+        """The loss over all samples."""
         p = self.problem
         packed = p.system.pack(p.assemble(trainable))
-        steps = p.record.steps
-        t, u, y = (a[self.rows] for a in (steps.t, steps.inputs.start, p.record.y))
-        predicted = jax.vmap(lambda t, x, u: p.system.observe(p.targets, t, x, u, packed))(
+        t, u, y = (a[self.rows] for a in (p.times, p.inputs, p.measured))
+        predicted = jax.vmap(lambda t, x, u: p.system.read(p.targets, Values(t, x, u, packed)))(
             t, self.x, u
         )
-        return p.loss(predicted, y, p.record.sigma)[None]
+        return p.loss(predicted, y, p.sigma)[None]
 
-    def penalties(self, trainable: Trainable) -> dict[str, Array]:
+    def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
         return self.problem.penalties(trainable)
 
@@ -70,16 +71,17 @@ def equation_error(problem: Problem) -> EquationError:
     """The equation error of a problem.
 
     Raises:
-        TrainingError: if states are not measured, or the targets tell nothing of what is to be trained.
+        TrainingError: if states are not measured, or no target depends on something that is to be trained.
     """
-    if problem.record.x is None:
+    if problem.measured_states is None:
         raise TrainingError(
             "The equation error needs all states in the data: "
             "leave 'equation_error' out of the strategy, or measure them."
         )
-    count = len(problem.record)
-    rows = np.unique(np.linspace(0, count - 1, min(count, POINTS)).astype(int))
-    objective = EquationError(problem, jnp.asarray(rows), jnp.asarray(_states(problem)[rows]))
+    states = _smoothed(np.asarray(problem.measured_states), problem.is_uniform)
+    count = problem.samples
+    rows = np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int))
+    objective = EquationError(problem, jnp.asarray(rows), jnp.asarray(states[rows]))
     unseen = _unseen(objective)
     if unseen:
         raise TrainingError(
@@ -89,12 +91,11 @@ def equation_error(problem: Problem) -> EquationError:
     return objective
 
 
-def _states(problem: Problem) -> np.ndarray:
-    """The measured states at every sample; smoothed, if samples are evenly spaced."""
-    x = np.asarray(problem.record.x)
-    if problem.record.steps.h.ndim > 0:
-        return x
-    return np.stack([smoothed(column) for column in x.T], axis=1)
+def _smoothed(
+    x: Float[np.ndarray, "n_samples n_states"], uniform: bool
+) -> Float[np.ndarray, "n_samples n_states"]:
+    """The measured states; smoothed, if samples are evenly spaced."""
+    return np.stack([smoothed(column) for column in x.T], axis=1) if uniform else x
 
 
 def _unseen(objective: EquationError) -> list[str]:

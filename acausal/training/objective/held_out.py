@@ -1,23 +1,24 @@
-"""Held out: samples that training never moves by, and how well the model predicts them."""
+"""Held out: samples that never move the training, and how well the model predicts them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
 from numbers import Real
-from typing import Any
 
 import equinox as eqx
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float
+from numpy.typing import ArrayLike
 
 from acausal.data import Data
 from acausal.errors import DataError
-from acausal.training.objective.build_problem import Start, first_state
-from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.initial_state import InitialState, first_state
+from acausal.training.objective.problem import Problem
 from acausal.training.objective.record import Sequences, lay_out
+from acausal.training.objective.trainable import Trainable
 
-Validation = float | Data | Mapping[str, Any] | None
+Validation = float | Data | Mapping[str, ArrayLike] | None
 """What to hold out: the last part of the record, another record, or nothing."""
 
 
@@ -32,15 +33,14 @@ class HeldOut(eqx.Module):
     problem: Problem
     first: int = eqx.field(static=True)
 
-    def loss(self, trainable: Trainable) -> Array:
+    def loss(self, trainable: Trainable) -> Float[Array, ""]:
         """The loss over the samples held out, in one simulation of their record."""
-        p, rows = self.problem, slice(self.first, None)
-        y = p.simulate(trainable).y
-        return p.loss(y[rows], p.record.y[rows], p.record.sigma)
+        predicted = self.problem.simulate(trainable).y
+        return self.problem.compare(predicted, slice(self.first, None))
 
 
 def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | None]:
-    """What to train on; and the record that ends with what is held out, with where that begins.
+    """What to train on; and the record that ends with what is held out, with the index at which that begins.
 
     Raises:
         DataError: for a fraction that leaves no two samples for either.
@@ -61,10 +61,8 @@ def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | 
     return data.between(data.time[0], data.time[first - 1]), (data, first)
 
 
-def hold_out(
-    problem: Problem, kept: tuple[Data, int] | None, x0: Start | Mapping[str, float]
-) -> HeldOut | None:
-    """What a problem's training is judged by, from the result of `split`.
+def hold_out(problem: Problem, kept: tuple[Data, int] | None, x0: InitialState) -> HeldOut | None:
+    """What judges a problem's training, from the result of `split`.
 
     The end of the record is predicted in one simulation from the record's start. Another record starts as ``x0``
     says; where that is trained, from its own measured states.
@@ -77,28 +75,28 @@ def hold_out(
     data, first = kept
     if first:
         other = over(problem, data, problem.x0)
-        return HeldOut(replace(other, nodes=problem.nodes), first)
+        return HeldOut(replace(other, shooting=problem.shooting), first)
     data = data.for_system(problem.system)
     start = first_state(problem.system, data, "data" if x0 == "fit" else x0)
     return HeldOut(over(problem, data, start), first)
 
 
-def over(problem: Problem, data: Data, x0: Array | None) -> Problem:
+def over(problem: Problem, data: Data, x0: Float[Array, " n_states"] | None) -> Problem:
     """The same model over another record as one sequence, with steps that are no longer.
 
     Arguments:
-        problem: what was posed. Errors stay relative to the standard deviations of its record.
+        problem: the training. Errors stay relative to the standard deviations of its data.
         data: the other record, in the model's units.
-        x0: the state at its start, shape (number of states,); ``None`` for the model's start values.
+        x0: the state at its start; ``None`` for the model's start values.
     """
     record = lay_out(data, problem.system.inputs, problem.targets, None)
-    longest, before = (float(np.max(np.asarray(r.steps.h))) for r in (record, problem.record))
+    longest = float(np.max(np.asarray(record.steps.h)))
     return replace(
         problem,
-        record=replace(record, sigma=problem.record.sigma),
+        records=(replace(record, sigma=problem.sigma),),
         sequences=Sequences(len(record), len(record), 1, None),
         x0=x0,
-        nodes=None,
-        substeps=max(1, int(np.ceil(longest / (before / problem.substeps) - 1e-6))),
+        shooting=None,
+        substeps=max(1, int(np.ceil(longest / problem.longest_step - 1e-6))),
         mesh=None,
     )

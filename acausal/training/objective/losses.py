@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import jax.numpy as jnp
-from jax import Array
+from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, nearest
 
-Loss = Callable[[Array, Array, Array], Array]
-"""(predicted, measured, sigma) -> scalar, of shapes (M, k), (M, k), (k,): M points of k targets."""
+Loss = Callable[
+    [Float[Array, "M k"], Float[Array, "M k"], Float[Array, " k"]],
+    Float[Array, ""],
+]
+"""(predicted, measured, sigma) -> scalar, for M points of k targets."""
 
 
-def nrmse(predicted: Array, measured: Array, sigma: Array) -> Array:
+def nrmse(
+    predicted: Float[Array, "M k"], measured: Float[Array, "M k"], sigma: Float[Array, " k"]
+) -> Float[Array, ""]:
     """Normalised root mean square error, the paper's (21): ``sqrt(1/M Σ_i Σ_j ((q_ij − q̂_ij)/σ_j)²)``.
 
     It sums over the targets: a prediction of the mean alone has the loss √k for k targets.

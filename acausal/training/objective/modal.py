@@ -14,13 +14,14 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float, Int
 
+from acausal.codegen import Values
 from acausal.errors import TrainingError, nearest
 from acausal.training.objective.regularizers import Context, Trajectory
 
 TINY = 1e-12
-"""Of an eigenvalue [1/s] and of a scalar product of eigenvectors: nothing is divided by less."""
+"""The least eigenvalue [1/s], or scalar product of eigenvectors, that anything is divided by."""
 
 
 class Modal(eqx.Module):
@@ -39,11 +40,11 @@ class Modal(eqx.Module):
     reach: float = 1.0
     states: tuple[str, ...] | None = eqx.field(static=True, default=None)
 
-    def excess(self, re: Array, im: Array) -> Array:
+    def excess(self, re: Float[Array, " n"], im: Float[Array, " n"]) -> Float[Array, " n"]:
         """By how much eigenvalues ``re + j im`` [1/s] are where they should not be; 0 where they may be."""
         raise NotImplementedError
 
-    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""
         assert context.trajectory is not None
         kept = _rows(self.states, context.trajectory.system.states)
@@ -61,7 +62,7 @@ class Stability(Modal):
 
     margin: float = 0.0
 
-    def excess(self, re: Array, im: Array) -> Array:
+    def excess(self, re: Float[Array, " n"], im: Float[Array, " n"]) -> Float[Array, " n"]:
         """What is missing of the margin."""
         return jnp.maximum(re + self.margin, 0.0)
 
@@ -75,7 +76,7 @@ class DampingRatio(Modal):
 
     ratio: float = 0.1
 
-    def excess(self, re: Array, im: Array) -> Array:
+    def excess(self, re: Float[Array, " n"], im: Float[Array, " n"]) -> Float[Array, " n"]:
         """What is missing of the ratio."""
         return jnp.maximum(self.ratio + re / _size(re, im), 0.0)
 
@@ -90,7 +91,7 @@ class FrequencyRange(Modal):
     low: float = 0.0
     high: float = float("inf")
 
-    def excess(self, re: Array, im: Array) -> Array:
+    def excess(self, re: Float[Array, " n"], im: Float[Array, " n"]) -> Float[Array, " n"]:
         """How far a frequency is outside, relative to the bound."""
         size = _size(re, im)
         slow = 1 - size / self.low if self.low > 0 else 0.0
@@ -99,22 +100,22 @@ class FrequencyRange(Modal):
 
 def jacobians(
     params: Mapping[str, Any], trajectory: Trajectory, points: int, reach: float
-) -> Array:
-    """``∂(dx/dt)/∂x`` at points of a trajectory, shape (points, n, n); see `Modal` for the arguments."""
+) -> Float[Array, "points n n"]:
+    """``∂(dx/dt)/∂x`` at points of a trajectory; see `Modal` for the arguments."""
     rows = np.unique(np.linspace(0, len(trajectory.t) - 1, points).astype(int))
     t, x, u = (a[rows] for a in (trajectory.t, trajectory.x, trajectory.u))
     centre = trajectory.x.mean(axis=0)
     system, packed = trajectory.system, trajectory.system.pack(params)
 
-    def slope(t: Array, x: Array, u: Array) -> Array:
-        return jax.jacfwd(lambda x: system.vector_field(t, x, u, packed))(x)
+    def jacobian(t: Array, x: Array, u: Array) -> Float[Array, "n n"]:
+        return jax.jacfwd(lambda x: system.rates(Values(t, x, u, packed)))(x)
 
-    return jax.vmap(slope)(t, centre + reach * (x - centre), u)
+    return jax.vmap(jacobian)(t, centre + reach * (x - centre), u)
 
 
 @jax.custom_jvp
-def eigenvalues(A: Array) -> tuple[Array, Array]:
-    """Real and imaginary parts of a real matrix's eigenvalues, shape (n,) each; on a CPU alone.
+def eigenvalues(A: Float[Array, "n n"]) -> tuple[Float[Array, " n"], Float[Array, " n"]]:
+    """Real and imaginary parts of a real matrix's eigenvalues; on a CPU alone.
 
     Derivatives are ``dλ = wᴴ dA v / wᴴ v`` with left and right eigenvectors (J. Magnus: On differentiating eigenvalues
     and eigenvectors, Econometric Theory 1, 1985). Where an eigenvalue is defective there are none: 0 is taken.
@@ -124,16 +125,18 @@ def eigenvalues(A: Array) -> tuple[Array, Array]:
 
 
 @eigenvalues.defjvp
-def _(primals: tuple[Array], tangents: tuple[Array]) -> Any:
+def _(
+    primals: tuple[Float[Array, "n n"]], tangents: tuple[Float[Array, "n n"]]
+) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
     values, left, right = _eig(primals[0])
     product = jnp.sum(left.conj() * right, axis=0)
     defective = jnp.abs(product) < TINY
     moved = jnp.einsum("ki,kl,li->i", left.conj(), tangents[0], right)
-    slopes = jnp.where(defective, 0.0, moved / jnp.where(defective, 1.0, product))
-    return (values.real, values.imag), (slopes.real, slopes.imag)
+    change = jnp.where(defective, 0.0, moved / jnp.where(defective, 1.0, product))
+    return (values.real, values.imag), (change.real, change.imag)
 
 
-def _eig(A: Array) -> tuple[Array, Array, Array]:
+def _eig(A: Float[Array, "n n"]) -> tuple[Array, Array, Array]:
     values, left, right = jax.lax.linalg.eig(
         A, compute_left_eigenvectors=True, compute_right_eigenvectors=True
     )
@@ -144,7 +147,7 @@ def _size(re: Array, im: Array) -> Array:
     return jnp.sqrt(re**2 + im**2 + TINY**2)
 
 
-def _rows(chosen: tuple[str, ...] | None, states: tuple[str, ...]) -> np.ndarray:
+def _rows(chosen: tuple[str, ...] | None, states: tuple[str, ...]) -> Int[np.ndarray, " n_chosen"]:
     for name in chosen or ():
         if name not in states:
             raise TrainingError(f"A regularizer names the state '{name}': {nearest(name, states)}")

@@ -1,4 +1,4 @@
-"""Parameters trained beside networks: how each may move, as a function of a free variable δ that is 0 at the start."""
+"""Parameters that are trained besides networks: how each moves with a free variable δ, which starts at 0."""
 
 from __future__ import annotations
 
@@ -11,12 +11,16 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, nearest
 
 REACHED = 0.99
-"""Part of the way to a limit from which on a parameter has run into it."""
+"""A parameter that has come so far of the way to a limit has run into it."""
+
+Scalar = Float[Array, ""]
+Number = Any
+"""A float, or a scalar array where JAX traces."""
 
 
 class Modifier(Protocol):
@@ -27,24 +31,24 @@ class Modifier(Protocol):
         """What changes are counted in: ``"%"`` of p, or nothing, in the unit of p."""
         ...
 
-    def change(self, value: Array, delta: Array) -> Array:
+    def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """The change of a parameter that began at a value, for a free variable."""
         ...
 
-    def changed(self, value: Any, change: Any) -> Any:
+    def changed(self, value: Number, change: Number) -> Number:
         """The parameter after a change."""
         ...
 
-    def believed(self, value: float) -> float:
-        """The change that is believed to be likely before there are data."""
+    def prior_deviation(self, value: float) -> float:
+        """The prior standard deviation of the change."""
         ...
 
     def limit(self, value: float, change: float) -> float | None:
-        """The change beyond which there is none, where a change has as good as come there."""
+        """The limit of changes that this change has as good as reached, or ``None``."""
         ...
 
     def refusal(self, value: float) -> str | None:
-        """Why a parameter cannot be moved so, if it can't, and the mend."""
+        """Why a parameter cannot move this way and what to do instead, or ``None`` if it can."""
         ...
 
 
@@ -52,7 +56,7 @@ class Modifier(Protocol):
 class _Relative:
     unit = "%"
 
-    def changed(self, value: Any, change: Any) -> Any:
+    def changed(self, value: Number, change: Number) -> Number:
         """``(1 + change) p``."""
         return (1 + change) * value
 
@@ -61,7 +65,7 @@ class _Relative:
 class _Absolute:
     unit = ""
 
-    def changed(self, value: Any, change: Any) -> Any:
+    def changed(self, value: Number, change: Number) -> Number:
         """``p + change``."""
         return value + change
 
@@ -76,11 +80,11 @@ class Factor(_Relative):
 
     gamma: float
 
-    def change(self, value: Array, delta: Array) -> Array:
+    def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``γ tanh δ``."""
         return self.gamma * jnp.tanh(delta)
 
-    def believed(self, value: float) -> float:
+    def prior_deviation(self, value: float) -> float:
         """The whole parameter, whatever γ."""
         return 1.0
 
@@ -89,7 +93,7 @@ class Factor(_Relative):
         return _reached(change, -self.gamma, self.gamma)
 
     def refusal(self, value: float) -> str | None:
-        """For a γ that is too large, and at zero."""
+        """A γ that is too large, or a parameter that is 0."""
         if not 0 < self.gamma < 1:
             return f"The modifier of '{{}}' has gamma={self.gamma}; choose it between 0 and 1."
         if value == 0.0:
@@ -105,16 +109,16 @@ class Shift(_Absolute):
     """A parameter moves by a sum, ``p̃ = p + scale · δ``, also from zero, and without a bound.
 
     Attributes:
-        scale: the size of a change that would not surprise, in the parameter's unit.
+        scale: the size of a change to expect, in the parameter's unit.
     """
 
     scale: float
 
-    def change(self, value: Array, delta: Array) -> Array:
+    def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``scale · δ``."""
         return self.scale * delta
 
-    def believed(self, value: float) -> float:
+    def prior_deviation(self, value: float) -> float:
         """The scale."""
         return self.scale
 
@@ -123,7 +127,7 @@ class Shift(_Absolute):
         return None
 
     def refusal(self, value: float) -> str | None:
-        """For a scale that is none."""
+        """A scale that is not positive and finite."""
         if 0 < self.scale < np.inf:
             return None
         return f"The shift of '{{}}' has scale={self.scale}; give a positive size in its unit."
@@ -143,7 +147,7 @@ class Bounded(_Absolute):
     low: float
     high: float
 
-    def change(self, value: Array, delta: Array) -> Array:
+    def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``p̃ − p``."""
         below, above = value - self.low, self.high - value
         if np.isinf(self.high):
@@ -153,11 +157,11 @@ class Bounded(_Absolute):
         start = jnp.log(below / above)
         return (self.high - self.low) * (jax.nn.sigmoid(start + delta) - jax.nn.sigmoid(start))
 
-    def changed(self, value: Any, change: Any) -> Any:
+    def changed(self, value: Number, change: Number) -> Number:
         """``p + change``, and not a rounding error beyond the bounds."""
         return jnp.clip(value + change, self.low, self.high)
 
-    def believed(self, value: float) -> float:
+    def prior_deviation(self, value: float) -> float:
         """Half the way from bound to bound; where one is infinite, the way to the other."""
         way = self.high - self.low
         return min(value - self.low, self.high - value) if np.isinf(way) else way / 2
@@ -167,7 +171,7 @@ class Bounded(_Absolute):
         return _reached(change, self.low - value, self.high - value)
 
     def refusal(self, value: float) -> str | None:
-        """Outside of the bounds, and where there are none."""
+        """A start outside of the bounds, or no bounds."""
         if np.isinf(self.low) and np.isinf(self.high):
             return "The bounds of '{}' are both infinite; give one of them, or take ac.Shift(...)."
         if self.low < value < self.high:
@@ -176,7 +180,7 @@ class Bounded(_Absolute):
 
 
 def _reached(change: float, low: float, high: float) -> float | None:
-    """The limit to which a change has come that began at 0, all but a hundredth of the way."""
+    """The limit that a change from 0 has reached, all but a hundredth of the way."""
     return next((end for end in (low, high) if change / end > REACHED), None)
 
 
@@ -191,18 +195,18 @@ class Modifiers(eqx.Module):
 
     names: tuple[str, ...] = eqx.field(static=True)
     kinds: tuple[Modifier, ...] = eqx.field(static=True)
-    values: tuple[Array, ...]
+    values: tuple[Scalar, ...]
 
-    def start(self) -> dict[str, Array]:
+    def start(self) -> dict[str, Scalar]:
         """The free variables δ where training starts: zero, which changes nothing."""
         return {name: jnp.zeros(()) for name in self.names}
 
-    def changes(self, deltas: Mapping[str, Array]) -> dict[str, Array]:
+    def changes(self, deltas: Mapping[str, Scalar]) -> dict[str, Scalar]:
         """The changes of the parameters, each as its modifier counts them."""
         rows = zip(self.names, self.kinds, self.values, strict=True)
         return {name: kind.change(value, deltas[name]) for name, kind, value in rows}
 
-    def apply(self, params: Mapping[str, Any], deltas: Mapping[str, Array]) -> dict[str, Any]:
+    def apply(self, params: Mapping[str, Any], deltas: Mapping[str, Scalar]) -> dict[str, Any]:
         """The parameters with their changes applied."""
         return self.changed(params, self.changes(deltas))
 
@@ -212,18 +216,18 @@ class Modifiers(eqx.Module):
         return {**params, **{n: kind.changed(params[n], changes[n]) for n, kind in kinds}}
 
     def at_limit(self, changes: Mapping[str, Any], unit: Callable[[str], str]) -> dict[str, str]:
-        """A sentence about every parameter whose change has run into a limit, by name; ``unit`` is that of a name."""
+        """A sentence about every parameter whose change has run into a limit, by name; ``unit`` gives its unit."""
         rows = zip(self.names, self.kinds, self.values, strict=True)
         found = {n: kind.limit(float(value), float(changes[n])) for n, kind, value in rows}
         return {
-            n: f"'{n}' has run into the limit of its modifier, {self.told(n, end, '+.3g', unit(n))}: let it move "
+            n: f"'{n}' has run into the limit of its modifier, {self.written(n, end, '+.3g', unit(n))}: let it move "
             "further, or look for what else the model lacks."
             for n, end in found.items()
             if end is not None
         }
 
-    def told(self, name: str, change: float, digits: str, unit: str) -> str:
-        """A change in words, such as ``"+3.1 %"``; ``digits`` is a format, ``unit`` that of the parameter."""
+    def written(self, name: str, change: float, digits: str, unit: str) -> str:
+        """A change as text, such as ``"+3.1 %"``; ``digits`` is a format, ``unit`` that of the parameter."""
         if self.kinds[self.names.index(name)].unit:
             return f"{100 * change:{digits}} %"
         return f"{change:{digits}}" if unit in ("", "1") else f"{change:{digits}} {unit}"

@@ -1,7 +1,7 @@
-"""Tolerances: parameters that are not the same in every run, such as the level of a friction or an offset.
+"""Parameter spread: parameters that differ from run to run, such as the level of a friction or an offset.
 
-A model that fits one run exactly may drift away in the next. With tolerances the loss is a mean over models: the one
-that is trained, and those with one of the parameters a deviation more or less.
+A model that fits one run exactly may drift away in the next. With a parameter spread the loss is a mean over models:
+the one that is trained, and those with one of the parameters a deviation higher or lower.
 """
 
 from __future__ import annotations
@@ -13,39 +13,45 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, nearest
 
 
-class Tolerances(eqx.Module):
-    """By how much parameters differ from run to run.
+class ParameterSpread(eqx.Module):
+    """How much parameters differ from run to run.
 
     Attributes:
         names: the parameters.
-        shifts: of each model from the one that is trained, shape (number of models, number of parameters).
+        shifts: of each model from the one that is trained.
     """
 
     names: tuple[str, ...] = eqx.field(static=True)
-    shifts: Array
+    shifts: Float[Array, "n_models n_parameters"]
 
-    def each(self, function: Callable[[dict[str, Any]], Array], params: dict[str, Any]) -> Array:
-        """A function of every model with parameters about given ones; the models in the leading axis."""
+    def each(
+        self, function: Callable[[dict[str, Any]], Float[Array, " ..."]], params: dict[str, Any]
+    ) -> Float[Array, "n_models ..."]:
+        """A function of every model, whose parameters lie about the given ones."""
         if not self.names:
             return function(params)[None]
 
-        def shifted(shift: Array) -> Array:
+        def shifted(shift: Float[Array, " n_parameters"]) -> Float[Array, " ..."]:
             moved = {n: params[n] + shift[i] for i, n in enumerate(self.names)}
             return function({**params, **moved})
 
         return jax.vmap(shifted)(self.shifts)
 
-    def mean(self, loss: Callable[[dict[str, Any]], Array], params: dict[str, Any]) -> Array:
+    def mean(
+        self, loss: Callable[[dict[str, Any]], Float[Array, " ..."]], params: dict[str, Any]
+    ) -> Float[Array, " ..."]:
         """The mean loss of these models."""
         return jnp.mean(self.each(loss, params), axis=0)
 
 
-def tolerances(given: Mapping[str, float] | None, params: Mapping[str, Any]) -> Tolerances:
+def parameter_spread(
+    given: Mapping[str, float] | None, params: Mapping[str, Any]
+) -> ParameterSpread:
     """Check a user's deviations, in the units of the parameters.
 
     Raises:
@@ -55,11 +61,13 @@ def tolerances(given: Mapping[str, float] | None, params: Mapping[str, Any]) -> 
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     for name, deviation in chosen.items():
         if name not in numbers:
-            raise TrainingError(f"tolerances: no parameter '{name}': {nearest(name, numbers)}")
+            raise TrainingError(
+                f"parameter_spread: no parameter '{name}': {nearest(name, numbers)}"
+            )
         if np.ndim(params[name]) or not (np.isfinite(deviation) and deviation > 0):
             raise TrainingError(
-                f"The tolerance of '{name}' is {deviation}; give a positive deviation of a number."
+                f"The spread of '{name}' is {deviation}; give a positive deviation of a number."
             )
     each = np.diag([float(d) for d in chosen.values()])
     alone = np.zeros((1, len(chosen)))
-    return Tolerances(tuple(chosen), jnp.asarray(np.concatenate([alone, each, -each])))
+    return ParameterSpread(tuple(chosen), jnp.asarray(np.concatenate([alone, each, -each])))

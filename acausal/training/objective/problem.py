@@ -1,58 +1,34 @@
-"""What training minimises: the loss of a model's predictions over sequences of a record, and penalties."""
+"""What training minimises: the loss of a model's predictions over sequences of its records, and penalties.
+
+A training has records; today there is one. Only this room indexes them: other files ask the problem.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
+import numpy as np
 from jax.sharding import Mesh
+from jaxtyping import Array, Float, Int, PRNGKeyArray
 
 from acausal._jax import cast
-from acausal.simulation import Solver, integrate
+from acausal.codegen import Packed, Values
+from acausal.simulation import Solver, Steps, integrate
 from acausal.training.objective.arguments import arguments
 from acausal.training.objective.losses import Loss
 from acausal.training.objective.modifiers import Modifiers
-from acausal.training.objective.multiple_shooting import Nodes
-from acausal.training.objective.parameter_spread import Tolerances
+from acausal.training.objective.multiple_shooting import ShootingStates
+from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.record import Batch, Record, Sequences
 from acausal.training.objective.regularizers import Context, Regularizer
-from acausal.training.objective.sharding import spread
+from acausal.training.objective.sharding import shard
+from acausal.training.objective.trainable import Simulated, Trainable
 
 if TYPE_CHECKING:
     from acausal.system import System
-
-
-class Trainable(eqx.Module):
-    """What an optimizer moves: a pytree of floating-point arrays.
-
-    Attributes:
-        networks: the arrays of every network that is trained, by name.
-        modifiers: the free variable δ of every parameter that is trained, by name.
-        states: where sequences begin, in the units of `Nodes`, shape (parts, number of states); ``None`` where
-            that is not trained.
-    """
-
-    networks: dict[str, Any]
-    modifiers: dict[str, Array]
-    states: Array | None = None
-
-
-class Simulated(NamedTuple):
-    """One simulation of the whole record.
-
-    Attributes:
-        loss: over every point of it.
-        x: the states at every sample, shape (N, number of states).
-        y: the targets at every sample, shape (N, number of targets).
-    """
-
-    loss: Array
-    x: Array
-    y: Array
 
 
 class Problem(eqx.Module):
@@ -63,42 +39,104 @@ class Problem(eqx.Module):
         params: all parameters where training starts.
         networks: names of the networks that are trained.
         modifiers: the parameters that are trained.
-        tolerances: the parameters that differ from run to run.
+        parameter_spread: the parameters that differ from run to run.
         targets: the variables that are compared.
-        record: the data.
-        sequences: how batches are drawn from it.
-        x0: the state at the record's start, shape (number of states,), or ``None`` for the model's start values.
-        nodes: the states at which sequences begin, where they are trained, too.
+        records: the data.
+        sequences: how batches are drawn from them.
+        x0: the state at the record's start, or ``None`` for the model's start values.
+        shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
         regularizers: penalties by name.
         context: what regularizers may know.
         solver, substeps: how a step from sample to sample is made.
         dtype: the precision of steps; of weights and losses it is double.
-        mesh: devices that batches are spread over, if any.
+        mesh: devices that share batches, if any.
     """
 
     system: System = eqx.field(static=True)
     params: dict[str, Any]
     networks: tuple[str, ...] = eqx.field(static=True)
     modifiers: Modifiers
-    tolerances: Tolerances
+    parameter_spread: ParameterSpread
     targets: tuple[str, ...] = eqx.field(static=True)
-    record: Record
+    records: tuple[Record, ...]
     sequences: Sequences
-    x0: Array | None
-    nodes: Nodes | None
+    x0: Float[Array, " n_states"] | None
+    shooting: ShootingStates | None
     loss: Loss = eqx.field(static=True)
     regularizers: dict[str, Regularizer]
     context: Context
     solver: Solver = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
-    dtype: Any = eqx.field(static=True)
+    dtype: np.dtype = eqx.field(static=True)
     mesh: Mesh | None = eqx.field(static=True)
+
+    # -- the data ------------------------------------------------------------------------------------
+
+    @property
+    def _record(self) -> Record:
+        """The one record. Whoever adds more of them begins here."""
+        (record,) = self.records
+        return record
+
+    @property
+    def samples(self) -> int:
+        """How many samples are trained on."""
+        return len(self._record)
+
+    @property
+    def times(self) -> Float[Array, " n_samples"]:
+        """The time of every sample, in seconds."""
+        return self._record.steps.t
+
+    @property
+    def inputs(self) -> Float[Array, "n_samples n_inputs"]:
+        """The model's inputs at every sample."""
+        return self._record.steps.inputs.start
+
+    @property
+    def measured(self) -> Float[Array, "n_samples n_targets"]:
+        """The measured targets at every sample."""
+        return self._record.y
+
+    @property
+    def measured_states(self) -> Float[Array, "n_samples n_states"] | None:
+        """The measured states at every sample; ``None`` unless all of them are measured."""
+        return self._record.x
+
+    @property
+    def sigma(self) -> Float[Array, " n_targets"]:
+        """The standard deviations of the measured targets."""
+        return self._record.sigma
+
+    @property
+    def is_uniform(self) -> bool:
+        """Whether samples are evenly spaced."""
+        return self._record.steps.h.ndim == 0
+
+    @property
+    def longest_step(self) -> float:
+        """The longest step of the integration, in seconds."""
+        return float(np.max(np.asarray(self._record.steps.h))) / self.substeps
+
+    def residuals(
+        self, predicted: Float[Array, "n_samples n_targets"]
+    ) -> Float[Array, "n_samples n_targets"]:
+        """What predictions of the whole record leave over: measured less predicted."""
+        return self.measured - predicted
+
+    def compare(
+        self, predicted: Float[Array, "n_samples n_targets"], rows: slice = slice(None)
+    ) -> Float[Array, ""]:
+        """The loss of predictions of the whole record, over some of its samples."""
+        return self.loss(predicted[rows], self.measured[rows], self.sigma)
+
+    # -- what is trained -----------------------------------------------------------------------------
 
     def start(self) -> Trainable:
         """What is trained, where training starts."""
         networks = {n: eqx.filter(self.params[n], eqx.is_inexact_array) for n in self.networks}
-        states = None if self.nodes is None else jnp.zeros_like(self.nodes.start)
+        states = None if self.shooting is None else jnp.zeros_like(self.shooting.start)
         return Trainable(networks, self.modifiers.start(), states)
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
@@ -108,51 +146,64 @@ class Problem(eqx.Module):
         }
         return self.modifiers.apply({**self.params, **networks}, trainable.modifiers)
 
-    def draw(self, key: Array) -> Batch:
+    # -- losses of sequences -------------------------------------------------------------------------
+
+    def draw(self, key: PRNGKeyArray) -> Batch:
         """A random batch of sequences."""
         return self.sequences.draw(key)
 
-    def losses(self, trainable: Trainable, batch: Batch) -> Array:
-        """The loss of every sequence of a batch, shape (B,)."""
+    def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " batch"]:
+        """The loss of every sequence of a batch."""
         arrays, rest = eqx.partition(self, eqx.is_array)
 
-        def share(same: tuple[Problem, Trainable], rows: Any) -> Array:
+        def share(same: tuple[Problem, Trainable], rows: Any) -> Float[Array, " share"]:
             arrays, trainable = same
             return eqx.combine(arrays, rest)._losses(trainable, *rows)
 
-        return spread(share, self.mesh, (arrays, trainable), (batch.start, batch.points))
+        return shard(share, self.mesh, (arrays, trainable), (batch.start, batch.points))
 
-    def _losses(self, trainable: Trainable, starts: Array, points: Array | None) -> Array:
+    def _losses(
+        self,
+        trainable: Trainable,
+        starts: Int[Array, " batch"],
+        points: Int[Array, "batch n_points"] | None,
+    ) -> Float[Array, " batch"]:
         params = self.assemble(trainable)
-        return self.tolerances.mean(
+        return self.parameter_spread.mean(
             lambda p: self._losses_with(p, trainable, starts, points), params
         )
 
     def _losses_with(
-        self, params: dict[str, Any], trainable: Trainable, starts: Array, points: Array | None
-    ) -> Array:
+        self,
+        params: dict[str, Any],
+        trainable: Trainable,
+        starts: Int[Array, " batch"],
+        points: Int[Array, "batch n_points"] | None,
+    ) -> Float[Array, " batch"]:
         packed = self.system.pack(params)
 
-        def one(start: Array, points: Array | None) -> Array:
-            steps, measured = self.record.window(start, self.sequences.length)
+        def one(start: Int[Array, ""], points: Int[Array, " n_points"] | None) -> Float[Array, ""]:
+            steps, measured = self._record.window(start, self.sequences.length)
             x0 = self._start_of(trainable, packed, start)
             _, predicted, end = self._integrate(packed, x0, steps)
             if points is not None:
                 predicted, measured = predicted[points], measured[points]
-            loss = self.loss(predicted, measured, self.record.sigma)
-            if self.nodes is None:
+            loss = self.loss(predicted, measured, self.sigma)
+            if self.shooting is None:
                 return loss
-            return loss + self.nodes.gap(trainable.states, start // self.nodes.length, end)
+            return loss + self.shooting.gap(trainable.states, start // self.shooting.length, end)
 
         if starts.shape[0] == 1:
             first = jax.tree.map(lambda a: a[0], (starts, points))
             return one(*first)[None]
         return jax.vmap(one)(starts, points)
 
-    def penalties(self, trainable: Trainable) -> dict[str, Array]:
+    def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
         params = self.assemble(trainable)
         return {name: jnp.asarray(r(params, self.context)) for name, r in self.regularizers.items()}
+
+    # -- the whole record ----------------------------------------------------------------------------
 
     @eqx.filter_jit
     def simulate(self, trainable: Trainable) -> Simulated:
@@ -160,45 +211,53 @@ class Problem(eqx.Module):
         params = self.assemble(trainable)
         x, predicted = self._whole(params, trainable)
 
-        def loss(p: dict[str, Any]) -> Array:
+        def loss(p: dict[str, Any]) -> Float[Array, ""]:
             y = predicted if p is params else self._whole(p, trainable)[1]
             return self.compare(y)
 
-        return Simulated(self.tolerances.mean(loss, params), x, predicted)
+        return Simulated(self.parameter_spread.mean(loss, params), x, predicted)
 
-    def _whole(self, params: dict[str, Any], trainable: Trainable) -> tuple[Array, Array]:
+    def _whole(
+        self, params: dict[str, Any], trainable: Trainable
+    ) -> tuple[Float[Array, "n_samples n_states"], Float[Array, "n_samples n_targets"]]:
         """States and targets at every sample."""
         packed = self.system.pack(params)
-        return self._integrate(packed, self.first_state(trainable, packed), self.record.steps)[:2]
+        return self._integrate(packed, self.first_state(trainable, packed), self._record.steps)[:2]
 
     @eqx.filter_jit
-    def seen(self, trainable: Trainable, x: Array, rows: Array | None = None) -> dict[str, Array]:
-        """What every network is called with in the states ``x`` of the record, shape (N, number of arguments).
+    def seen(
+        self,
+        trainable: Trainable,
+        x: Float[Array, "n_samples n_states"],
+        rows: Int[Array, " n_rows"] | None = None,
+    ) -> dict[str, Float[Array, "n_calls n_arguments"]]:
+        """The arguments of every network in the states ``x`` of the record.
 
         Arguments:
             trainable: some state of the training.
-            x: states at every sample, shape (N, number of states).
+            x: states at every sample.
             rows: indices of samples; ``None`` for all.
 
-        A network with several places in the model is taken in all of them, one after the other.
+        The calls of a network with several places in the model follow each other sample by sample.
         """
         packed = self.system.pack(self.assemble(trainable))
-        steps = self.record.steps
-        points = (steps.t, x, steps.inputs.start)
+        points = (self.times, x, self.inputs)
         if rows is not None:
             points = jax.tree.map(lambda a: a[rows], points)
 
-        def at(name: str) -> Array:
+        def at(name: str) -> Float[Array, "n_calls n_arguments"]:
             def one(t: Array, x: Array, u: Array) -> Array:
-                return arguments(self.system, name, t, x, u, packed)
+                return arguments(self.system, name, Values(t, x, u, packed))
 
             values = jax.vmap(one)(*points)
             return values.reshape(-1, values.shape[-1])
 
         return {name: at(name) for name in self.networks}
 
-    def predict(self, trainable: Trainable, params: dict[str, Any]) -> Array:
-        """The targets at every sample of one simulation with other parameters, shape (N, number of targets).
+    def predict(
+        self, trainable: Trainable, params: dict[str, Any]
+    ) -> Float[Array, "n_samples n_targets"]:
+        """The targets at every sample of one simulation with other parameters.
 
         It can be differentiated in forward mode.
 
@@ -208,39 +267,42 @@ class Problem(eqx.Module):
         """
         packed = self.system.pack(params)
         x0 = self.first_state(trainable, packed)
-        return self._integrate(packed, x0, self.record.steps, direct=True)[1]
+        return self._integrate(packed, x0, self._record.steps, direct=True)[1]
 
-    def predictions(self, trainable: Trainable) -> Array:
-        """The same of every model that tolerances ask for, shape (models, N, number of targets)."""
+    def predictions(self, trainable: Trainable) -> Float[Array, "n_models n_samples n_targets"]:
+        """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
-        return self.tolerances.each(lambda p: self.predict(trainable, p), params)
+        return self.parameter_spread.each(lambda p: self.predict(trainable, p), params)
 
-    def compare(self, predicted: Array) -> Array:
-        """The loss of predictions of the whole record, shape (N, number of targets)."""
-        return self.loss(predicted, self.record.y, self.record.sigma)
+    # -- simulation ----------------------------------------------------------------------------------
 
-    def first_state(self, trainable: Trainable, packed: Any) -> Array:
-        """The state at the record's start, shape (number of states,)."""
-        if self.nodes is not None:
-            return self.nodes.state(trainable.states, 0)
+    def first_state(self, trainable: Trainable, packed: Packed) -> Float[Array, " n_states"]:
+        """The state at the record's start."""
+        if self.shooting is not None:
+            return self.shooting.state(trainable.states, 0)
         if self.x0 is not None:
             return self.x0
-        steps = self.record.steps
-        t0: Any = steps.t[0]
-        return self.system.initial_state(packed, None, steps.inputs.start[0], t0)
+        t0: Any = self.times[0]
+        return self.system.initial_state(packed, None, self.inputs[0], t0)
 
-    def _start_of(self, trainable: Trainable, packed: Any, start: Array) -> Array:
-        """The state at which the sequence from a sample on begins."""
+    def _start_of(
+        self, trainable: Trainable, packed: Packed, start: Int[Array, ""]
+    ) -> Float[Array, " n_states"]:
+        """The state at which the sequence begins that starts at a sample."""
         if self.sequences.whole:
             return self.first_state(trainable, packed)
-        if self.nodes is not None:
-            return self.nodes.state(trainable.states, start // self.nodes.length)
-        assert self.record.x is not None
-        return self.record.x[start]
+        if self.shooting is not None:
+            return self.shooting.state(trainable.states, start // self.shooting.length)
+        assert self.measured_states is not None
+        return self.measured_states[start]
 
     def _integrate(
-        self, packed: Any, x0: Array, steps: Any, *, direct: bool = False
-    ) -> tuple[Array, Array, Array]:
+        self, packed: Packed, x0: Float[Array, " n_states"], steps: Steps, *, direct: bool = False
+    ) -> tuple[
+        Float[Array, "n_samples n_states"],
+        Float[Array, "n_samples n_targets"],
+        Float[Array, " n_states"],
+    ]:
         """States and targets at every sample, and the state at the end."""
         x, predicted, end = integrate(
             self.system,
@@ -252,8 +314,3 @@ class Problem(eqx.Module):
         )
         assert predicted is not None
         return cast((x, predicted, end), float)
-
-
-def modified(objective: Any, trainable: Trainable) -> Mapping[str, Array]:
-    """The changes of the parameters that are trained, each as its modifier counts them."""
-    return objective.modifiers.changes(trainable.modifiers)

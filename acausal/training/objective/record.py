@@ -6,7 +6,8 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array, lax
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray
 
 from acausal.data import Data
 from acausal.errors import DataError
@@ -18,20 +19,22 @@ class Record(eqx.Module):
 
     Attributes:
         steps: N steps with the inputs.
-        y: targets, shape (N, number of targets).
-        sigma: their standard deviations, shape (number of targets,).
-        x: states, shape (N, number of states), or ``None`` where they are not all measured.
+        y: targets.
+        sigma: their standard deviations.
+        x: states, or ``None`` where they are not all measured.
     """
 
     steps: Steps
-    y: Array
-    sigma: Array
-    x: Array | None
+    y: Float[Array, "n_samples n_targets"]
+    sigma: Float[Array, " n_targets"]
+    x: Float[Array, "n_samples n_states"] | None
 
     def __len__(self) -> int:
         return self.y.shape[0]
 
-    def window(self, start: Array, length: int) -> tuple[Steps, Array]:
+    def window(
+        self, start: Int[Array, ""], length: int
+    ) -> tuple[Steps, Float[Array, "length n_targets"]]:
         """Steps and targets of the ``length`` samples from ``start`` on."""
 
         def cut(a: Array) -> Array:
@@ -73,16 +76,16 @@ class Batch(eqx.Module):
     """Some sequences of a record.
 
     Attributes:
-        start: index of each one's first sample, shape (B,).
-        weight: 1, or 0 for a sequence that is left out, shape (B,).
-        points: which of its samples count, shape (B, K), or ``None`` for all.
+        start: index of each one's first sample.
+        weight: 1, or 0 for a sequence that is left out.
+        points: which of its samples count, or ``None`` for all.
     """
 
-    start: Array
-    weight: Array
-    points: Array | None
+    start: Int[Array, " batch"]
+    weight: Float[Array, " batch"]
+    points: Int[Array, "batch n_points"] | None
 
-    def without(self, bad: Array) -> Batch:
+    def without(self, bad: Bool[Array, " batch"]) -> Batch:
         """The batch with some sequences (a mask) left out: repetitions of a good one in their place.
 
         Their gradients would be undefined even if multiplied by a weight of zero.
@@ -92,7 +95,7 @@ class Batch(eqx.Module):
         return eqx.tree_at(lambda b: b.weight, replaced, jnp.where(bad, 0.0, self.weight))
 
 
-def _column(mask: Array, like: Array) -> Array:
+def _column(mask: Bool[Array, " batch"], like: Array) -> Array:
     return mask.reshape(mask.shape + (1,) * (like.ndim - 1))
 
 
@@ -137,7 +140,7 @@ class Sequences(eqx.Module):
             self.record_length, length, min(self.batch_size, parts), self.points, side_by_side=True
         )
 
-    def draw(self, key: Array) -> Batch:
+    def draw(self, key: PRNGKeyArray) -> Batch:
         """A batch; the same key gives the same batch."""
         for_start, for_points = jax.random.split(key)
         start = self._starts(for_start)
@@ -149,7 +152,7 @@ class Sequences(eqx.Module):
             )
         return Batch(start, jnp.ones(self.batch_size), points)
 
-    def _starts(self, key: Array) -> Array:
+    def _starts(self, key: PRNGKeyArray) -> Int[Array, " batch"]:
         if not self.side_by_side:
             last = self.record_length - self.length
             return jax.random.randint(key, (self.batch_size,), 0, last + 1)

@@ -1,8 +1,8 @@
-"""Regularizers: what training wants of a model beside fitting the data.
+"""Regularizers: penalties that a training minimises along with the loss.
 
 A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace. Outputs of networks are
-taken relative to their ``output_scale``, so that weights are pure numbers. Of a network that is an energy its law
-counts, the slope.
+taken relative to their ``output_scale``, so that weights are pure numbers. For a network that is an energy, the law
+counts: the energy's derivative.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
+from jaxtyping import Array, Float
+from numpy.typing import ArrayLike
 
 from acausal.errors import TrainingError, nearest
 from acausal.networks import inputs_of, law_of, output_scale
@@ -22,35 +23,39 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 
+Network = Callable[..., Any]
+"""A module that is called with scalars and returns a scalar."""
+
+
 class Trajectory(eqx.Module):
     """Where a model is over the record: as measured, else as it was before training.
 
     Attributes:
         system: the model.
-        t, x, u: samples of time, states and inputs, shapes (N,), (N, number of states), (N, number of inputs).
+        t, x, u: samples of time, states and inputs.
     """
 
     system: System = eqx.field(static=True)
-    t: Array
-    x: Array
-    u: Array
+    t: Float[Array, " N"]
+    x: Float[Array, "N n_states"]
+    u: Float[Array, "N n_inputs"]
 
 
 class Context(eqx.Module):
-    """What a regularizer may know beside the parameters.
+    """What a regularizer may know besides the parameters.
 
     Attributes:
         networks: names of the networks that are trained.
-        arguments: by network, the arguments it is called with over the record, shape (N, number of arguments).
+        arguments: by network, the arguments it is called with over the record.
         trajectory: the model over the record.
     """
 
     networks: tuple[str, ...] = eqx.field(static=True)
-    arguments: Mapping[str, Array]
+    arguments: Mapping[str, Float[Array, "N n_arguments"]]
     trajectory: Trajectory | None = None
 
 
-Regularizer = Callable[[Mapping[str, Any], Context], Array]
+Regularizer = Callable[[Mapping[str, Any], Context], Float[Array, ""]]
 
 
 class ZeroCrossing(eqx.Module):
@@ -68,15 +73,15 @@ class ZeroCrossing(eqx.Module):
 
     weight: float = 0.01
     networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
-    secondary: Mapping[str, Any] | None = None
+    secondary: Mapping[str, ArrayLike] | None = None
 
-    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""
         names = _chosen(self.networks, context)
         terms = [self._at_zero(name, params[name], context) for name in names]
         return self.weight * _sum(terms)
 
-    def _at_zero(self, name: str, network: Any, context: Context) -> Array:
+    def _at_zero(self, name: str, network: Network, context: Context) -> Float[Array, ""]:
         if self.secondary is not None and name in self.secondary:
             given = jnp.asarray(self.secondary[name], float)
             others = given[:, None] if given.ndim == 1 else given
@@ -103,17 +108,17 @@ class SmallCorrection(eqx.Module):
     weight: float = 1e-3
     networks: tuple[str, ...] | None = eqx.field(static=True, default=None)
 
-    def __call__(self, params: Mapping[str, Any], context: Context) -> Array:
+    def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""
         names = _chosen(self.networks, context)
         return self.weight * _sum([_mean_square(params[n], context.arguments[n]) for n in names])
 
 
-def _sum(terms: list[Array]) -> Array:
+def _sum(terms: list[Float[Array, ""]]) -> Float[Array, ""]:
     return jnp.sum(jnp.stack(terms)) if terms else jnp.zeros(())
 
 
-def _mean_square(network: Any, arguments: Array) -> Array:
+def _mean_square(network: Network, arguments: Float[Array, "N n_arguments"]) -> Float[Array, ""]:
     force = jax.vmap(lambda row: law_of(network)(*row))(arguments)
     return jnp.mean((force / output_scale(network)) ** 2)
 

@@ -1,7 +1,7 @@
-"""Spread: the sequences of a batch on several devices, of one machine or of many.
+"""Sharding: the sequences of a batch on several devices, of one machine or of many.
 
-Every process runs the same program. Data and weights lie on all devices; each computes its share of the batch, and
-their gradients are summed.
+Every process runs the same program. Data and weights are on all devices; each device computes its share of the batch,
+and their gradients are summed.
 """
 
 from __future__ import annotations
@@ -13,22 +13,24 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
 from jax.experimental import multihost_utils
 from jax.sharding import Mesh, NamedSharding, PartitionSpec
+from jaxtyping import Array, Float, PyTree, Shaped
 
 from acausal.errors import TrainingError
 
 Tree = TypeVar("Tree")
+Same = TypeVar("Same")
+Rows = TypeVar("Rows")
 Device = Any
-"""A `jax.Device`, which type checkers do not take for a type."""
+"""A `jax.Device`, which type checkers do not accept as a type."""
 
 SEQUENCES = "sequences"
 ALL, SHARE = PartitionSpec(), PartitionSpec(SEQUENCES)
 
 
-def mesh(devices: Sequence[Device] | None, batch_size: int) -> Mesh | None:
-    """Devices in a row; none where all is left to JAX's default device.
+def device_mesh(devices: Sequence[Device] | None, batch_size: int) -> Mesh | None:
+    """The devices in a row; ``None`` where JAX's default device does everything.
 
     Raises:
         TrainingError: if they cannot have equal shares of a batch.
@@ -43,13 +45,13 @@ def mesh(devices: Sequence[Device] | None, batch_size: int) -> Mesh | None:
     return Mesh(np.asarray(devices), (SEQUENCES,))
 
 
-def shared(tree: Tree, mesh: Mesh | None) -> Tree:
+def replicate(tree: Tree, mesh: Mesh | None) -> Tree:
     """The tree with its arrays on all devices."""
     if mesh is None:
         return tree
     everywhere = NamedSharding(mesh, ALL)
 
-    def put(array: Array) -> Array:
+    def put(array: Shaped[Array, " ..."]) -> Shaped[Array, " ..."]:
         if jnp.issubdtype(array.dtype, jax.dtypes.prng_key):
             data, kind = jax.random.key_data(array), jax.random.key_impl(array)
             return jax.random.wrap_key_data(put(data), impl=kind)
@@ -58,31 +60,36 @@ def shared(tree: Tree, mesh: Mesh | None) -> Tree:
     return jax.tree.map(lambda a: put(a) if eqx.is_array(a) else a, tree)
 
 
-def local(tree: Tree, mesh: Mesh | None) -> Tree:
+def on_default_device(tree: Tree, mesh: Mesh | None) -> Tree:
     """The tree with its arrays on the default device, for use in this process alone."""
     if mesh is None:
         return tree
     return jax.tree.map(lambda a: jnp.asarray(np.asarray(a)) if eqx.is_array(a) else a, tree)
 
 
-def spread(function: Callable[[Any, Any], Array], mesh: Mesh | None, same: Any, rows: Any) -> Array:
-    """The function's rows, each device computing its share; all devices get all of them.
+def shard(
+    function: Callable[[Same, Rows], Float[Array, " batch"]],
+    mesh: Mesh | None,
+    same: Same,
+    rows: Rows,
+) -> Float[Array, " batch"]:
+    """The function's rows, of which each device computes its share; all devices get all rows.
 
     Arguments:
-        function: (same, rows) -> results, shape (B,).
+        function: (same, rows) -> results.
         mesh: the devices.
-        same: arrays that all devices have.
-        rows: arrays with a leading axis of B.
+        same: a pytree of arrays that all devices have.
+        rows: a pytree of arrays with a leading axis of the batch.
     """
     if mesh is None:
         return function(same, rows)
-    parted = jax.shard_map(
+    sharded: Callable[[PyTree, PyTree], Array] = jax.shard_map(
         function, mesh=mesh, in_specs=(ALL, SHARE), out_specs=SHARE, check_vma=False
     )
-    return jax.lax.with_sharding_constraint(parted(same, rows), NamedSharding(mesh, ALL))
+    return jax.lax.with_sharding_constraint(sharded(same, rows), NamedSharding(mesh, ALL))
 
 
-def agreed(value: float, mesh: Mesh | None) -> float:
+def of_first_process(value: float, mesh: Mesh | None) -> float:
     """A number in which processes may differ, as the first process has it."""
     if mesh is None or len({d.process_index for d in mesh.devices.flat}) == 1:
         return value

@@ -1,19 +1,20 @@
-"""Smoothing of measured signals, as much as the data themselves call for."""
+"""Smoothing of measured signals, as much as the data themselves justify."""
 
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 from scipy.signal import savgol_coeffs, savgol_filter
 
 WINDOWS = (5, 9, 15, 25, 41, 67, 111, 181, 301)
 """Samples of the windows that are tried."""
 
 DEGREE = 3
-"""Of the polynomials that are fitted to each window's samples."""
+"""Degree of the polynomials that are fitted to each window's samples."""
 
 
-def smoothed(signal: np.ndarray) -> np.ndarray:
-    """A signal with evenly spaced samples, shape (N,), less what of its noise can be told apart.
+def smoothed(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
+    """A signal with evenly spaced samples, without the part of its noise that can be told apart.
 
     A cubic polynomial is fitted to the samples around each one (A. Savitzky, M. Golay, 1964). The window is the one
     that predicts samples best from their neighbours (generalized cross-validation: P. Craven, G. Wahba, 1979).

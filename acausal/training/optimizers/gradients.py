@@ -1,100 +1,157 @@
-"""Slopes: the gradient of a batch's loss, and its curvature where an optimizer asks for it."""
+"""The gradient of a batch's loss, and its Gauss-Newton Hessian where an optimizer needs it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Protocol
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.flatten_util import ravel_pytree
+from jaxtyping import Array, Float, Int, PRNGKeyArray, PyTree
+
+Scalar = Float[Array, ""]
 
 
-class Slope(eqx.Module):
-    """Losses of a batch, and how their mean changes with what is trained.
+class Batch(Protocol):
+    """Sequences of a record."""
+
+    @property
+    def start(self) -> Int[Array, " batch"]:
+        """Index of each sequence's first sample."""
+        ...
+
+    @property
+    def weight(self) -> Float[Array, " batch"]:
+        """Weight of each sequence."""
+        ...
+
+
+class Objective(Protocol):
+    """What an optimizer can minimise: a pytree with pure functions. A trainable is a pytree of its own."""
+
+    def draw(self, key: PRNGKeyArray) -> PyTree:
+        """A batch."""
+        ...
+
+    def losses(self, trainable: PyTree, batch: PyTree) -> Float[Array, " batch"]:
+        """The loss of every sequence of a batch."""
+        ...
+
+    def penalties(self, trainable: PyTree) -> dict[str, Scalar]:
+        """Terms that are added, by name."""
+        ...
+
+
+class LeastSquares(Objective, Protocol):
+    """An objective that compares predictions of a whole record, so that it has a Gauss-Newton Hessian."""
+
+    def predictions(self, trainable: PyTree) -> Float[Array, "n_models n_samples n_targets"]:
+        """The predictions of every model that counts."""
+        ...
+
+    def compare(self, predicted: Float[Array, "n_samples n_targets"]) -> Scalar:
+        """The loss of one model's predictions."""
+        ...
+
+
+class Evaluated(eqx.Module):
+    """Losses of a batch, and the derivatives of their mean by what is trained.
 
     Attributes:
-        losses: of every sequence, shape (B,).
+        losses: of every sequence.
         penalties: what is added, by name.
         total: what is minimised: the mean loss and all penalties.
         gradient: of the total, a pytree like what is trained.
-        curvature: of the total, shape (P, P) for P numbers that are trained; ``None`` where nobody asks for it.
+        hessian: of the total, for P trained numbers; ``None`` where the optimizer does not need it.
     """
 
-    losses: Array
-    penalties: dict[str, Array]
-    total: Array
-    gradient: Any
-    curvature: Array | None = None
+    losses: Float[Array, " batch"]
+    penalties: dict[str, Scalar]
+    total: Scalar
+    gradient: PyTree
+    hessian: Float[Array, "P P"] | None = None
 
 
-Slopes = Callable[[Any, Any, Any], Slope]
-"""(problem, trainable, batch) -> slope."""
+Evaluate = Callable[..., Evaluated]
+"""(objective, trainable, batch) -> losses and derivatives."""
 
 
-def total(problem: Any, trainable: Any, batch: Any) -> tuple[Array, tuple[Array, dict[str, Array]]]:
-    """What is minimised; the losses and penalties that it is made of."""
-    losses = problem.losses(trainable, batch)
-    penalties = problem.penalties(trainable)
+def total(
+    objective: Objective, trainable: PyTree, batch: Batch
+) -> tuple[Scalar, tuple[Float[Array, " batch"], dict[str, Scalar]]]:
+    """What is minimised; the losses and penalties that it consists of."""
+    losses = objective.losses(trainable, batch)
+    penalties = objective.penalties(trainable)
     return jnp.average(losses, weights=batch.weight) + _sum(penalties), (losses, penalties)
 
 
-def gradients(problem: Any, trainable: Any, batch: Any) -> Slope:
+def with_gradient(objective: Objective, trainable: PyTree, batch: Batch) -> Evaluated:
     """The gradient alone, in reverse mode."""
-    evaluate = jax.value_and_grad(lambda tree: total(problem, tree, batch), has_aux=True)
+    evaluate = jax.value_and_grad(lambda tree: total(objective, tree, batch), has_aux=True)
     (value, (losses, penalties)), gradient = evaluate(trainable)
-    return Slope(losses, penalties, value, gradient)
+    return Evaluated(losses, penalties, value, gradient)
 
 
-def by_each(function: Callable[[Array], Array], at: Array, axis: int) -> tuple[Array, Array]:
-    """A function's value, and its slopes by each of the numbers that it is of, in forward mode; ``axis`` is theirs."""
+def value_and_jacobian(
+    function: Callable[[Float[Array, " P"]], Float[Array, " ..."]],
+    at: Float[Array, " P"],
+    axis: int,
+) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
+    """A function's value and Jacobian, in forward mode; ``axis`` of the Jacobian belongs to the arguments."""
 
-    def push(direction: Array) -> tuple[Array, Array]:
+    def push(direction: Float[Array, " P"]) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
         return jax.jvp(function, (at,), (direction,))
 
     return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at)))
 
 
-def curvatures(problem: Any, trainable: Any, batch: Any) -> Slope:
-    """The gradient, and the curvature that the loss has by the slopes of the predictions alone, in forward mode.
+def with_gauss_newton_hessian(
+    objective: LeastSquares, trainable: PyTree, batch: Batch
+) -> Evaluated:
+    """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 
-    That is the matrix of Gauss and Newton: predictions are taken to be linear in what is trained. A loss ℓ counts as
-    ½ℓ², over ℓ. For root mean squares this is a sum of squares, and a better model of ℓ than its own curvature,
-    which vanishes towards the minimum.
+    This is the Hessian of Gauss and Newton. A loss ℓ counts as ½ℓ², over ℓ. For root mean squares this is a sum of
+    squares, and a better model of ℓ than its own Hessian, which vanishes towards the minimum.
     """
     flat, unravel = ravel_pytree(trainable)
 
-    def penalty(z: Array) -> Array:
-        return _sum(problem.penalties(unravel(z)))
+    def penalty(z: Float[Array, " P"]) -> Scalar:
+        return _sum(objective.penalties(unravel(z)))
 
-    predicted, rows = by_each(lambda z: problem.predictions(unravel(z)), flat, axis=1)
-    loss, gradient, curvature = jax.tree.map(
-        lambda each: jnp.mean(each, axis=0),
-        jax.vmap(lambda y, slopes: _of_loss(problem.compare, y, slopes))(predicted, rows),
+    predicted, jacobians = value_and_jacobian(
+        lambda z: objective.predictions(unravel(z)), flat, axis=1
     )
-    penalties = problem.penalties(trainable)
+    loss, gradient, hessian = jax.tree.map(
+        lambda each: jnp.mean(each, axis=0),
+        jax.vmap(lambda y, jacobian: _of_loss(objective.compare, y, jacobian))(
+            predicted, jacobians
+        ),
+    )
+    penalties = objective.penalties(trainable)
     if penalties:
         gradient += jax.grad(penalty)(flat)
-        curvature += jax.hessian(penalty)(flat)
-    return Slope(loss[None], penalties, loss + _sum(penalties), unravel(gradient), curvature)
+        hessian += jax.hessian(penalty)(flat)
+    return Evaluated(loss[None], penalties, loss + _sum(penalties), unravel(gradient), hessian)
 
 
 def _of_loss(
-    loss: Callable[[Array], Array], predicted: Array, slopes: Array
-) -> tuple[Array, Array, Array]:
-    """The loss of predictions, its gradient and curvature by what has these slopes of them in its leading axis."""
+    loss: Callable[[Float[Array, "n_samples n_targets"]], Scalar],
+    predicted: Float[Array, "n_samples n_targets"],
+    jacobian: Float[Array, "P n_samples n_targets"],
+) -> tuple[Scalar, Float[Array, " P"], Float[Array, "P P"]]:
+    """The loss of predictions, its gradient and Gauss-Newton Hessian, from the predictions' Jacobian."""
     value, by_prediction = jax.value_and_grad(loss)(predicted)
 
-    def bend(direction: Array) -> Array:
+    def times_hessian(direction: Float[Array, "n_samples n_targets"]) -> Float[Array, " ..."]:
         half = jax.grad(lambda y: 0.5 * loss(y) ** 2)
         return jax.jvp(half, (predicted,), (direction,))[1]
 
-    rows = slopes.reshape(len(slopes), -1)
-    bends = jax.vmap(bend)(slopes).reshape(len(slopes), -1)
-    return value, rows @ by_prediction.ravel(), rows @ bends.T / value
+    rows = jacobian.reshape(len(jacobian), -1)
+    products = jax.vmap(times_hessian)(jacobian).reshape(len(jacobian), -1)
+    return value, rows @ by_prediction.ravel(), rows @ products.T / value
 
 
-def _sum(penalties: dict[str, Array]) -> Array:
+def _sum(penalties: dict[str, Scalar]) -> Scalar:
     return sum(penalties.values(), jnp.zeros(()))

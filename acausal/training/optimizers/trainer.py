@@ -1,60 +1,34 @@
 """How training moves: updates of an optimizer, many in one compiled program, of one training or of several.
 
-The trainer knows nothing of models. It asks a problem for batches, losses and penalties, takes gradients and
-sees to it that a sequence which diverges poisons neither weights nor the optimizer.
+The trainer knows nothing of models. It asks an objective for batches, losses and penalties, takes gradients, and keeps
+a sequence that diverges from spoiling the weights or the optimizer's state.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import optax
-from jax import Array
+from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
 from acausal.training.optimizers.descent import Descent
-from acausal.training.optimizers.gradients import Slope, Slopes, gradients, total
+from acausal.training.optimizers.gradients import (
+    Evaluate,
+    Evaluated,
+    Objective,
+    total,
+    with_gradient,
+)
 
-CHUNK = 128
-"""At most so many updates between two looks at the training."""
+UPDATES_PER_CALL = 128
+"""The most updates that one call of the compiled program makes."""
 
-
-class Batch(Protocol):
-    """A batch of sequences that can leave out some of them."""
-
-    @property
-    def start(self) -> Array:
-        """Index of each sequence's first sample, shape (B,)."""
-        ...
-
-    @property
-    def weight(self) -> Array:
-        """Weight of each sequence, shape (B,)."""
-        ...
-
-    def without(self, bad: Any) -> Any:
-        """The batch without the sequences of a mask."""
-        ...
-
-
-class Objective(Protocol):
-    """What a trainer can minimise: a pytree with pure functions."""
-
-    def draw(self, key: Any) -> Any:
-        """A batch."""
-        ...
-
-    def losses(self, trainable: Any, batch: Any) -> Array:
-        """The loss of every sequence of a batch, shape (B,)."""
-        ...
-
-    def penalties(self, trainable: Any) -> dict[str, Array]:
-        """Terms that are added, by name."""
-        ...
+Tree = TypeVar("Tree")
 
 
 class State(eqx.Module):
@@ -65,18 +39,18 @@ class State(eqx.Module):
         optimizer: the optimizer's state.
         epoch: updates done.
         rejected: updates rejected in a row up to now.
-        key: source of all batches; batch i depends on it and on i alone.
+        key: source of all batches; batch i depends only on it and on i.
     """
 
-    trainable: Any
-    optimizer: Any
-    epoch: Array
-    rejected: Array
-    key: Array
+    trainable: PyTree
+    optimizer: PyTree
+    epoch: Int[Array, "*trainings"]
+    rejected: Int[Array, "*trainings"]
+    key: PRNGKeyArray
 
 
 class Entry(eqx.Module):
-    """What an update tells; with a leading axis, what many tell.
+    """What is logged of an update; with a leading axis, of many.
 
     Attributes:
         loss: mean loss of the batch's sequences that count, without penalties.
@@ -86,68 +60,80 @@ class Entry(eqx.Module):
         rejected: whether the update was rejected, or was a trial that L-BFGS takes back.
     """
 
-    loss: Array
-    penalties: dict[str, Array]
-    logged: Any
-    diverged: Array
-    first: Array
-    rejected: Array
+    loss: Float[Array, "*updates"]
+    penalties: dict[str, Float[Array, "*updates"]]
+    logged: PyTree
+    diverged: Int[Array, "*updates"]
+    first: Int[Array, "*updates"]
+    rejected: Bool[Array, "*updates"]
 
 
 class Trainer(NamedTuple):
-    """How a problem is trained.
+    """How an objective is trained.
 
     Attributes:
         optimizer: any optax optimizer.
         limit: a sequence with a larger loss has diverged.
-        log: what of the trainable to log at every update.
-        slopes: what the optimizer is told of a point.
+        log: (objective, trainable) -> what of the trainable to log at every update.
+        evaluate: gives the losses and the derivatives that the optimizer needs.
     """
 
     optimizer: optax.GradientTransformationExtraArgs
     limit: float
-    log: Callable[[Any, Any], Any]
-    slopes: Slopes = gradients
+    log: Callable[..., PyTree]
+    evaluate: Evaluate = with_gradient
 
 
-def begin(trainer: Trainer, trainable: Any, key: Array) -> State:
+def begin(trainer: Trainer, trainable: PyTree, key: PRNGKeyArray) -> State:
     """The state before the first update. Those of several trainings, stacked, can be advanced together."""
     zero = jnp.zeros((), int)
     return State(trainable, trainer.optimizer.init(trainable), zero, zero, key)
 
 
-def converged(state: State) -> Array:
-    """Whether the optimizer says that it has nothing more to find; for several trainings, of each."""
+def converged(state: State) -> Bool[Array, "*trainings"]:
+    """Whether the optimizer has nothing more to find; for several trainings, of each."""
     if isinstance(state.optimizer, Descent):
         return state.optimizer.converged
     return jnp.zeros_like(state.epoch, bool)
 
 
 @eqx.filter_jit
-def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple[State, Entry]:
-    """Make updates until ``until`` of them are done, at most `CHUNK`, or until the optimizer has nothing more to find.
+def advance(
+    objective: Objective,
+    trainer: Trainer,
+    state: State,
+    until: Int[Array, ""],
+    *,
+    side_by_side: bool = False,
+) -> tuple[State, Entry]:
+    """Make updates until ``until`` of them are done, at most `UPDATES_PER_CALL`, or until the optimizer converged.
 
     Arguments:
-        problem: what to minimise.
+        objective: what to minimise.
         trainer: how.
         state: of one training, or of several with a leading axis.
         until: updates, the same for all of them.
+        side_by_side: whether several trainings are mapped over, as suits an accelerator. A processor is faster one
+            after the other: networks with weights of their own each are many small products of matrices.
 
     Returns:
-        The new state, and a log with room for `CHUNK` entries of which the first are filled; where there are several
-        trainings, their axis is the second one.
+        The new state, and a log with room for `UPDATES_PER_CALL` entries of which the first are filled; where there
+        are several trainings, their axis is the second one.
     """
 
     def alone(state: State) -> tuple[State, Entry]:
-        return _update(problem, trainer, state)
+        return _update(objective, trainer, state)
 
-    def said(trainable: Any) -> Entry:
-        return _empty_entry(problem, trainer, trainable)
+    def empty_alone(trainable: PyTree) -> Entry:
+        return _empty_entry(objective, trainer, trainable)
 
-    update, empty = (_each(alone), jax.vmap(said)) if state.epoch.ndim else (alone, said)
+    update, empty = alone, empty_alone
+    if state.epoch.ndim:
+        update = jax.vmap(alone) if side_by_side else partial(jax.lax.map, alone)
+        empty = jax.vmap(empty_alone)
     first = jnp.max(state.epoch)
     shapes = jax.eval_shape(empty, state.trainable)
-    log = jax.tree.map(lambda s: jnp.zeros((CHUNK, *s.shape), s.dtype), shapes)
+    log = jax.tree.map(lambda s: jnp.zeros((UPDATES_PER_CALL, *s.shape), s.dtype), shapes)
 
     def body(carry: tuple[State, Entry]) -> tuple[State, Entry]:
         state, log = carry
@@ -155,53 +141,43 @@ def advance(problem: Any, trainer: Trainer, state: State, until: Array) -> tuple
         state, entry = update(state)
         return state, jax.tree.map(lambda rows, new: rows.at[row].set(new), log, entry)
 
-    def is_on(carry: tuple[State, Entry]) -> Array:
+    def is_on(carry: tuple[State, Entry]) -> Bool[Array, ""]:
         state, _ = carry
         return (jnp.max(state.epoch) < until) & ~converged(state).all()
 
     return jax.lax.while_loop(is_on, body, (state, log))
 
 
-def _each(update: Callable[[State], Any]) -> Callable[[State], Any]:
-    """The update of every training.
-
-    A processor makes one after the other: networks with weights of their own each are many small products of
-    matrices, which it computes faster apart than side by side.
-    """
-    if jax.default_backend() == "cpu":
-        return partial(jax.lax.map, update)
-    return jax.vmap(update)
-
-
-def _empty_entry(problem: Objective, trainer: Trainer, trainable: Any) -> Entry:
+def _empty_entry(objective: Objective, trainer: Trainer, trainable: PyTree) -> Entry:
     number, count = jnp.zeros(()), jnp.zeros((), int)
-    said = problem.penalties(trainable), trainer.log(problem, trainable)
-    return Entry(number, *said, count, count, jnp.zeros((), bool))
+    logged = objective.penalties(trainable), trainer.log(objective, trainable)
+    return Entry(number, *logged, count, count, jnp.zeros((), bool))
 
 
-def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
-    drawn = problem.draw(jax.random.fold_in(state.key, state.epoch))
-    batch, result, bad = _slope(problem, trainer, state.trainable, drawn)
-    slopes = result.gradient, result.curvature
-    usable = _finite((result.total, slopes)) & ~_diverged(result.losses, trainer).any()
-    gradient, curvature = _select(usable, slopes, jax.tree.map(jnp.zeros_like, slopes))
+def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
+    drawn = objective.draw(jax.random.fold_in(state.key, state.epoch))
+    batch, found, bad = evaluate_healthy(objective, trainer, state.trainable, drawn)
+    derivatives = found.gradient, found.hessian
+    usable = _finite((found.total, derivatives)) & ~_diverged(found.losses, trainer).any()
+    zeros = jax.tree.map(jnp.zeros_like, derivatives)
+    gradient, hessian = _select(usable, derivatives, zeros)
     steps, optimizer = trainer.optimizer.update(
         gradient,
         state.optimizer,
         state.trainable,
-        value=jnp.where(usable, result.total, jnp.inf),
+        value=jnp.where(usable, found.total, jnp.inf),
         grad=gradient,
-        value_fn=lambda trainable: total(problem, trainable, batch)[0],
-        **({} if curvature is None else {"curvature": curvature}),
+        value_fn=lambda trainable: total(objective, trainable, batch)[0],
+        **({} if hessian is None else {"curvature": hessian}),
     )
     moved = optax.apply_updates(state.trainable, steps)
     accepted = _finite(moved) & (usable | _takes_back(optimizer))
     trainable, optimizer = _select(accepted, (moved, optimizer), (state.trainable, state.optimizer))
     rejected = jnp.where(accepted, 0, state.rejected + 1)
     entry = Entry(
-        jnp.average(result.losses, weights=batch.weight),
-        result.penalties,
-        trainer.log(problem, state.trainable),
+        jnp.average(found.losses, weights=batch.weight),
+        found.penalties,
+        trainer.log(objective, state.trainable),
         bad.sum(),
         drawn.start[jnp.argmax(bad)],
         ~(accepted & usable),
@@ -209,56 +185,58 @@ def _update(problem: Objective, trainer: Trainer, state: State) -> tuple[State, 
     return State(trainable, optimizer, state.epoch + 1, rejected, state.key), entry
 
 
-def _slope(
-    problem: Objective, trainer: Trainer, trainable: Any, batch: Any
-) -> tuple[Any, Slope, Array]:
-    """The slope for the sequences of a batch that do not diverge, and a mask of those that do.
+def evaluate_healthy(
+    objective: Objective, trainer: Trainer, trainable: PyTree, batch: PyTree
+) -> tuple[PyTree, Evaluated, Bool[Array, " batch"]]:
+    """Losses and derivatives of the sequences that do not diverge; their batch, and a mask of those that do.
 
-    Where some diverge it is computed a second time without them: in a loop, so that the program holds it once and a
+    Where some diverge, all is computed a second time without them: in a loop, so that the program holds it once and a
     healthy batch pays nothing.
     """
 
-    def evaluate(batch: Any) -> Slope:
-        return trainer.slopes(problem, trainable, batch)
+    def evaluate(batch: PyTree) -> Evaluated:
+        return trainer.evaluate(objective, trainable, batch)
 
     if batch.start.shape[0] == 1:
-        result = evaluate(batch)
-        return batch, result, _diverged(result.losses, trainer)
+        found = evaluate(batch)
+        return batch, found, _diverged(found.losses, trainer)
 
-    def again(carry: tuple[Any, Slope, Array, Array]) -> Array:
-        _, result, bad, count = carry
-        new = _diverged(result.losses, trainer)
+    def again(carry: tuple[PyTree, Evaluated, Array, Array]) -> Bool[Array, ""]:
+        _, found, bad, count = carry
+        new = _diverged(found.losses, trainer)
         return (count == 0) | ((count == 1) & new.any() & ~bad.all())
 
-    def body(carry: tuple[Any, Slope, Array, Array]) -> tuple[Any, Slope, Array, Array]:
+    def body(
+        carry: tuple[PyTree, Evaluated, Array, Array],
+    ) -> tuple[PyTree, Evaluated, Array, Array]:
         batch, _, bad, count = carry
         batch = jax.tree.map(
             lambda new, old: jnp.where(bad.any(), new, old), batch.without(bad), batch
         )
-        result = evaluate(batch)
-        bad = jnp.where(count == 0, _diverged(result.losses, trainer), bad)
-        return batch, result, bad, count + 1
+        found = evaluate(batch)
+        bad = jnp.where(count == 0, _diverged(found.losses, trainer), bad)
+        return batch, found, bad, count + 1
 
     zeros = jnp.zeros(batch.start.shape)
-    penalties = jax.tree.map(jnp.zeros_like, jax.eval_shape(problem.penalties, trainable))
-    empty = Slope(zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable))
+    penalties = jax.tree.map(jnp.zeros_like, jax.eval_shape(objective.penalties, trainable))
+    empty = Evaluated(zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable))
     none = zeros > 0
-    batch, result, bad, _ = jax.lax.while_loop(again, body, (batch, empty, none, jnp.asarray(0)))
-    return batch, result, bad
+    batch, found, bad, _ = jax.lax.while_loop(again, body, (batch, empty, none, jnp.asarray(0)))
+    return batch, found, bad
 
 
-def _takes_back(optimizer: Any) -> Any:
+def _takes_back(optimizer: PyTree) -> Bool[Array, ""] | bool:
     """Whether the optimizer itself goes back from a point that diverges, to a better one it knows."""
     return jnp.isfinite(optimizer.value) if isinstance(optimizer, Descent) else False
 
 
-def _diverged(losses: Array, trainer: Trainer) -> Array:
+def _diverged(losses: Float[Array, " batch"], trainer: Trainer) -> Bool[Array, " batch"]:
     return ~(losses <= trainer.limit)
 
 
-def _finite(tree: Any) -> Array:
+def _finite(tree: PyTree) -> Bool[Array, ""]:
     return jnp.stack([jnp.isfinite(leaf).all() for leaf in jax.tree.leaves(tree)]).all()
 
 
-def _select(condition: Array, new: Any, old: Any) -> Any:
+def _select(condition: Bool[Array, ""], new: Tree, old: Tree) -> Tree:
     return jax.tree.map(lambda a, b: jnp.where(condition, a, b), new, old)

@@ -2,13 +2,14 @@
 
 A law is given the freedom to change by small bumps over what it has seen; parameters may change, too, and so may the
 state at the start where it was trained. The sensitivity of the whole simulation to all of them gives the Fisher
-information, and its inverse their covariance: a Laplace approximation in the space of functions, independent of how
-many weights a network has. What of a law is narrower than a bump, half a standard deviation of its input, does not
-show. Samples whose residuals are alike count for less than one each.
+information, whose inverse is their covariance: a Laplace approximation in the space of functions, independent of how
+many weights a network has. Details of a law that are narrower than a bump, half a standard deviation of its input, do
+not show. Samples whose residuals are correlated count for less than one each.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -17,56 +18,31 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
-from jax.scipy.special import erf
+from jaxtyping import Array, Float
 from scipy.linalg import solve_triangular
 
 from acausal.errors import TrainingError
-from acausal.networks import Potential, law_of, output_scale
-from acausal.training.objective.problem import Problem, Trainable, modified
-from acausal.training.optimizers.gradients import by_each
+from acausal.networks import law_of, output_scale
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.optimizers.gradients import value_and_jacobian
+from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.residuals import correlation_time
 
-BUMPS, REACH = 12, 3.0
-"""Bumps of each law, evenly over so many sigmas of its inputs to either side."""
+BAND_POINTS = 201
+"""Points of a band over the argument of a law."""
 
-POINTS = 201
-"""Points of a band."""
-
-ALIKE = 0.98
-"""Correlation from which on the data can't tell two parameters apart."""
+INDISTINGUISHABLE = 0.98
+"""The data can hardly distinguish two parameters with a correlation above this."""
 
 UNKNOWN = 0.9
-"""Part of what was believed before there were data that a standard deviation is where they tell nothing."""
+"""The data tell nothing of a parameter whose standard deviation is above this part of the prior one."""
 
-SLOW = 2.0
-"""Samples that are alike from which on residuals are called correlated."""
+CORRELATED = 2.0
+"""Residuals are called correlated if more samples than this are worth one independent sample."""
 
-ROUNDING = 1e-12
-"""Least noise that is taken for possible, relative to a target's standard deviation."""
-
-
-class Bumped(eqx.Module):
-    """A network whose law may change by bumps of its first argument, ``F(x) + Σ a_k exp(−(x − c_k)²/2w²)``."""
-
-    net: Any
-    heights: Array
-    centres: Array
-    width: Array
-
-    def __call__(self, *inputs: Any) -> Array:
-        """The law, or the energy whose slope it is."""
-        shapes = self.areas if isinstance(self.net, Potential) else self.bumps
-        return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
-
-    def bumps(self, x: Array) -> Array:
-        """The bumps at x, shape (number of bumps,)."""
-        return jnp.exp(-0.5 * ((x - self.centres) / self.width) ** 2)
-
-    def areas(self, x: Array) -> Array:
-        """The energies whose slopes they are, likewise."""
-        z = (x - self.centres) / self.width
-        return self.width * jnp.sqrt(jnp.pi / 2) * erf(z / jnp.sqrt(2.0))
+LEAST_NOISE = 1e-12
+"""The least noise that is considered possible, relative to a target's standard deviation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,82 +50,96 @@ class Band:
     """A learned law over its first argument, or a prediction over time, with its standard deviation.
 
     Attributes:
-        x, law, sigma: shape (points,); other arguments of a law are held at their mean.
+        x: the argument or the time.
+        law, sigma: mean and standard deviation there; other arguments of a law are held at their mean.
     """
 
-    x: np.ndarray
-    law: np.ndarray
-    sigma: np.ndarray
+    x: Float[np.ndarray, " points"]
+    law: Float[np.ndarray, " points"]
+    sigma: Float[np.ndarray, " points"]
 
 
 @dataclass(frozen=True, eq=False)
 class Confidence:
-    """What a record tells of laws and parameters.
+    """How well a record determines laws and parameters.
 
     Attributes:
         laws: by network, the law and its standard deviation.
         parameters: by name, the standard deviation of trained parameters, relative to their values, or absolute
             where `Fit.modifiers` is.
-        correlation: between the parameters, in their order, shape (parameters, parameters).
-        noise: standard deviation of what is left over, by target.
-        alike: by target, how many neighbouring samples of what is left over tell as much as one; 1 for white noise.
-        about: what is to be said of the parameters, one sentence each.
+        correlation: between the parameters, in their order.
+        noise: standard deviation of the residuals, by target.
+        alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
+        about: how well each parameter is known, one sentence each.
     """
 
     laws: dict[str, Band]
     parameters: dict[str, float]
-    correlation: np.ndarray
+    correlation: Float[np.ndarray, "n_parameters n_parameters"]
     noise: dict[str, float]
     alike: dict[str, float]
     about: tuple[str, ...]
 
     def words(self) -> list[str]:
+        """The old name of `summary`."""
+        warnings.warn(
+            "Confidence.words() is now called summary(); the old name will go.",
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        return self.summary()
+
+    def summary(self) -> list[str]:
         """What all this means, sentence by sentence."""
         names = list(self.parameters)
-        together = [
+        confused = [
             f"The data can hardly tell '{names[i]}' from '{names[j]}' (correlation {self.correlation[i, j]:+.3f}): "
             "only a combination of the two is known well; fix one, or measure more."
             for i in range(len(names))
             for j in range(i)
-            if abs(self.correlation[i, j]) > ALIKE
+            if abs(self.correlation[i, j]) > INDISTINGUISHABLE
         ]
         slow = [
-            f"What is left over of '{n}' is alike over {count:.0f} samples, which count as one here. If the "
+            f"Residuals of '{n}' are correlated over {count:.0f} samples, which count as one here. If the "
             "model lacks something, it is further off than its deviations say: see fit.residuals()."
             for n, count in self.alike.items()
-            if count > SLOW
+            if count > CORRELATED
         ]
-        return [*self.about, *together, *slow]
+        return [*self.about, *confused, *slow]
 
     def __repr__(self) -> str:
         return "\n".join(
-            ("Confidence of " + ", ".join((*self.laws, *self.parameters)), *self.words())
+            ("Confidence of " + ", ".join((*self.laws, *self.parameters)), *self.summary())
         )
 
 
-def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarray]) -> Confidence:
+def confidence(
+    problem: Problem,
+    trainable: Trainable,
+    seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
+) -> Confidence:
     """How well a record determines what was trained on it.
 
-    The residuals of a target that are alike over τ neighbouring samples have at low frequencies τ times the spectrum of
-    white noise, so that each sample counts 1/τ.
+    Residuals that are correlated over τ neighbouring samples have at low frequencies τ times the spectrum of white
+    noise, so that each sample counts 1/τ.
 
     Arguments:
         problem: what was trained, over the whole record.
         trainable: its result.
-        seen: by network, what it was called with over the record, shape (N, number of arguments).
+        seen: by network, the arguments it was called with over the record.
 
     Raises:
         TrainingError: if the model diverges over the record.
     """
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
-    bumped = {n: _bumped(params[n], seen[n]) for n in laws}
+    bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
     heights = [np.full(BUMPS, output_scale(params[n])) for n in laws]
     prior, moves = _prior(problem, params), np.ones(_moves(trainable))
-    believed = np.concatenate([*heights, prior, moves])
+    deviations = np.concatenate([*heights, prior, moves])
     ends = np.cumsum([BUMPS * len(laws), len(names)]).tolist()
 
-    def changed(z: Array) -> tuple[Trainable, dict[str, Any]]:
+    def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
         bumps, changes, moves = jnp.split(scale * z, ends)
         nets = {
             n: eqx.tree_at(lambda b: b.heights, bumped[n], bumps[k * BUMPS : (k + 1) * BUMPS])
@@ -158,18 +148,18 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
         new = problem.modifiers.changed({**params, **nets}, dict(zip(names, changes, strict=True)))
         return _moved(trainable, moves), new
 
-    scale = jnp.asarray(believed)
-    left, slopes = _sensitivity(problem, changed, len(believed))
-    if not (np.isfinite(left).all() and np.isfinite(slopes).all()):
+    scale = jnp.asarray(deviations)
+    left, jacobian = _sensitivity(problem, changed, len(deviations))
+    if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
             "The trained model diverges over the record; nothing can be said of it."
         )
     noise = np.sqrt(np.mean(left**2, axis=0))
     alike = np.array([correlation_time(column) for column in left.T])
-    least = np.maximum(noise, ROUNDING * np.asarray(problem.record.sigma)) * np.sqrt(alike)
-    weighted = (slopes / least[:, None]).reshape(-1, len(believed))
+    least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.sigma)) * np.sqrt(alike)
+    weighted = (jacobian / least[:, None]).reshape(-1, len(deviations))
     samples = float(np.sum(len(left) / alike))
-    covariance = _covariance(weighted, samples) * np.outer(believed, believed)
+    covariance = posterior_covariance(weighted, samples) * np.outer(deviations, deviations)
     own = covariance[ends[0] : ends[1], ends[0] : ends[1]]
     sigma = np.sqrt(np.diag(own))
     bands = {
@@ -187,94 +177,98 @@ def confidence(problem: Problem, trainable: Trainable, seen: dict[str, np.ndarra
 
 
 def _about(
-    problem: Problem, trainable: Trainable, sigma: np.ndarray, prior: np.ndarray
+    problem: Problem,
+    trainable: Trainable,
+    sigma: Float[np.ndarray, " n_parameters"],
+    prior: Float[np.ndarray, " n_parameters"],
 ) -> tuple[str, ...]:
     """How well each parameter is known, one sentence each."""
-    at_limit = problem.modifiers.at_limit(modified(problem, trainable), problem.system.unit)
+    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.system.unit)
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
             return f"{at_limit[name]} How well it is known cannot be said."
         if sigma > UNKNOWN * prior:
             return f"The data tell nothing of '{name}'; leave it as it was, or measure what depends on it."
-        told = problem.modifiers.told(name, sigma, ".2g", problem.system.unit(name))
-        return f"'{name}' is known to ±{told} (one sigma)."
+        deviation = problem.modifiers.written(name, sigma, ".2g", problem.system.unit(name))
+        return f"'{name}' is known to ±{deviation} (one sigma)."
 
     rows = zip(problem.modifiers.names, sigma.tolist(), prior.tolist(), strict=True)
     return tuple(one(*row) for row in rows)
 
 
-def _prior(problem: Problem, params: dict[str, Any]) -> np.ndarray:
-    """By how much parameters are believed to be off: as seen from where they began or came to, whichever is more."""
+def _prior(problem: Problem, params: dict[str, Any]) -> Float[np.ndarray, " n_parameters"]:
+    """The prior standard deviations of parameters: from where they began or ended, whichever is larger."""
     rows = zip(
         problem.modifiers.names, problem.modifiers.kinds, problem.modifiers.values, strict=True
     )
     return np.array(
-        [max(kind.believed(float(v)) for v in (start, params[n])) for n, kind, start in rows]
+        [max(kind.prior_deviation(float(v)) for v in (start, params[n])) for n, kind, start in rows]
     )
 
 
 def _moves(trainable: Trainable) -> int:
-    """How many numbers say where the record starts."""
+    """How many numbers of the state at the start were trained."""
     return 0 if trainable.states is None else trainable.states.shape[1]
 
 
-def _moved(trainable: Trainable, moves: Array) -> Trainable:
+def _moved(trainable: Trainable, moves: Float[Array, " n_states"]) -> Trainable:
     """The same with another state at the record's start."""
     if trainable.states is None:
         return trainable
     return replace(trainable, states=trainable.states.at[0].add(moves))
 
 
-def _covariance(slopes: np.ndarray, samples: float) -> np.ndarray:
-    """The covariance of n numbers with a standard deviation of 1 before there were data, shape (n, n).
+def posterior_covariance(
+    jacobian: Float[np.ndarray, "rows n"], samples: float
+) -> Float[np.ndarray, "n n"]:
+    """The covariance of n numbers whose prior standard deviations are 1.
 
-    Residuals are smaller than the noise by what so many numbers have followed of it: as many as the data determine.
+    Residuals are smaller than the noise, because the numbers follow a part of it: as many as the data determine.
 
     Arguments:
-        slopes: of all predictions, in standard deviations of what is left over, shape (rows, n).
-        samples: how many independent ones these are.
+        jacobian: of all predictions, in standard deviations of the residuals.
+        samples: how many independent samples the rows are worth.
     """
-    determined = slopes.shape[1] - float(np.trace(_inverse(slopes)))
+    determined = jacobian.shape[1] - float(np.trace(_inverse(jacobian)))
     grown = samples / max(samples - determined, 1.0)
-    return _inverse(slopes / np.sqrt(max(grown, 1.0)))
+    return _inverse(jacobian / np.sqrt(max(grown, 1.0)))
 
 
-def _inverse(slopes: np.ndarray) -> np.ndarray:
-    """``(JᵀJ + 1)⁻¹`` for slopes J, by QR decomposition: JᵀJ would lose twice as many digits."""
-    count = slopes.shape[1]
-    triangle = np.linalg.qr(np.concatenate([slopes, np.eye(count)]), mode="r")
+def _inverse(jacobian: Float[np.ndarray, "rows n"]) -> Float[np.ndarray, "n n"]:
+    """``(JᵀJ + 1)⁻¹`` by QR decomposition: JᵀJ would lose twice as many digits."""
+    count = jacobian.shape[1]
+    triangle = np.linalg.qr(np.concatenate([jacobian, np.eye(count)]), mode="r")
     inverse = solve_triangular(triangle, np.eye(count))
     return inverse @ inverse.T
 
 
-def _bumped(network: Any, seen: np.ndarray) -> Bumped:
-    first = seen[:, 0]
-    spread = float(first.std()) or 1.0
-    centres = first.mean() + spread * np.linspace(-REACH, REACH, BUMPS)
-    width = jnp.asarray(centres[1] - centres[0])
-    return Bumped(network, jnp.zeros(BUMPS), jnp.asarray(centres), width)
-
-
 def _sensitivity(
-    problem: Problem, changed: Callable[[Array], tuple[Trainable, dict[str, Any]]], count: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """What is left over, shape (N, targets), and the slopes of the predictions, shape (N, targets, count)."""
+    problem: Problem,
+    changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
+    count: int,
+) -> tuple[Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets n"]]:
+    """The residuals, and the Jacobian of the predictions."""
 
     @eqx.filter_jit
     def run(problem: Problem) -> tuple[Array, Array]:
-        def predicted(z: Array) -> Array:
+        def predicted(z: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
             return problem.predict(*changed(z))
 
-        at, slopes = by_each(predicted, jnp.zeros(count), axis=-1)
-        return problem.record.y - at, slopes
+        at, jacobian = value_and_jacobian(predicted, jnp.zeros(count), axis=-1)
+        return problem.residuals(at), jacobian
 
-    left, slopes = run(problem)
-    return np.asarray(left), np.asarray(slopes)
+    left, jacobian = run(problem)
+    return np.asarray(left), np.asarray(jacobian)
 
 
-def _band(network: Any, bumped: Bumped, covariance: np.ndarray, seen: np.ndarray) -> Band:
-    x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), POINTS)
+def _band(
+    network: Network,
+    bumped: Bumped,
+    covariance: Float[np.ndarray, "n_bumps n_bumps"],
+    seen: Float[np.ndarray, "n_calls n_arguments"],
+) -> Band:
+    x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), BAND_POINTS)
     rest = seen[:, 1:].mean(axis=0)
     law = jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x))
     shapes = np.asarray(jax.vmap(bumped.bumps)(jnp.asarray(x)))

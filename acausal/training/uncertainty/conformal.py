@@ -6,13 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
 from acausal.errors import DataError
-from acausal.training.objective.build_problem import Start, first_state
 from acausal.training.objective.held_out import over
-from acausal.training.objective.problem import Problem, Trainable
+from acausal.training.objective.initial_state import InitialState, first_state
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.residuals import correlation_time
 
 
@@ -21,27 +23,28 @@ class Prediction:
     """A target over the time of a record, predicted in one simulation of it.
 
     Attributes:
-        time, low, middle, high: shape (N,): the prediction and the bounds of its band.
+        time: of the record's samples.
+        low, middle, high: the prediction and the bounds of its band.
     """
 
-    time: np.ndarray
-    low: np.ndarray
-    middle: np.ndarray
-    high: np.ndarray
+    time: Float[np.ndarray, " N"]
+    low: Float[np.ndarray, " N"]
+    middle: Float[np.ndarray, " N"]
+    high: Float[np.ndarray, " N"]
 
 
 @dataclass(frozen=True, eq=False)
 class Conformal:
-    """Bands around the predictions of a trained model, as wide as what was held out asks for.
+    """Bands around the predictions of a trained model, as wide as its errors on a record of their own require.
 
-    No noise model is behind them, and the model may be wrong. They hold as often as promised on average over time, on
+    They need no noise model, and the model may be wrong. They hold as often as promised on average over time, on
     records like the one that they were calibrated on: the same excitation, the same sensors. Where a record is rougher
     than that one, they are too narrow.
 
     Attributes:
         level: how often a band should hold the measurement.
         width: from a band's middle to its bounds, by target, in its unit.
-        independent: how many independent samples the record is worth, by target; its neighbours are alike.
+        independent: how many independent samples the record is worth, by target; neighbouring samples are correlated.
         problem, trained: what predicts.
     """
 
@@ -54,7 +57,7 @@ class Conformal:
     def predict(
         self,
         data: Data | Mapping[str, ArrayLike],
-        x0: Start | Mapping[str, float] = "data",
+        x0: InitialState = "data",
     ) -> dict[str, Prediction]:
         """The targets over another record, by name; arguments as those of `Fit.conformal`."""
         time, y, _ = predicted(self.problem, self.trained, data, x0)
@@ -66,7 +69,7 @@ class Conformal:
     def coverage(
         self,
         data: Data | Mapping[str, ArrayLike],
-        x0: Start | Mapping[str, float] = "data",
+        x0: InitialState = "data",
     ) -> dict[str, float]:
         """How often the bands hold the targets of a third record, by name; arguments as those of `Fit.conformal`."""
         _, y, measured = predicted(self.problem, self.trained, data, x0)
@@ -85,7 +88,7 @@ def conformal(
     trained: Trainable,
     data: Data | Mapping[str, ArrayLike],
     level: float,
-    x0: Start | Mapping[str, float],
+    x0: InitialState,
 ) -> Conformal:
     """Calibrate bands: the quantile of the errors on a record, with the correction for its finite length.
 
@@ -121,10 +124,12 @@ def predicted(
     problem: Problem,
     trained: Trainable,
     data: Data | Mapping[str, ArrayLike],
-    x0: Start | Mapping[str, float],
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Time, predicted and measured targets of another record: shapes (N,), (N, targets), (N, targets)."""
+    x0: InitialState,
+) -> tuple[
+    Float[np.ndarray, " N"], Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets"]
+]:
+    """Time, predicted and measured targets of another record."""
     record = Data.of(data).for_system(problem.system)
     start = first_state(problem.system, record, x0)
     other = over(problem, record, start)
-    return record.time, np.asarray(other.simulate(trained).y), np.asarray(other.record.y)
+    return record.time, np.asarray(other.simulate(trained).y), np.asarray(other.measured)

@@ -1,42 +1,43 @@
-"""Residuals: whether what a model leaves over is noise, or still holds something to learn."""
+"""Residuals: whether they are noise, or still hold something to learn."""
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 from scipy.signal import correlate
 
 LAGS = 50
 """Lags at which correlations are looked at."""
 
-SURE = 4.0
-"""Standard deviations of a correlation by chance; among the lags of white noise one in 300 records has a larger one."""
+CHANCE = 4.0
+"""Standard deviations that a correlation may reach by chance; in one of 300 records of white noise a lag has more."""
 
-
-EXACT = 1e-6
-"""Share of a target that no measurement resolves."""
+NEGLIGIBLE = 1e-6
+"""Residuals of a smaller share of the target count as none: no measurement resolves them."""
 
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """What is left over of one target, and what it is correlated with.
+    """The residuals of one target, and what they are correlated with.
 
     Attributes:
         target: its name.
-        values: measured less predicted, shape (N,).
+        values: measured less predicted.
         share: their standard deviation, relative to that of the target.
-        own: autocorrelation at the lags 1 to `LAGS` (fewer where N < 4 `LAGS`), shape (lags,).
-        inputs: by input that is not constant, the correlation with it at the lags −lags to lags, shape (2 lags + 1,).
+        own: autocorrelation at the lags 1 to `LAGS` (fewer where N < 4 `LAGS`).
+        inputs: by input that is not constant, the correlation with it at the lags −lags to lags.
         bound: the size of an autocorrelation up to which it is taken for chance.
         bounds: the same for the correlations with the inputs, by input.
     """
 
     target: str
-    values: np.ndarray
+    values: Float[np.ndarray, " N"]
     share: float
-    own: np.ndarray
-    inputs: dict[str, np.ndarray]
+    own: Float[np.ndarray, " lags"]
+    inputs: dict[str, Float[np.ndarray, " 2*lags+1"]]
     bound: float
     bounds: dict[str, float]
 
@@ -51,34 +52,46 @@ class Residuals:
         return tuple(n for n, c in self.inputs.items() if np.max(np.abs(c)) > self.bounds[n])
 
     def words(self) -> str:
+        """The old name of `summary`."""
+        warnings.warn(
+            "Residuals.words() is now called summary(); the old name will go.",
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        return self.summary()
+
+    def summary(self) -> str:
         """What this means, in a sentence."""
         if self.bound >= 1:
-            return f"'{self.target}': {len(self.values)} samples are too few to tell what is left over from noise."
-        if self.share < EXACT:
-            return f"'{self.target}': what is left over is {100 * self.share:.1g} % of it; no more is to be learned."
+            return f"'{self.target}': {len(self.values)} samples are too few to tell residuals from noise."
+        if self.share < NEGLIGIBLE:
+            return f"'{self.target}': the residuals are {100 * self.share:.1g} % of it; there is nothing more to learn."
         if self.drivers:
             largest = max(float(np.max(np.abs(self.inputs[n]))) for n in self.drivers)
             return (
-                f"'{self.target}': what is left over still follows {', '.join(map(repr, self.drivers))}, up to "
+                f"'{self.target}': the residuals still follow {', '.join(map(repr, self.drivers))}, up to "
                 f"a correlation of {largest:.2g}: the model lacks something, or trained too little."
             )
         if self.is_white:
-            return f"'{self.target}': what is left over looks like white noise; nothing more is to be learned from it."
+            return f"'{self.target}': the residuals look like white noise; there is nothing more to learn from them."
         return (
-            f"'{self.target}': what is left over is no white noise, up to a correlation of "
+            f"'{self.target}': the residuals are not white noise, up to a correlation of "
             f"{np.max(np.abs(self.own)):.2g}: coloured noise, or something that the model lacks."
         )
 
 
 def residuals(
-    target: str, values: np.ndarray, inputs: dict[str, np.ndarray], sigma: float
+    target: str,
+    values: Float[np.ndarray, " N"],
+    inputs: dict[str, Float[np.ndarray, " N"]],
+    sigma: float,
 ) -> Residuals:
-    """Correlations of what is left over of a target, shape (N,), with itself and with inputs.
+    """Correlations of a target's residuals with themselves and with inputs.
 
     Arguments:
         target: its name; ``sigma``: its standard deviation.
-        values: measured less predicted, shape (N,).
-        inputs: by name, of the same shape.
+        values: measured less predicted.
+        inputs: by name.
 
     An autocorrelation of N samples of white noise has the variance 1/N. The correlation with an input that has nothing
     to do with it has ``1/N Σ ρ_k ρ'_k`` over all lags of both autocorrelations (L. Ljung: System Identification,
@@ -86,9 +99,9 @@ def residuals(
     """
     lags = max(1, min(LAGS, len(values) // 4))
     own = _correlation(values, values, lags)
-    chance = SURE / np.sqrt(len(values))
+    chance = CHANCE / np.sqrt(len(values))
 
-    def bound(u: np.ndarray) -> float:
+    def bound(u: Float[np.ndarray, " N"]) -> float:
         return float(chance * np.sqrt(max(1.0, own @ _correlation(u, u, lags))))
 
     varying = {n: u for n, u in inputs.items() if np.std(u) > 0}
@@ -103,8 +116,8 @@ def residuals(
     )
 
 
-def correlation_time(values: np.ndarray) -> float:
-    """How many samples of a signal, shape (N,), tell as much as one independent one; at least 1.
+def correlation_time(values: Float[np.ndarray, " N"]) -> float:
+    """How many samples of a signal are worth one independent sample; at least 1.
 
     ``1 + 2 Σ ρ_k``, up to the first autocorrelation that is not positive.
     """
@@ -112,7 +125,9 @@ def correlation_time(values: np.ndarray) -> float:
     return float(1 + 2 * np.sum(rho * np.cumprod(rho > 0)))
 
 
-def _correlation(a: np.ndarray, b: np.ndarray, lags: int) -> np.ndarray:
+def _correlation(
+    a: Float[np.ndarray, " N"], b: Float[np.ndarray, " N"], lags: int
+) -> Float[np.ndarray, " 2*lags+1"]:
     """The correlation of a with earlier b, at the lags −lags to lags; 0 where one of them is constant."""
     a, b = a - a.mean(), b - b.mean()
     size = np.sqrt((a @ a) * (b @ b)) or 1.0

@@ -1,0 +1,250 @@
+"""Sections of pages about trainings, from arrays with names and units: a page comes in, the section is added to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.reporting.html import Page
+from acausal.reporting.plot import (
+    Band,
+    Losses,
+    Seen,
+    plot_band,
+    plot_guides,
+    plot_losses,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+WIDE, NARROW = (9.0, 3.2), (6.0, 3.2)
+"""Sizes of figures, in inches."""
+
+MEASURED, AFTER, BEFORE = "#22303c", "#1f77b4", "#d1603d"
+"""Colours of curves."""
+
+SAMPLES_SHOWN = 2000
+"""Samples in the middle of a record that are drawn."""
+
+DIVERGENCES_SHOWN = 50
+"""Divergences that are listed."""
+
+
+class Law(NamedTuple):
+    """A learned law.
+
+    Attributes:
+        band: the law with its standard deviation.
+        seen: statistics of what the network was called with.
+        samples: some of the values that its first argument had.
+    """
+
+    band: Band
+    seen: Seen
+    samples: Float[np.ndarray, " n_samples"]
+
+
+class Correlated(Protocol):
+    """Correlations of a target's residuals, such as `Residuals`."""
+
+    @property
+    def target(self) -> str:
+        """Its name."""
+        ...
+
+    @property
+    def own(self) -> Float[np.ndarray, " lags"]:
+        """The autocorrelation, from lag 1 on."""
+        ...
+
+    @property
+    def bound(self) -> float:
+        """The size of an autocorrelation that chance reaches."""
+        ...
+
+    @property
+    def inputs(self) -> Mapping[str, Float[np.ndarray, " lags"]]:
+        """By input, the correlation with it, about lag 0."""
+        ...
+
+    @property
+    def bounds(self) -> Mapping[str, float]:
+        """The same bounds by input."""
+        ...
+
+    def summary(self) -> str:
+        """What the correlations mean, in a sentence."""
+        ...
+
+
+class Divergence(Protocol):
+    """Something that diverged in an update; its text says what."""
+
+    @property
+    def epoch(self) -> int:
+        """The update."""
+        ...
+
+
+def figure(size: tuple[float, float], draw: Callable[[Axes], None]) -> Figure:
+    """A figure with one pair of axes."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=size, layout="constrained")
+    draw(figure.subplots())
+    return figure
+
+
+def add_losses(page: Page, histories: Mapping[str, Losses]) -> None:
+    """The losses of trainings, by label."""
+    page.figure(
+        figure(WIDE, lambda ax: plot_losses(ax, histories)),
+        "The losses, update by update: of the batches (thin) and over the whole record."
+        if len(histories) > 1
+        else "The loss, update by update: of the batches (thin) and over the whole record.",
+    )
+
+
+def add_trajectories(
+    page: Page,
+    time: Float[np.ndarray, " N"],
+    measured: Float[np.ndarray, "N n_targets"],
+    before: Float[np.ndarray, "N n_targets"],
+    after: Float[np.ndarray, "N n_targets"],
+    units: Mapping[str, str],
+) -> None:
+    """What was measured, and simulated before and after training; ``units`` has the targets in order."""
+    page.section("Measured and simulated")
+    rows = _middle(len(time))
+    low, high = measured[rows].min(axis=0), measured[rows].max(axis=0)
+    room = 0.5 * (high - low) + 1e-12
+    curves = {
+        "measured": (measured, MEASURED, 1.6, 0.5),
+        "before training": (before, BEFORE, 0.9, 0.9),
+        "after training": (after, AFTER, 1.1, 1.0),
+    }
+    for i, (name, unit) in enumerate(units.items()):
+
+        def draw(ax: Axes, i: int = i, name: str = name, unit: str = unit) -> None:
+            for label, (values, color, width, alpha) in curves.items():
+                near = np.clip(values[rows, i], low[i] - 2 * room[i], high[i] + 2 * room[i])
+                ax.plot(time[rows], near, color=color, lw=width, alpha=alpha, label=label)
+            bottom, top = ax.get_ylim()
+            ax.set_ylim(max(bottom, low[i] - room[i]), min(top, high[i] + room[i]))
+            _label_trajectory(ax, name, unit, columns=3)
+
+        page.figure(figure(WIDE, draw), f"A stretch of '{name}'.")
+
+
+def add_predictions(
+    page: Page,
+    measured: Float[np.ndarray, "N n_targets"],
+    predicted: Mapping[str, Band],
+    units: Mapping[str, str],
+) -> None:
+    """What was measured, and what members of an ensemble predict on average, by target."""
+    page.section("Measured and simulated")
+    rows = _middle(len(measured))
+    for i, (name, band) in enumerate(predicted.items()):
+        shown = _Part(band.x[rows], band.law[rows], band.sigma[rows])
+
+        def draw(ax: Axes, i: int = i, name: str = name, shown: _Part = shown) -> None:
+            ax.plot(shown.x, measured[rows, i], color=MEASURED, lw=1.6, alpha=0.5, label="measured")
+            plot_band(ax, shown, color=AFTER, label="mean of the members")
+            _label_trajectory(ax, name, units[name], columns=2)
+
+        page.figure(figure(WIDE, draw), f"A stretch of '{name}', two standard deviations wide.")
+
+
+def add_laws(page: Page, laws: Mapping[str, Law]) -> None:
+    """Learned laws by network with their bands, over what the networks have seen."""
+    if not laws:
+        return
+    page.section("Learned laws")
+    page.text(
+        "The band is two standard deviations wide to either side. Dashed and solid lines mark one and two standard "
+        "deviations of what the network has seen; in the shaded part it extrapolates. Ticks are samples."
+    )
+    for name, law in laws.items():
+
+        def draw(ax: Axes, name: str = name, law: Law = law) -> None:
+            band, seen, samples = law
+            plot_band(ax, band, color=AFTER)
+            low, high = float(np.min(band.law)), float(np.max(band.law))
+            room = 0.25 * (high - low) + 1e-12
+            ax.set_ylim(low - room, high + room)
+            plot_guides(ax, seen, band.x[0], band.x[-1])
+            ax.plot(samples, np.full(len(samples), low - room), "|", color=MEASURED, alpha=0.25)
+            ax.set(xlabel="argument", ylabel=name)
+
+        page.figure(figure(NARROW, draw), f"The law of '{name}' and how sure it is.")
+
+
+def add_parameters(
+    page: Page, header: Sequence[str], rows: Sequence[Sequence[str]], remarks: Sequence[str] = ()
+) -> None:
+    """Trained parameters in a table, if there are any, and sentences about them and the laws."""
+    if rows:
+        page.section("Trained parameters")
+        page.table(header, rows)
+    for sentence in remarks:
+        page.text(sentence)
+
+
+def add_residuals(page: Page, found: Sequence[Correlated]) -> None:
+    """Correlations of residuals with themselves and with inputs, target by target."""
+    page.section("Residuals")
+    for residuals in found:
+        page.text(residuals.summary())
+        rows = {"itself": (residuals.own, residuals.bound)}
+        rows |= {n: (c, residuals.bounds[n]) for n, c in residuals.inputs.items()}
+
+        def draw(ax: Axes, rows: Mapping[str, tuple[np.ndarray, float]] = rows) -> None:
+            for label, (values, bound) in rows.items():
+                lags = np.arange(len(values)) + (1 if label == "itself" else -(len(values) // 2))
+                (line,) = ax.plot(lags, values, lw=1.1, label=f"with {label}")
+                for side in (-bound, bound):
+                    ax.plot(lags[[0, -1]], [side, side], color=line.get_color(), lw=0.9, ls=":")
+            ax.set(xlabel="lag [samples]", ylabel="correlation")
+            ax.grid(alpha=0.25)
+            ax.legend(frameon=False)
+
+        page.figure(
+            figure(WIDE, draw),
+            f"Correlations of the residuals of '{residuals.target}'; dotted, what chance reaches.",
+        )
+
+
+def add_divergences(page: Page, divergences: Sequence[Divergence]) -> None:
+    """What diverged in the training, if anything did."""
+    if not divergences:
+        return
+    page.section("What diverged")
+    page.text(f"{len(divergences)} times; the first {DIVERGENCES_SHOWN} at most:")
+    rows = [(d.epoch, str(d)) for d in divergences[:DIVERGENCES_SHOWN]]
+    page.table(("epoch", "what"), rows)
+
+
+class _Part(NamedTuple):
+    """Some points of a band."""
+
+    x: Float[np.ndarray, " points"]
+    law: Float[np.ndarray, " points"]
+    sigma: Float[np.ndarray, " points"]
+
+
+def _middle(samples: int) -> slice:
+    """The rows in the middle of a record that are drawn."""
+    middle = samples // 2
+    return slice(max(0, middle - SAMPLES_SHOWN // 2), middle + SAMPLES_SHOWN // 2)
+
+
+def _label_trajectory(ax: Axes, name: str, unit: str, columns: int) -> None:
+    ax.set(xlabel="time [s]", ylabel=f"{name} [{unit}]")
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False, ncols=columns, loc="lower right", bbox_to_anchor=(1, 1))

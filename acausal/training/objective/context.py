@@ -1,0 +1,42 @@
+"""Where a model is over its record before training, and what networks are called with there."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from acausal.errors import TrainingError
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.regularizers import Context, Trajectory
+
+SAMPLES = 1000
+"""At most so many samples of the record are in the context of regularizers, evenly spread."""
+
+
+def context(problem: Problem) -> Context:
+    """What regularizers may know besides the parameters.
+
+    Raises:
+        TrainingError: if states are not measured, and the model diverges.
+    """
+    rows = np.unique(np.linspace(0, problem.samples - 1, SAMPLES).astype(int))
+    x = states_before_training(problem)
+    passed = Trajectory(problem.system, problem.times[rows], x[rows], problem.inputs[rows])
+    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)), passed)
+
+
+def states_before_training(problem: Problem) -> Float[Array, "n_samples n_states"]:
+    """The states at every sample: as measured, else as the model has them before training.
+
+    Raises:
+        TrainingError: if the model diverges.
+    """
+    if problem.measured_states is not None:
+        return problem.measured_states
+    x = problem.simulate(problem.start()).x
+    if not bool(jnp.isfinite(x).all()):
+        raise TrainingError(
+            "The model diverges over the record before training; start from better parameters."
+        )
+    return x

@@ -1,0 +1,248 @@
+"""The options of a training: their names, types, defaults and meanings, written once for `fit` and `ensemble`.
+
+`FitOptions` is what all of the training reads. `FitKeywords` repeats names and types, because a type checker takes the
+keywords of a function from a `TypedDict` alone; a test compares the two.
+"""
+
+from __future__ import annotations
+
+import inspect
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from functools import cached_property
+from pathlib import Path
+from typing import Any, TypedDict, TypeVar
+
+import numpy as np
+import optax
+from jax.typing import DTypeLike
+
+from acausal.errors import TrainingError, nearest
+from acausal.simulation import Solver
+from acausal.training.objective.held_out import Validation
+from acausal.training.objective.initial_state import InitialState
+from acausal.training.objective.losses import Loss
+from acausal.training.objective.modifiers import Modifier
+from acausal.training.objective.regularizers import Regularizer
+from acausal.training.objective.sharding import Device
+from acausal.training.progress import Observer
+
+UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
+"""The parts that a strategy is made of, and how many updates each makes by default."""
+
+RENAMED = {"tolerances": "parameter_spread"}
+"""Old names of options, which are accepted for one release."""
+
+OPTIONS = "options: see `acausal.training.FitOptions`, each by its name"
+"""A line in the documentation of functions with options, in whose place `help` shows all of them."""
+
+
+class FitKeywords(TypedDict, total=False):
+    """The keywords of `acausal.fit` for type checkers; see `FitOptions`."""
+
+    train: Iterable[str] | None
+    modifiers: Mapping[str, float | Modifier] | Iterable[str] | None
+    gamma: float
+    parameter_spread: Mapping[str, float] | None
+    loss: str | Loss
+    regularizers: Regularizer | Iterable[Regularizer]
+    sequence_length: float | None
+    batch_size: int
+    subsample: float | None
+    strategy: str | Sequence[str]
+    epochs: int | Sequence[int] | None
+    optimizer: optax.GradientTransformation | None
+    dt: float | None
+    solver: str | Solver
+    x0: InitialState
+    dtype: DTypeLike
+    devices: Sequence[Device] | None
+    validation: Validation
+    evaluate_every: int | None
+    patience: int | None
+    progress: bool
+    observers: Iterable[Observer]
+    checkpoint: str | Path | None
+    checkpoint_every: float
+    resume: bool
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FitOptions:
+    """The options of `acausal.fit` and `acausal.ensemble`, each given there by its name.
+
+    Attributes:
+        train: names of the networks to train; by default all.
+        modifiers: parameters to train besides them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
+            by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
+        gamma: the γ of modifiers without their own.
+        parameter_spread: parameters that differ from run to run, with their standard deviations: the loss of a
+            simulation is the mean over the model and those with one of these parameters a deviation higher or lower,
+            so that the model follows other runs, too.
+        loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
+            (M, k), (M, k), (k,); averaged over a batch's sequences.
+        regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
+        sequence_length: in seconds; ``None`` takes the whole record at once.
+        batch_size: sequences in each update.
+        subsample: fraction of each sequence's points, drawn at random, that count in the loss.
+        strategy: what to do, or several parts one after the other, each from where the one before was best:
+            ``"sequences"`` as the options above say; ``"equation_error"``: targets computed from measured
+            states without simulation, in a second or so, biased by noise; ``"whole_record"``: L-BFGS on the
+            simulation of the whole record; ``"gauss_newton"``: damped Gauss-Newton steps (Levenberg-Marquardt) on it,
+            for up to some 60 weights and parameters. ``("equation_error", "whole_record")`` is the fastest way where
+            all states are measured, ``"whole_record"`` with ``x0="fit"`` where they are not.
+        epochs: number of updates, or one for each part of the strategy; by default 1000 for sequences, 300 for
+            the equation error, 200 for the whole record and 50 for Gauss-Newton.
+        optimizer: of sequences: any optax optimizer; by default Adam, its rate falling from 0.01 to 0.0001 as a
+            cosine.
+        dt: step of the integration in seconds, a whole part of the sample time (the default).
+        solver: of the fixed steps, by name or a diffrax solver.
+        x0: state at the record's start, for sequences that begin there and for the loss over the whole record:
+            ``"data"`` as measured, ``"model"`` as the model starts, or values by name that replace the measured ones.
+            ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
+            then lie side by side (multiple shooting). No state need be measured.
+        dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
+        devices: which share the sequences of every batch, such as ``jax.devices()``; ``batch_size`` is a
+            multiple of their number. By default JAX's default device alone.
+        validation: what to hold out, which chooses the best: the last part of the record, such as 0.2 (predicted
+            in one simulation from the record's start), or another record (which starts as ``x0`` says; with ``"fit"``
+            from its own measured states).
+        evaluate_every: updates between two evaluations over the whole record and what is held out, among which the
+            best is returned; by default a tenth of the epochs.
+        patience: evaluations without a better one after which a part of the strategy ends.
+        progress: whether to show progress, if there is a terminal or a notebook.
+        observers: called with a `Progress` about twice a second.
+        checkpoint: a file ``….safetensors``, or a folder for it, that holds all of the training: written before the
+            first update, then at intervals and at the end, also after Ctrl-C; never half.
+        checkpoint_every: seconds between two writings.
+        resume: whether to go on from the checkpoint if there is one; all other arguments must be as they were. The
+            training ends where it would have ended without the break, bit for bit on the same machine.
+    """
+
+    train: Iterable[str] | None = None
+    modifiers: Mapping[str, float | Modifier] | Iterable[str] | None = None
+    gamma: float = 0.2
+    parameter_spread: Mapping[str, float] | None = None
+    loss: str | Loss = "nrmse"
+    regularizers: Regularizer | Iterable[Regularizer] = ()
+    sequence_length: float | None = None
+    batch_size: int = 1
+    subsample: float | None = None
+    strategy: str | Sequence[str] = "sequences"
+    epochs: int | Sequence[int] | None = None
+    optimizer: optax.GradientTransformation | None = None
+    dt: float | None = None
+    solver: str | Solver = "heun"
+    x0: InitialState = "data"
+    dtype: DTypeLike = np.float64
+    devices: Sequence[Device] | None = None
+    validation: Validation = None
+    evaluate_every: int | None = None
+    patience: int | None = None
+    progress: bool = True
+    observers: Iterable[Observer] = ()
+    checkpoint: str | Path | None = None
+    checkpoint_every: float = 60.0
+    resume: bool = False
+
+    @staticmethod
+    def of(function: str, given: Mapping[str, Any]) -> FitOptions:
+        """The options from the keywords that a function of the user's was given; to be called in that function.
+
+        Raises:
+            TypeError: for a keyword that there is not, or an option under its old and its new name.
+            TrainingError: for a value that no training could have.
+        """
+        known = [f.name for f in fields(FitOptions)]
+        options: dict[str, Any] = {}
+        for name, value in given.items():
+            new = RENAMED.get(name, name)
+            if new not in known:
+                raise TypeError(f"{function} has no argument '{name}': {nearest(name, known)}")
+            if new != name:
+                if new in given:
+                    raise TypeError(f"{function}: '{name}' is the old name of '{new}'; give one.")
+                warnings.warn(
+                    f"{function}(..., {name}=) is now called {new}=; the old name will go.",
+                    DeprecationWarning,
+                    stacklevel=3,
+                )
+            options[new] = value
+        return FitOptions(**options)
+
+    def __post_init__(self) -> None:
+        """What can be checked without a model and data.
+
+        Raises:
+            TrainingError: for what fits no training.
+        """
+        for function in (*self.penalties, *self.called):
+            if not callable(function):
+                raise TrainingError(
+                    f"{function!r:.80} is called in the training, and is no function."
+                )
+        for name in self.parts:
+            if name not in UPDATES:
+                raise TrainingError(f"No strategy '{name}': {nearest(name, UPDATES)}")
+        if self.patience is not None and self.patience < 1:
+            raise TrainingError(f"patience={self.patience}; at least one evaluation is needed.")
+        if self.evaluate_every is not None and self.evaluate_every < 1:
+            raise TrainingError(f"evaluate_every={self.evaluate_every}; give one update or more.")
+        if self.optimizer is not None and not hasattr(self.optimizer, "update"):
+            raise TrainingError(
+                f"optimizer={self.optimizer!r:.80} is none of optax; give one such as optax.adam(0.01)."
+            )
+        self._check_updates()
+
+    def _check_updates(self) -> None:
+        if not self.parts or len(self.updates) != len(self.parts):
+            raise TrainingError(
+                f"epochs={self.epochs} for the strategy {self.parts}: give one number, or one for each part."
+            )
+        for count in self.updates:
+            if count != int(count):
+                raise TrainingError(f"epochs={self.epochs}; give a whole number of updates.")
+            if count < 1:
+                raise TrainingError(f"epochs={self.epochs}; at least one is needed.")
+
+    @cached_property
+    def penalties(self) -> tuple[Regularizer, ...]:
+        """The regularizers, also where one alone is given."""
+        given = self.regularizers
+        return (given,) if callable(given) else tuple(given)
+
+    @cached_property
+    def called(self) -> tuple[Observer, ...]:
+        """The observers."""
+        return tuple(self.observers)
+
+    @cached_property
+    def parts(self) -> tuple[str, ...]:
+        """The parts of the strategy."""
+        return (self.strategy,) if isinstance(self.strategy, str) else tuple(self.strategy)
+
+    @cached_property
+    def updates(self) -> tuple[int, ...]:
+        """How many updates each part makes at most."""
+        if self.epochs is None:
+            return tuple(UPDATES[name] for name in self.parts)
+        if isinstance(self.epochs, int | float):
+            return (self.epochs,) * len(self.parts)
+        return tuple(self.epochs)
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def documented(function: Function) -> Function:
+    """The same function, whose signature and documentation at run time name every option: for `help` and notebooks."""
+    signature = inspect.signature(function)
+    own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    options = inspect.signature(FitOptions).parameters.values()
+    vars(function)["__signature__"] = signature.replace(parameters=[*own, *options])
+    head, line, tail = (function.__doc__ or "").partition(OPTIONS)
+    listed = (FitOptions.__doc__ or "").partition("Attributes:\n")[2].rstrip()
+    if line and listed:
+        function.__doc__ = f"{head}{listed.lstrip()}{tail[1:]}"
+    return function

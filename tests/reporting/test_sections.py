@@ -1,0 +1,93 @@
+"""Sections of pages are made from plain arrays with names: no training is needed."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy as np
+
+from acausal.reporting import (
+    Law,
+    Page,
+    add_divergences,
+    add_laws,
+    add_parameters,
+    add_predictions,
+    add_residuals,
+    add_trajectories,
+)
+
+TIME = np.linspace(0.0, 1.0, 50)
+
+
+@dataclass(frozen=True)
+class Curve:
+    x: np.ndarray
+    law: np.ndarray
+    sigma: np.ndarray
+
+
+@dataclass(frozen=True)
+class Statistics:
+    mean: np.ndarray
+    sigma: np.ndarray
+
+
+@dataclass(frozen=True)
+class Correlations:
+    target: str
+    own: np.ndarray
+    bound: float
+    inputs: dict[str, np.ndarray]
+    bounds: dict[str, float]
+
+    def summary(self) -> str:
+        return f"{self.target} is white."
+
+
+@dataclass(frozen=True)
+class Blown:
+    epoch: int
+
+    def __str__(self) -> str:
+        return "it blew up"
+
+
+def written(page: Page, folder: Path) -> str:
+    return page.write(folder / "index.html").read_text(encoding="utf-8")
+
+
+def test_every_target_has_a_figure_with_its_unit(tmp_path: Path) -> None:
+    page, y = Page("Title"), np.stack([TIME, TIME**2], axis=1)
+    add_trajectories(page, TIME, y, 0 * y, y + 0.01, {"mass.s": "m", "mass.v": "m/s"})
+    bands = {"mass.s": Curve(TIME, TIME, 0 * TIME + 0.1)}
+    add_predictions(page, y, bands, {"mass.s": "m"})
+    text = written(page, tmp_path)
+    assert text.count("<figure>") == 3
+    assert "A stretch of &#x27;mass.v&#x27;." in text
+
+
+def test_laws_parameters_and_residuals(tmp_path: Path) -> None:
+    page, one = Page("Title"), np.ones(1)
+    law = Law(Curve(TIME, TIME, 0 * TIME), Statistics(0.5 * one, 0.2 * one), TIME[::10])
+    add_laws(page, {"net": law})
+    add_parameters(page, ("parameter", "value"), [("mass.m", "2 kg")], ["It is known."])
+    add_residuals(
+        page, [Correlations("mass.a", 0.1 * TIME, 0.2, {"push.f": TIME}, {"push.f": 0.3})]
+    )
+    add_divergences(page, [Blown(3)] * 60)
+    text = written(page, tmp_path)
+    for piece in ("Learned laws", "mass.m", "It is known.", "mass.a is white.", "60 times"):
+        assert piece in text
+    assert text.count("it blew up") == 50
+
+
+def test_what_is_empty_has_no_heading(tmp_path: Path) -> None:
+    page = Page("Title")
+    add_laws(page, {})
+    add_parameters(page, ("parameter", "value"), [])
+    add_divergences(page, [])
+    assert "<h2>" not in written(page, tmp_path)
