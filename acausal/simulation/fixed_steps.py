@@ -16,7 +16,7 @@ import jax.numpy as jnp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal._jax import march
+from acausal._jax import stored_scan
 from acausal.data import bow
 from acausal.simulation.inputs import Drive, Samples
 from acausal.simulation.solvers import Solver
@@ -151,7 +151,7 @@ def integrate(
 
     own, samples = None if equal is not None else steps.h, steps.inputs
     rows = (steps.t, own, samples.start, samples.end, samples.bends)
-    xs, end, ys = march(step, constants, x0, rows, direct=direct)
+    xs, end, ys = stored_scan(step, constants, x0, rows, direct=direct)
     return xs, ys, end
 
 
