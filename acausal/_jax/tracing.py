@@ -6,7 +6,8 @@ import jax
 import jax.numpy as jnp
 from jax import Array
 from jax.core import Tracer
-from jax.typing import ArrayLike
+from jax.typing import ArrayLike as JaxArrayLike
+from numpy.typing import ArrayLike
 
 
 def traced(*trees: object) -> bool:
@@ -14,7 +15,7 @@ def traced(*trees: object) -> bool:
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
 
 
-def array(value: ArrayLike) -> Array:
+def array(value: ArrayLike | JaxArrayLike) -> Array:
     """A value as an array of floats; where it is known, it stays so within what JAX traces."""
     if traced(value):
         return jnp.asarray(value, float)

@@ -164,7 +164,7 @@ def test_interpolation_goes_along_with_the_record():
     part = record.between(0, 0.5).select(["u", "y"])
     assert part.signal("u").interpolation == "previous"
     assert part.signal("y").interpolation == "linear"
-    assert ac.Data(t, {"u": t}, interpolation="band-limited").signal("u").bends is not None
+    assert ac.Data(t, {"u": t}, interpolation="band-limited").signal("u").coefficients is not None
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from jax import Array
 from jax.sharding import Mesh
 
 from acausal._jax import cast
+from acausal.codegen import Values
 from acausal.simulation import Solver, integrate
 from acausal.training.objective.arguments import arguments
 from acausal.training.objective.losses import Loss
@@ -242,9 +243,12 @@ class Problem(eqx.Module):
         self, packed: Any, x0: Array, steps: Any, *, direct: bool = False
     ) -> tuple[Array, Array, Array]:
         """States and targets at every sample, and the state at the end."""
+        packed, x0, steps = cast((packed, x0, steps), self.dtype)
+        first: Any = steps.t[0]
         x, predicted, end = integrate(
             self.system,
-            *cast((packed, x0, steps), self.dtype),
+            Values(first, x0, steps.inputs.start[0], packed),
+            steps,
             self.solver,
             outputs=self.targets,
             substeps=self.substeps,
