@@ -22,7 +22,7 @@ from jax.scipy.special import erf
 from scipy.linalg import solve_triangular
 
 from acausal.errors import TrainingError
-from acausal.networks import Potential, law_of, output_scale
+from acausal.networks import EnergyLaw, law_of, output_scale
 from acausal.training.objective.problem import Problem, Trainable, modified
 from acausal.training.optimizers.gradients import by_each
 from acausal.training.uncertainty.residuals import correlation_time
@@ -56,7 +56,7 @@ class Bumped(eqx.Module):
 
     def __call__(self, *inputs: Any) -> Array:
         """The law, or the energy whose slope it is."""
-        shapes = self.areas if isinstance(self.net, Potential) else self.bumps
+        shapes = self.areas if isinstance(self.net, EnergyLaw) else self.bumps
         return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
 
     def bumps(self, x: Array) -> Array:
