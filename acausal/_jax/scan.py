@@ -8,22 +8,32 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Protocol, TypeAlias
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array, lax
+from jax import lax
 from jax.custom_derivatives import SymbolicZero
+from jaxtyping import Array, PyTree, Shaped
 
 from acausal._jax import primitives
 from acausal._jax.batching import batched, is_small, operations
 
-Step = Callable[[Any, Array, Any], tuple[Array, Any]]
+Step: TypeAlias = Callable[[PyTree, Array, PyTree], tuple[Array, PyTree]]
 """(constants, state, row) -> (next state, outputs), of arrays."""
 
-Flat = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
+Flat: TypeAlias = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
 """The same with flat lists: [next state, *outputs]."""
+
+_Cotangents: TypeAlias = tuple[list[Array | None], Array, list[Array | None]]
+"""Of constants, first state and rows; None for an array that is not differentiated by."""
+
+_Carry: TypeAlias = tuple[Array, list[Array]]
+"""The adjoint of the state, and the totals of constants' cotangents."""
+
+_Sample: TypeAlias = tuple[Array, list[Array], Array | None, list[Array | None]]
+"""State and row of a step, and the cotangents of the state and the outputs there."""
 
 AT_ONCE, MANY = 2, 2
 """Steps of the derivative in one iteration of its loop, where totals have so many numbers for each operation of a step.
@@ -34,8 +44,13 @@ operation, that saves a fifth of the time; for smaller networks it saves nothing
 
 
 def stored_scan(
-    step: Step, constants: Any, x0: Array, rows: Any, *, direct: bool = False
-) -> tuple[Array, Array, Any]:
+    step: Step,
+    constants: PyTree,
+    x0: Shaped[Array, " n_states"],
+    rows: PyTree,
+    *,
+    direct: bool = False,
+) -> tuple[Shaped[Array, "n n_states"], Shaped[Array, " n_states"], PyTree]:
     """Repeat a step for every row, each from the state where the one before ended, as `jax.lax.scan` does.
 
     Arguments:
@@ -62,6 +77,13 @@ def stored_scan(
     run = partial(_repeating, operations(closed.jaxpr)) if is_repeated else _forward
     states, end, *outputs = run(flat, [*closed.consts, *shared], x0, each)
     return states, end, jax.tree.unflatten(jax.tree.structure(shapes[1]), outputs)
+
+
+class _Input(Protocol):
+    """What JAX gives a forward rule: a value, and whether it is differentiated by."""
+
+    value: Array
+    perturbed: bool
 
 
 class _Saved(eqx.Module):
@@ -105,23 +127,23 @@ def _repeating(
     def scan(constants: list[Array], x0: Array, rows: list[Array]) -> Sequence[Array]:
         return run(*constants, x0, *rows)
 
-    def keep(constants: list[Any], x0: Any, rows: list[Any]) -> tuple[Sequence[Array], _Saved]:
+    def keep(
+        constants: list[_Input], x0: _Input, rows: list[_Input]
+    ) -> tuple[Sequence[Array], _Saved]:
         moved = tuple(p.perturbed for p in constants), tuple(p.perturbed for p in rows)
         shared, each = [p.value for p in constants], [p.value for p in rows]
         results = run(*shared, x0.value, *each)
         return results, _Saved(shared, results[0], each, moved, size)
 
-    def back(saved: _Saved, cotangents: list[Any]) -> tuple[list[Any], Array, list[Any]]:
+    def back(saved: _Saved, cotangents: list[Array | SymbolicZero]) -> _Cotangents:
         return _back(step, saved, [None if isinstance(c, SymbolicZero) else c for c in cotangents])
 
     scan.defvjp(keep, back, symbolic_zeros=True)
     return scan(constants, x0, rows)
 
 
-def _back(
-    step: Flat, saved: _Saved, cotangents: list[Array | None]
-) -> tuple[list[Any], Array, list[Any]]:
-    """Cotangents of constants, first state and rows; ``None`` for what is not differentiated by."""
+def _back(step: Flat, saved: _Saved, cotangents: list[Array | None]) -> _Cotangents:
+    """Cotangents of constants, first state and rows."""
     n, m = len(saved.constants), len(saved.rows)
     some_constants, some_rows = saved.moved
     given = [c is not None for c in cotangents]
@@ -130,7 +152,7 @@ def _back(
         constants, states, rows = list(args[:n]), args[n], list(args[n + 1 : n + 1 + m])
         to_states, to_end, *to_outputs = _scatter(given, args[n + 1 + m :])
 
-        def body(carry: Any, sample: Any) -> Any:
+        def body(carry: _Carry, sample: _Sample) -> tuple[_Carry, list[Array]]:
             adjoint, totals = carry
             x, row, to_state, to_output = sample
 
@@ -164,7 +186,7 @@ def _some(values: Sequence[Array], chosen: Sequence[bool]) -> list[Array]:
     return [v for v, is_chosen in zip(values, chosen, strict=True) if is_chosen]
 
 
-def _scatter(chosen: Sequence[bool], values: Sequence[Array]) -> list[Any]:
+def _scatter(chosen: Sequence[bool], values: Sequence[Array]) -> list[Array | None]:
     """The values in the chosen places, ``None`` in the others."""
     own = iter(values)
     return [next(own) if is_chosen else None for is_chosen in chosen]

@@ -18,10 +18,10 @@ from tests.support.oscillator import plain
 RATE, STEP = 3.0, 0.1
 
 
-class Expensive(dfx.ODETerm):
+class Expensive(dfx.ODETerm[Any]):
     """A term for which diffrax solves for a derivative times the step."""
 
-    def is_vf_expensive(self, *args: Any) -> bool:
+    def is_vf_expensive(self, t0: Any, t1: Any, y: Any, args: Any) -> bool:
         return True
 
 
@@ -51,9 +51,9 @@ def test_the_state_of_a_stage_is_read_from_the_arguments(
 
     monkeypatch.setattr(stages, "stage_of", noted)
     solver: Any = solvers.for_fixed_steps(solvers.solver_named(name))
-    x0 = jnp.ones(2)
-    memory = solver.init(term(decay), 0.0, STEP, x0, None)
-    solver.step(term(decay), 0.0, STEP, x0, None, memory, False)
+    x0, start, end = jnp.ones(2), jnp.asarray(0.0), jnp.asarray(STEP)
+    memory = solver.init(term(decay), start, end, x0, None)
+    solver.step(term(decay), start, end, x0, None, memory, False)
     jax.effects_barrier()
     assert seen
     np.testing.assert_allclose(seen[-1][0], factor * seen[-1][1], rtol=1e-6)
