@@ -120,7 +120,7 @@ def distill(
 
 def _checked(low: float, high: float, terms: int, among: Sequence[str]) -> tuple[str, ...]:
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
-        raise TrainingError(f"distill: {low:g} to {high:g} is no interval; give low < high.")
+        raise TrainingError(f"distill: {low:g} to {high:g} is not an interval; give low < high.")
     if terms < 1:
         raise TrainingError(f"distill: terms={terms}; a formula has at least one.")
     for name in among:
@@ -138,7 +138,7 @@ def _values(network: Callable[..., Array], x: Points) -> Points:
         y = None
     if y is None or y.shape != x.shape:
         raise TrainingError(
-            "distill: the network is no law of one variable; fix its other arguments: "
+            "distill: the network is not a law of one variable; fix its other arguments: "
             "distill(lambda x: network(x, 293.15), low, high)."
         )
     if not np.isfinite(y).all():

@@ -113,13 +113,13 @@ class Data:
         """The record in the model's units.
 
         Raises:
-            DataError: for a name that is no variable of the model, or a unit of another dimension.
+            DataError: for a name that is not a variable of the model, or a unit of another dimension.
         """
         known = (*system.variables, *system.inputs)
         unknown = [n for n in self.signals if n not in known]
         if unknown:
             raise DataError(
-                f"The data have {listing(unknown)}, which the model has not: "
+                f"The data have {listing(unknown)}, but the model does not: "
                 f"{nearest(unknown[0], known)} Leave others out by data.select([...])."
             )
         if self.units is None:
@@ -241,7 +241,7 @@ def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:
         match = HEADER.fullmatch(cell)
         if match is None or not match["name"]:
             raise DataError(
-                f"{where}: '{cell}' is no column header; write 'name' or 'name [unit]'."
+                f"{where}: '{cell}' is not a column header; write 'name' or 'name [unit]'."
             )
         name = match["name"]
         if name in names:
@@ -260,7 +260,7 @@ def _numbers(row: list[str], names: list[str], where: str) -> list[float]:
     except ValueError:
         pass
     name, cell = next((n, c) for n, c in zip(names, row, strict=True) if not _is_number(c))
-    raise DataError(f"{where}: '{cell}' in column '{name}' is no number.")
+    raise DataError(f"{where}: '{cell}' in column '{name}' is not a number.")
 
 
 def _is_number(cell: str) -> bool:

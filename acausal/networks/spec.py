@@ -81,7 +81,9 @@ class NetworkSpec:
             )
         for name, value in (("floor", self.floor), ("start", self.start)):
             if not 0 <= value < math.inf:
-                raise DeclarationError(f"{name}={value} is a slope; give zero or more")
+                raise DeclarationError(
+                    f"{name}={value} is a derivative of an increasing law; give zero or more"
+                )
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
                 "limits=... says from where a law is extrapolated; say how by extrapolation='linear' or another"

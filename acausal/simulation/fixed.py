@@ -44,7 +44,7 @@ def simulate_fixed(
         direct: whether derivatives in forward mode must work, too.
 
     Raises:
-        DataError: for a time to save that is no step's end.
+        DataError: for a time to save that is not a step's end.
         SimulationError: if a value is not finite.
     """
     rows = slice(None) if saved is None else rows_of(ends, saved)

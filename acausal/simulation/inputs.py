@@ -44,7 +44,7 @@ class Function(eqx.Module):
         """The function's value as a scalar array.
 
         Raises:
-            DataError: for a function that JAX cannot trace, or that returns no scalar.
+            DataError: for a function that JAX cannot trace, or that does not return a scalar.
         """
         try:
             value = jnp.asarray(self.function(t), jnp.result_type(t))
@@ -55,7 +55,7 @@ class Function(eqx.Module):
             ) from error
         if value.shape != ():
             raise DataError(
-                f"Input '{self.name}' is a function that returns shape {value.shape}, no scalar."
+                f"Input '{self.name}' is a function that returns shape {value.shape}, not a scalar."
             )
         return value
 

@@ -52,8 +52,7 @@ class Run(NamedTuple):
 
     def at(self, t: ArrayLike, x: Float[Array | np.ndarray, " n_states"]) -> Values:
         """The values of the model at a time and a state."""
-        point = self.start._replace(t=t, x=jnp.asarray(x), u=evaluate(self.inputs, t))
-        return self.system.values(*point)
+        return self.start._replace(t=t, x=jnp.asarray(x), u=evaluate(self.inputs, t))
 
     def check_start(self) -> None:
         """Refuse an initial state that is not finite."""

@@ -125,10 +125,10 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
     try:
         start, end = (float(v) for v in t)
     except (TypeError, ValueError):
-        raise DataError(f"t={t!r} is no span of time; give (start, end) in seconds.") from None
+        raise DataError(f"t={t!r} is not a span of time; give (start, end) in seconds.") from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
         raise DataError(
-            f"t=({start:g}, {end:g}) is no span of time; give (start, end), start < end."
+            f"t=({start:g}, {end:g}) is not a span of time; give (start, end), start < end."
         )
     return start, end
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import equinox as eqx
 import jax
@@ -55,7 +55,7 @@ class Solution:
     @property
     def t(self) -> Float[Array, " n"]:
         """Times, in seconds."""
-        return jax.numpy.asarray(self.values.t)
+        return cast(Array, self.values.t)
 
     @property
     def x(self) -> Float[Array, "n n_states"]:

@@ -103,14 +103,14 @@ def for_fixed_steps(solver: Solver, dtype: DTypeLike = np.float64) -> Solver:
         dtype: precision of the steps.
 
     Raises:
-        SimulationError: for a solver that is no Runge–Kutta scheme.
+        SimulationError: for a solver that is not a Runge–Kutta scheme.
     """
     if isinstance(solver, dfx.AbstractERK):
         return solver
     if not isinstance(solver, dfx.ImplicitEuler | dfx.AbstractRungeKutta):
         name = type(solver).__name__
         raise SimulationError(
-            f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
+            f"{name} is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
         )
     tolerance = STAGE_TOLERANCE[np.dtype(dtype).name]
     newton = StageNewton(rtol=tolerance, atol=tolerance, diverges=np.inf)

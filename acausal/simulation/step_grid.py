@@ -18,7 +18,7 @@ def step_ends(start: float, end: float, dt: float) -> Float[np.ndarray, " n_ends
         DataError: if they do not divide the span.
     """
     if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
-        raise DataError(f"dt={dt!r} is no step; give a positive time in seconds.")
+        raise DataError(f"dt={dt!r} is not a step; give a positive time in seconds.")
     span = end - start
     n = max(round(span / dt), 1)
     if abs(span / dt - n) > ON_GRID * n:
@@ -42,7 +42,7 @@ def rows_of(
     off = np.abs(position - rows) > ON_GRID * len(ends)
     if off.any():
         raise DataError(
-            f"saveat has {times[off][0]:g} s, which is no step's end; "
+            f"saveat has {times[off][0]:g} s, which is not a step's end; "
             "save multiples of dt, or leave dt out for adaptive steps."
         )
     return rows
