@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
+from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data.signal import Interpolation, Signal, check_samples, check_time_base, is_uniform
@@ -31,8 +32,8 @@ class Data:
         time: sample times, shape (n,), strictly increasing; in seconds unless ``units["time"]`` says
             otherwise.
         signals: samples by name, each of shape (n,).
-        units: unit of every signal by name; without it the model's units are taken for granted.
-        interpolation: what an input does between samples, one choice for all or by name, as of an
+        units: unit of every signal by name; by default the model's units are assumed.
+        interpolation: of inputs between samples, one choice for all or by name, as of an
             `acausal.Signal`: ``"linear"`` (the default), ``"previous"``, ``"cubic"`` or ``"band-limited"``.
 
     Raises:
@@ -40,8 +41,8 @@ class Data:
             a signal without a unit where others have one, an unknown interpolation.
     """
 
-    time: np.ndarray
-    signals: Mapping[str, np.ndarray]
+    time: Float[np.ndarray, " n"]
+    signals: Mapping[str, Float[np.ndarray, " n"]]
     units: Mapping[str, str] | None = None
     interpolation: str | Mapping[str, str] = "linear"
 
@@ -131,11 +132,11 @@ class Data:
             interpolation=self.interpolation,
         )
 
-    def columns(self, names: Iterable[str], purpose: str) -> np.ndarray:
-        """The named signals side by side, shape (n, number of names); ``purpose`` is for the error.
+    def columns(self, names: Iterable[str], purpose: str) -> Float[np.ndarray, "n n_names"]:
+        """The named signals side by side; ``purpose`` says in the error what they are needed for.
 
         Raises:
-            DataError: that lists the signals the record lacks.
+            DataError: if the record lacks signals; it lists them.
         """
         names = tuple(names)
         missing = [n for n in names if n not in self.signals]
@@ -190,7 +191,7 @@ class Data:
         """Mean time between samples, in seconds."""
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Float[np.ndarray, " n"]:
         if name not in self.signals:
             raise DataError(f"The record has no '{name}': {nearest(name, self.signals)}")
         return self.signals[name]
