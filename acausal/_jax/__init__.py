@@ -1,7 +1,7 @@
 """What knows JAX and no model.
 
-In: JAX functions and arrays. Out: the same computed faster, and what JAX must be told before it starts.
-It knows no model, no data and no training. Its names stand in `__init__.pyi` and are imported when first asked for.
+In: JAX functions and arrays. Out: the same functions compiled to faster code, and JAX's settings.
+It knows no model, no data and no training. `__init__.pyi` lists its names; they are imported on first use.
 """
 
 import lazy_loader as _lazy

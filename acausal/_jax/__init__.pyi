@@ -1,5 +1,5 @@
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .dtypes import cast as cast, floating as floating, precision as precision
-from .scan import march as march
+from .scan import stored_scan as stored_scan
 from .settings import configure as configure
 from .tracing import array as array, traced as traced

@@ -1,22 +1,22 @@
 """Batch: compute a few instances of a loop side by side, one such group after the other.
 
-`jax.vmap` widens every operation of a loop to the whole batch, whose arrays then go through memory. A loop over
-`WIDTH` instances in `lanes` fits into a processor's nearest memory and is compiled as a whole (`acausal._jax.xla`).
+`jax.vmap` widens every operation of a loop to the whole batch, and its arrays then go through memory. A loop over
+`WIDTH` instances in `lanes` fits into a processor's first caches and is compiled as a whole (`acausal._jax.xla`).
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import jax
 import jax.numpy as jnp
 from jax import Array, lax
 from jax.custom_batching import custom_vmap
-from jax.extend.core import jaxpr_as_fun, jaxprs_in_params
+from jax.extend.core import Jaxpr
 
-from acausal._jax.lanes import CALLS, ELEMENTWISE, RULES, Flat, lanes
+from acausal._jax import primitives
+from acausal._jax.lanes import Flat, lanes
+from acausal._jax.primitives import Equation, UnknownEquationError
 from acausal._jax.xla import compiles_small_loops
 
 WIDTH = 8
@@ -27,14 +27,6 @@ LARGEST = 16_384
 
 MOST = 4_000
 """Operations in a loop up to which it is compiled as a whole; it takes the longer, the more there are."""
-
-SIMPLE = (
-    ELEMENTWISE
-    | RULES.keys()
-    | CALLS
-    | {"custom_linear_solve", "dynamic_slice", "gather", "iota", "while"}
-)
-"""Operations that XLA compiles itself; for others, and for products of two matrices, it calls libraries."""
 
 
 def batched(function: Flat) -> Flat:
@@ -63,7 +55,9 @@ def batched(function: Flat) -> Flat:
         return call(*args)
 
     @differentiable.defjvp
-    def derivative(args: Any, tangents: Any) -> Any:
+    def derivative(
+        args: tuple[Array, ...], tangents: tuple[Array, ...]
+    ) -> tuple[list[Array], list[Array]]:
         return jax.jvp(lambda *a: list(function(*a)), args, tangents)
 
     return differentiable
@@ -72,7 +66,7 @@ def batched(function: Flat) -> Flat:
 def _in_groups(
     function: Flat, size: int, in_batched: Sequence[bool], args: Sequence[Array]
 ) -> list[Array] | None:
-    """The results of a batch, `WIDTH` instances at a time; nothing where that does not pay."""
+    """The results of a batch, `WIDTH` instances at a time; None if that does not pay or a jaxpr cannot be read."""
     width = min(size, WIDTH)
     groups = -(-size // width)
 
@@ -92,21 +86,24 @@ def _in_groups(
 
     side_by_side = lanes(function, in_batched, width)
     rows = [cut(a) for a, has in zip(args, in_batched, strict=True) if has]
-    traced = jax.make_jaxpr(side_by_side)(*filled([r[0] for r in rows]))
+    try:
+        traced = jax.make_jaxpr(side_by_side)(*filled([r[0] for r in rows]))
+    except UnknownEquationError:
+        return None
     if not is_small(traced.jaxpr):
         return None
-    one_group = jaxpr_as_fun(traced)
+    one_group = primitives.as_function(traced, traced.consts)
     return [join(r) for r in lax.map(lambda group: one_group(*filled(group)), rows)]
 
 
-def is_small(jaxpr: Any, in_loop: bool = False) -> bool:
+def is_small(jaxpr: Jaxpr, in_loop: bool = False) -> bool:
     """Whether XLA is going to compile the loops of a jaxpr as a whole.
 
     Arguments:
         jaxpr: what to look at.
         in_loop: whether all of it is part of a loop.
     """
-    equations = list(_equations(jaxpr, in_loop))
+    equations = list(primitives.all_equations(jaxpr, in_loop))
     return (
         len(equations) <= MOST
         and all(_is_small(*found) for found in equations)
@@ -114,22 +111,15 @@ def is_small(jaxpr: Any, in_loop: bool = False) -> bool:
     )
 
 
-def operations(jaxpr: Any) -> int:
-    """How many operations a jaxpr has, those in its inner ones included."""
-    return sum(1 for _ in _equations(jaxpr, in_loop=False))
+def operations(jaxpr: Jaxpr) -> int:
+    """How many operations a jaxpr has, including those of its inner ones."""
+    return sum(1 for _ in primitives.all_equations(jaxpr))
 
 
-def _equations(jaxpr: Any, in_loop: bool) -> Iterator[tuple[Any, bool]]:
-    """All equations, and whether they are part of a loop."""
-    for equation in jaxpr.eqns:
-        yield equation, in_loop
-        for inner in jaxprs_in_params(equation.params):
-            yield from _equations(inner, in_loop or equation.primitive.name in ("scan", "while"))
-
-
-def _is_small(equation: Any, in_loop: bool) -> bool:
-    name, shapes = equation.primitive.name, [v.aval.shape for v in equation.invars]
-    if name not in SIMPLE or (name == "dot_general" and min(map(len, shapes)) > 1):
+def _is_small(equation: Equation, in_loop: bool) -> bool:
+    name = primitives.name_of(equation)
+    if name not in primitives.COMPILED or not primitives.is_readable(equation):
         return False
-    results = [v.aval.shape for v in equation.outvars]
-    return not in_loop or all(math.prod(s) <= LARGEST for s in (*shapes, *results))
+    if name == primitives.DOT and min(map(len, primitives.shapes(equation.invars))) > 1:
+        return False
+    return not in_loop or primitives.largest(equation) <= LARGEST

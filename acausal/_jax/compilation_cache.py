@@ -1,7 +1,8 @@
-"""The compilation cache: what XLA has compiled is kept on disk, so that a second run of a program need not wait.
+"""The compilation cache: compiled programs are kept on disk, so that a second run need not compile them again.
 
-It is JAX's own, in the user's cache folder unless the user has set up another. Programs that call Python, as sparse
-factorizations do, are never kept. Who can write to the folder can make a program run code: it is the user's alone.
+It is JAX's own cache, in the user's cache folder unless the user has set up another one. Programs that call Python, as
+sparse factorizations do, are never kept. Anyone who can write to the folder can make a program run code, so only the
+user may.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ import os
 import platform
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import jax
 from jax.experimental.compilation_cache.compilation_cache import reset_cache
@@ -27,7 +27,7 @@ ENABLED = "jax_enable_compilation_cache"
 SHORTEST = "jax_persistent_cache_min_compile_time_secs"
 """JAX's settings."""
 SECOND = 1.0
-"""JAX's own shortest time: what compiles faster would not be kept, as hardly any program of a small model would."""
+"""JAX's own default. Programs of small models compile faster, and would not be kept."""
 
 
 def begin(environment: Mapping[str, str]) -> None:
@@ -64,7 +64,7 @@ def use_compilation_cache(path: str | os.PathLike[str] | None) -> None:
 
 
 def default_folder(environment: Mapping[str, str]) -> Path:
-    """In the user's cache folder, apart for every kind of processor: machines share homes."""
+    """In the user's cache folder, one folder for each kind of processor, as machines may share home folders."""
     caches = environment.get("XDG_CACHE_HOME") or "~/.cache"
     return Path(caches, "acausal", f"{platform.machine()}-{_processor()}")
 
@@ -75,12 +75,12 @@ def _keep(folder: Path) -> None:
         jax.config.update(SHORTEST, 0.0)
 
 
-def _setting(name: str) -> Any:
+def _setting(name: str) -> object:
     return getattr(jax.config, name)
 
 
 def _usable(folder: Path) -> bool:
-    """Whether files can be written to a folder, which is made if need be."""
+    """Whether files can be written to a folder; it is created if need be."""
     try:
         made = folder.expanduser()
         made.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -90,7 +90,7 @@ def _usable(folder: Path) -> bool:
 
 
 def _processor() -> str:
-    """What the processor can do, in a few characters: machine code for one that can do more would crash here."""
+    """A digest of what the processor can do: machine code for a processor that can do more would crash here."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -1,4 +1,4 @@
-"""Precision: the floating-point numbers that a model computes with are those of its state and parameters."""
+"""Precision: a model computes in the precision of its state and parameters."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ PRECISIONS = ("float64", "float32")
 Tree = TypeVar("Tree")
 
 
-def precision(dtype: DTypeLike) -> np.dtype[Any]:
-    """One of `PRECISIONS`.
+def precision(dtype: DTypeLike) -> np.dtype[np.floating[Any]]:
+    """A data type, if it is one of `PRECISIONS`.
 
     Raises:
         DataError: for another.
@@ -36,6 +36,6 @@ def cast(tree: Tree, dtype: DTypeLike) -> Tree:
 
 
 def floating(value: ArrayLike) -> Array:
-    """An array of floating-point numbers, in its own precision; of what has none, in double precision."""
+    """An array of floating-point numbers in its own precision; integers become double precision."""
     array = jnp.asarray(value)
     return array if jnp.issubdtype(array.dtype, jnp.floating) else jnp.asarray(array, float)

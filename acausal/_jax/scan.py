@@ -1,6 +1,6 @@
-"""March: repeat a step, and keep of it the states alone.
+"""A scan that stores only the states between its steps.
 
-Where a step is small, its derivative in reverse mode repeats it from the stored state, instead of storing what it
+The derivative of a small step in reverse mode repeats the step from its stored state, instead of storing what the step
 computed: arithmetic is cheaper than memory.
 """
 
@@ -8,35 +8,50 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import Protocol, TypeAlias
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array, lax
+from jax import lax
 from jax.custom_derivatives import SymbolicZero
-from jax.extend.core import ClosedJaxpr, jaxpr_as_fun
+from jaxtyping import Array, PyTree, Shaped
 
+from acausal._jax import primitives
 from acausal._jax.batching import batched, is_small, operations
 
-Step = Callable[[Any, Array, Any], tuple[Array, Any]]
+Step: TypeAlias = Callable[[PyTree, Array, PyTree], tuple[Array, PyTree]]
 """(constants, state, row) -> (next state, outputs), of arrays."""
 
-Flat = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
+Flat: TypeAlias = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
 """The same with flat lists: [next state, *outputs]."""
 
-AT_ONCE, MANY = 2, 2
-"""Steps of the derivative in one turn of its loop, where totals have so many numbers for each operation of a step.
+_Cotangents: TypeAlias = tuple[list[Array | None], Array, list[Array | None]]
+"""Of constants, first state and rows; None for an array that is not differentiated by."""
 
-What the steps of a turn add to totals is written once. Of the quarter vehicle, whose networks have four weights for
-each operation, that saves a fifth of the time; of smaller networks nothing, and they take twice as long to compile.
+_Carry: TypeAlias = tuple[Array, list[Array]]
+"""The adjoint of the state, and the totals of constants' cotangents."""
+
+_Sample: TypeAlias = tuple[Array, list[Array], Array | None, list[Array | None]]
+"""State and row of a step, and the cotangents of the state and the outputs there."""
+
+AT_ONCE, MANY = 2, 2
+"""Steps of the derivative in one iteration of its loop, where totals have so many numbers for each operation of a step.
+
+The steps of one iteration write to the totals once. For the quarter vehicle, whose networks have four weights for each
+operation, that saves a fifth of the time; for smaller networks it saves nothing and doubles the time to compile.
 """
 
 
-def march(
-    step: Step, constants: Any, x0: Array, rows: Any, *, direct: bool = False
-) -> tuple[Array, Array, Any]:
-    """Repeat a step for every row, each from the state where the one before ended.
+def stored_scan(
+    step: Step,
+    constants: PyTree,
+    x0: Shaped[Array, " n_states"],
+    rows: PyTree,
+    *,
+    direct: bool = False,
+) -> tuple[Shaped[Array, "n n_states"], Shaped[Array, " n_states"], PyTree]:
+    """Repeat a step for every row, each from the state where the one before ended, as `jax.lax.scan` does.
 
     Arguments:
         step: pure.
@@ -55,13 +70,20 @@ def march(
     captured = len(closed.consts)
 
     def flat(constants: Sequence[Array], x: Array, row: Sequence[Array]) -> list[Array]:
-        own = ClosedJaxpr(closed.jaxpr, constants[:captured])
-        return jaxpr_as_fun(own)(*constants[captured:], x, *row)
+        evaluate = primitives.as_function(closed, constants[:captured])
+        return evaluate(*constants[captured:], x, *row)
 
     is_repeated = not direct and is_small(closed.jaxpr, in_loop=True)
-    run = partial(_march, operations(closed.jaxpr)) if is_repeated else _forward
+    run = partial(_repeating, operations(closed.jaxpr)) if is_repeated else _forward
     states, end, *outputs = run(flat, [*closed.consts, *shared], x0, each)
     return states, end, jax.tree.unflatten(jax.tree.structure(shapes[1]), outputs)
+
+
+class _Input(Protocol):
+    """What JAX gives a forward rule: a value, and whether it is differentiated by."""
+
+    value: Array
+    perturbed: bool
 
 
 class _Saved(eqx.Module):
@@ -91,7 +113,7 @@ def _forward(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -
     return [states, end, *outputs]
 
 
-def _march(
+def _repeating(
     size: int, step: Flat, constants: list[Array], x0: Array, rows: list[Array]
 ) -> Sequence[Array]:
     """The same, with a derivative that repeats the steps."""
@@ -102,35 +124,35 @@ def _march(
         return _forward(step, list(args[:n]), args[n], list(args[n + 1 :]))
 
     @jax.custom_vjp
-    def march(constants: list[Array], x0: Array, rows: list[Array]) -> Sequence[Array]:
+    def scan(constants: list[Array], x0: Array, rows: list[Array]) -> Sequence[Array]:
         return run(*constants, x0, *rows)
 
-    def keep(constants: list[Any], x0: Any, rows: list[Any]) -> tuple[Sequence[Array], _Saved]:
+    def keep(
+        constants: list[_Input], x0: _Input, rows: list[_Input]
+    ) -> tuple[Sequence[Array], _Saved]:
         moved = tuple(p.perturbed for p in constants), tuple(p.perturbed for p in rows)
         shared, each = [p.value for p in constants], [p.value for p in rows]
         results = run(*shared, x0.value, *each)
         return results, _Saved(shared, results[0], each, moved, size)
 
-    def back(saved: _Saved, cotangents: list[Any]) -> tuple[list[Any], Array, list[Any]]:
+    def back(saved: _Saved, cotangents: list[Array | SymbolicZero]) -> _Cotangents:
         return _back(step, saved, [None if isinstance(c, SymbolicZero) else c for c in cotangents])
 
-    march.defvjp(keep, back, symbolic_zeros=True)
-    return march(constants, x0, rows)
+    scan.defvjp(keep, back, symbolic_zeros=True)
+    return scan(constants, x0, rows)
 
 
-def _back(
-    step: Flat, saved: _Saved, cotangents: list[Array | None]
-) -> tuple[list[Any], Array, list[Any]]:
-    """Cotangents of constants, first state and rows; ``None`` for what is not differentiated by."""
+def _back(step: Flat, saved: _Saved, cotangents: list[Array | None]) -> _Cotangents:
+    """Cotangents of constants, first state and rows."""
     n, m = len(saved.constants), len(saved.rows)
     some_constants, some_rows = saved.moved
     given = [c is not None for c in cotangents]
 
     def backward(*args: Array) -> list[Array]:
         constants, states, rows = list(args[:n]), args[n], list(args[n + 1 : n + 1 + m])
-        to_states, to_end, *to_outputs = _spread(given, args[n + 1 + m :])
+        to_states, to_end, *to_outputs = _scatter(given, args[n + 1 + m :])
 
-        def body(carry: Any, sample: Any) -> Any:
+        def body(carry: _Carry, sample: _Sample) -> tuple[_Carry, list[Array]]:
             adjoint, totals = carry
             x, row, to_state, to_output = sample
 
@@ -156,15 +178,15 @@ def _back(
     known = [c for c in cotangents if c is not None]
     adjoint, *others = batched(backward)(*saved.constants, saved.states, *saved.rows, *known)
     count = sum(some_constants)
-    by_constants = _spread(some_constants, others[:count])
-    return by_constants, adjoint, _spread(some_rows, others[count:])
+    by_constants = _scatter(some_constants, others[:count])
+    return by_constants, adjoint, _scatter(some_rows, others[count:])
 
 
 def _some(values: Sequence[Array], chosen: Sequence[bool]) -> list[Array]:
     return [v for v, is_chosen in zip(values, chosen, strict=True) if is_chosen]
 
 
-def _spread(chosen: Sequence[bool], values: Sequence[Array]) -> list[Any]:
+def _scatter(chosen: Sequence[bool], values: Sequence[Array]) -> list[Array | None]:
     """The values in the chosen places, ``None`` in the others."""
     own = iter(values)
     return [next(own) if is_chosen else None for is_chosen in chosen]
@@ -172,4 +194,4 @@ def _spread(chosen: Sequence[bool], values: Sequence[Array]) -> list[Any]:
 
 def _merge(values: Sequence[Array], chosen: Sequence[bool], new: Sequence[Array]) -> list[Array]:
     """The values, with new ones in the chosen places."""
-    return [v if own is None else own for v, own in zip(values, _spread(chosen, new), strict=True)]
+    return [v if own is None else own for v, own in zip(values, _scatter(chosen, new), strict=True)]

@@ -1,19 +1,21 @@
-"""Whether JAX is tracing: then values cannot be looked at, and checks of them are left out."""
+"""Whether JAX is tracing: then values are not known, and checks of them are left out."""
 
-from typing import Any
+from __future__ import annotations
 
 import jax
 import jax.numpy as jnp
 from jax import Array
 from jax.core import Tracer
+from jax.typing import ArrayLike as JaxArrayLike
+from numpy.typing import ArrayLike
 
 
-def traced(*trees: Any) -> bool:
+def traced(*trees: object) -> bool:
     """Whether any leaf stands for a value that is not known yet."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
 
 
-def array(value: Any) -> Array:
+def array(value: ArrayLike | JaxArrayLike) -> Array:
     """A value as an array of floats; where it is known, it stays so within what JAX traces."""
     if traced(value):
         return jnp.asarray(value, float)

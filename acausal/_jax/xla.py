@@ -1,8 +1,13 @@
-"""What acausal asks of XLA, the compiler of JAX.
+"""Options of XLA, the compiler of JAX.
 
 On a CPU, XLA runs a loop operation by operation and passes every result through memory; for the few numbers of a
-small model that costs ten times the arithmetic. A loop that touches little memory it compiles as a whole, to one
-function of machine code; but "little" is a kibibyte. Here the bound is raised to what a processor has at hand.
+small model that costs ten times the arithmetic. XLA compiles a loop that touches little memory as a whole, to one
+function of machine code; but "little" is a kibibyte. Here the limit is raised to the size of a processor's cache.
+
+Everything that acausal relies on in XLA is in this file: the option, the versions that take it, and the name that such
+a loop has in a compiled program. Where XLA does not compile small loops as a whole, because it does not know the
+option or runs on another device, `compiles_small_loops` is false: then loops are plain `jax.lax.scan`s and batches
+plain `jax.vmap`s, which is slower.
 """
 
 from __future__ import annotations
@@ -21,8 +26,11 @@ NEAR = 1 << 20
 OPTIONS = "xla_backend_extra_options"
 BOUND = "xla_cpu_small_while_loop_byte_threshold"
 
-FIRST, BEYOND = (0, 7), (0, 11)
-"""Versions of jaxlib, from and before, known to take the option; a flag unknown to XLA would end the process."""
+SINCE, BEFORE = (0, 7), (0, 11)
+"""Versions of jaxlib, from and before, known to take the option. XLA ends the process at an option it does not know."""
+
+COMPILED_LOOP = "xla_cpu_small_call"
+"""How a compiled program names a loop that was compiled as a whole."""
 
 
 def compile_small_loops(environment: MutableMapping[str, str], jaxlib: str) -> None:
@@ -31,11 +39,11 @@ def compile_small_loops(environment: MutableMapping[str, str], jaxlib: str) -> N
     XLA reads the variable when JAX computes for the first time in a process; later it has no effect.
 
     Arguments:
-        environment: `os.environ`, in the end.
-        jaxlib: its version; where the option is not known to be understood, nothing is asked.
+        environment: changed in place; `os.environ` outside of tests.
+        jaxlib: its version; a version that may not know the option is not asked.
     """
     flags = environment.get("XLA_FLAGS", "")
-    if OPTIONS not in flags and FIRST <= _release(jaxlib) < BEYOND:
+    if OPTIONS not in flags and SINCE <= _release(jaxlib) < BEFORE:
         environment["XLA_FLAGS"] = f"{flags} --{OPTIONS}={BOUND}={NEAR}".strip()
 
 
@@ -45,7 +53,7 @@ def _release(version: str) -> tuple[int, ...]:
 
 @cache
 def compiles_small_loops() -> bool:
-    """Whether XLA compiles small loops as a whole, on the device that JAX computes on."""
+    """Whether XLA compiles small loops as a whole on the device that JAX computes on; one is compiled to find out."""
     if jax.default_backend() != "cpu":
         return False
 
@@ -53,4 +61,4 @@ def compiles_small_loops() -> bool:
         return lax.scan(lambda x, _: (jnp.sin(x) * jnp.sum(x), None), x, None, length=100)[0]
 
     loop_of_kibibytes = jax.jit(loop).lower(jax.ShapeDtypeStruct((500,), jnp.float32))
-    return "xla_cpu_small_call" in (loop_of_kibibytes.compile().as_text() or "")
+    return COMPILED_LOOP in (loop_of_kibibytes.compile().as_text() or "")

@@ -1,4 +1,4 @@
-"""Analyse: what a compiled model or a learned law is like.
+"""Analyse: properties of a compiled model or a learned law.
 
 In: a `System` or a network. Out: a linearization, a formula.
 It knows nothing of simulation or training.

@@ -4,42 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
+from jaxtyping import Array, Float
 from scipy.optimize import least_squares
 
 from acausal.analysis.formula import TERMS, Formula
 from acausal.errors import TrainingError, listing, nearest
 from acausal.networks import law_of
 
+Points: TypeAlias = Float[np.ndarray, " n"]
+Columns: TypeAlias = Float[np.ndarray, "n n_terms"]
+Numbers: TypeAlias = Float[np.ndarray, " n_terms"]
+
 POINTS = 401
-"""At which law and formula are compared."""
+"""Points at which law and formula are compared."""
 
 FINEST, WIDEST, SCALES = 300.0, 2.0, 24
-"""Scales go from the largest |x| over the first to the second times it; so many are tried. Wider terms are powers."""
+"""Scales from |x|max over the first number to |x|max times the second are tried. Wider terms are like powers."""
 
 SLACK = 1e-9
-"""By so much bounds are wider, as the point between them may lie on one."""
+"""How much bounds are widened, as the initial point may lie on one."""
 
 ENOUGH = 0.7
-"""A further term must make the error at least so much smaller."""
+"""A further term must reduce the error at least by this factor."""
 
 BEAM = 8
-"""Formulas of each length that are followed up."""
+"""Formulas of each length that are extended."""
 
 PLAIN = 1.1
-"""So much larger the error of a formula may be for each scale that it does without."""
+"""Factor by which the error of a formula may be larger for each scale that it does not have."""
 
 LEAST, HUGE = 1e-100, 1e9
-"""Smaller and larger values of a term tell nothing."""
+"""Terms with smaller or larger values are not used."""
 
 DIGITS = range(2, 8)
 WORSE, EXACT = 1.05, 1e-5
-"""Significant digits of numbers; so much larger rounding may make the error, or so large relative to the law."""
+"""Digits of numbers that are tried; rounding may increase the error by a factor, or up to a fraction of the law."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +74,7 @@ class Distilled:
 
 
 def distill(
-    network: Callable[..., Any],
+    network: Callable[..., Array],
     low: float,
     high: float,
     *,
@@ -79,20 +84,20 @@ def distill(
 ) -> Distilled:
     """A short formula for a learned law of one variable.
 
-    Of the formulas of each length the best few are kept and made longer, all scales and coefficients fitted
+    A beam search: the best few formulas of each length are extended by a term, with all scales and coefficients fitted
     together, until the best is good enough or a further term hardly helps. Outside of the interval the formula
     extrapolates as its terms do.
 
     Arguments:
-        network: a network of a trained model, ``fit.params["damper.net"]``, or any function of a scalar; of an
-            energy its slope is taken.
-        low, high: the interval in which it is known, such as ``fit.seen["damper.net"].interval()``.
-        terms: how many the formula may have at most.
+        network: a network of a trained model, ``fit.params["damper.net"]``, or any function of a scalar; for an
+            energy its derivative is distilled.
+        low, high: the interval of its data, such as ``fit.seen["damper.net"].interval()``.
+        terms: the most terms that the formula may have.
         tolerance: error, relative to the law's RMS about its mean, at which it is good enough.
         among: names of terms to choose from, out of `acausal.analysis.formula.TERMS`.
 
     Raises:
-        TrainingError: for an interval, a term or a network that does not serve.
+        TrainingError: for an interval, a term or a network that cannot be used.
     """
     names = _checked(low, high, terms, among)
     x = np.linspace(low, high, POINTS)
@@ -115,7 +120,7 @@ def distill(
 
 def _checked(low: float, high: float, terms: int, among: Sequence[str]) -> tuple[str, ...]:
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
-        raise TrainingError(f"distill: {low:g} to {high:g} is no interval; give low < high.")
+        raise TrainingError(f"distill: {low:g} to {high:g} is not an interval; give low < high.")
     if terms < 1:
         raise TrainingError(f"distill: terms={terms}; a formula has at least one.")
     for name in among:
@@ -126,14 +131,14 @@ def _checked(low: float, high: float, terms: int, among: Sequence[str]) -> tuple
     return tuple(among)
 
 
-def _values(network: Any, x: np.ndarray) -> np.ndarray:
+def _values(network: Callable[..., Array], x: Points) -> Points:
     try:
         y = np.asarray(jax.jit(jax.vmap(law_of(network)))(jnp.asarray(x)))
     except TypeError:
         y = None
     if y is None or y.shape != x.shape:
         raise TrainingError(
-            "distill: the network is no law of one variable; hold its other arguments: "
+            "distill: the network is not a law of one variable; fix its other arguments: "
             "distill(lambda x: network(x, 293.15), low, high)."
         )
     if not np.isfinite(y).all():
@@ -141,8 +146,8 @@ def _values(network: Any, x: np.ndarray) -> np.ndarray:
     return y
 
 
-def _columns(x: np.ndarray, chosen: Sequence[tuple[str, float]]) -> np.ndarray:
-    """Values of terms at all points, one column each."""
+def _columns(x: Points, chosen: Sequence[tuple[str, float]]) -> Columns:
+    """Values of terms at all points, one column for each."""
     with np.errstate(over="ignore"):
         return np.stack([TERMS[name].value(np, x / scale) for name, scale in chosen], axis=1)
 
@@ -154,14 +159,14 @@ class _Candidate:
 
     @property
     def rank(self) -> float:
-        """The error, with a handicap for every scale."""
+        """The error, with a penalty for every scale."""
         return self.error * PLAIN ** sum(TERMS[n].scaled for n in self.formula.terms)
 
 
 def _longer(
-    x: np.ndarray, y: np.ndarray, beam: list[_Candidate], names: tuple[str, ...]
+    x: Points, y: Points, beam: list[_Candidate], names: tuple[str, ...]
 ) -> list[_Candidate]:
-    """The best formulas with a term more than those of a beam."""
+    """The best formulas with one term more than those of a beam."""
     found: dict[tuple[str, ...], _Candidate] = {}
     for candidate in beam:
         known = candidate.formula
@@ -178,44 +183,42 @@ def _longer(
     return sorted(found.values(), key=lambda c: c.rank)[:BEAM]
 
 
-def _best_scale(
-    x: np.ndarray, y: np.ndarray, chosen: list[tuple[str, float]], name: str
-) -> float | None:
-    """The scale of a further term that leaves the least error; ``None`` where it adds nothing."""
+def _best_scale(x: Points, y: Points, chosen: list[tuple[str, float]], name: str) -> float | None:
+    """The scale of a further term with the smallest error; ``None`` if the term is not possible."""
     if not TERMS[name].scaled:
         return None if any(name == n for n, _ in chosen) else 1.0
     reach = float(np.max(np.abs(x)))
     scales = reach * np.geomspace(1 / FINEST, WIDEST, SCALES)
     tried = [*scales, *(-scales if name == "exponential" else ())]
-    lefts = {s: _left(_columns(x, [*chosen, (name, s)]), y) for s in map(float, tried)}
-    finite = {s: left for s, left in lefts.items() if np.isfinite(left)}
+    errors = {s: _squared_error(_columns(x, [*chosen, (name, s)]), y) for s in map(float, tried)}
+    finite = {s: error for s, error in errors.items() if np.isfinite(error)}
     return min(finite, key=lambda s: finite[s]) if finite else None
 
 
-def _left(columns: np.ndarray, y: np.ndarray) -> float:
+def _squared_error(columns: Columns, y: Points) -> float:
     largest = np.max(np.abs(columns), axis=0)
     if not np.all((largest > LEAST) & (largest < HUGE)):
         return np.inf
     return float(np.sum((columns @ _solved(columns, y) - y) ** 2))
 
 
-def _solved(columns: np.ndarray, y: np.ndarray) -> np.ndarray:
+def _solved(columns: Columns, y: Points) -> Numbers:
     size = np.maximum(np.sqrt(np.sum(columns**2, axis=0)), LEAST)
     return np.linalg.lstsq(columns / size, y, rcond=1e-10)[0] / size
 
 
-def _polished(x: np.ndarray, y: np.ndarray, chosen: list[tuple[str, float]]) -> Formula:
-    """All scales fitted together; for given scales the coefficients follow."""
+def _polished(x: Points, y: Points, chosen: list[tuple[str, float]]) -> Formula:
+    """All scales fitted together; the coefficients are a linear least-squares solution for given scales."""
     names = tuple(n for n, _ in chosen)
     scales = np.array([s for _, s in chosen])
     free = np.array([TERMS[n].scaled for n in names])
 
-    def all_scales(logs: np.ndarray) -> np.ndarray:
+    def all_scales(logs: Numbers) -> Numbers:
         moved = scales.copy()
         moved[free] *= np.exp(logs)
         return moved
 
-    def miss(logs: np.ndarray) -> np.ndarray:
+    def residual(logs: Numbers) -> Points:
         columns = _columns(x, list(zip(names, all_scales(logs), strict=True)))
         columns = np.nan_to_num(columns, posinf=HUGE, neginf=-HUGE)
         return columns @ _solved(columns, y) - y
@@ -225,19 +228,19 @@ def _polished(x: np.ndarray, y: np.ndarray, chosen: list[tuple[str, float]]) -> 
         sizes = np.log(np.abs(scales[free]) / float(np.max(np.abs(x))))
         low, high = -np.log(FINEST) - sizes, np.log(WIDEST) - sizes
         bounds = (np.minimum(low, 0.0) - SLACK, np.maximum(high, 0.0) + SLACK)
-        found = least_squares(lambda z: miss(z) / spread, np.zeros(free.sum()), bounds=bounds)
+        found = least_squares(lambda z: residual(z) / spread, np.zeros(free.sum()), bounds=bounds)
         scales = all_scales(found.x)
     columns = _columns(x, list(zip(names, scales, strict=True)))
     return Formula(names, jnp.asarray(_solved(columns, y)), jnp.asarray(scales))
 
 
-def _rms(formula: Formula, x: np.ndarray, y: np.ndarray) -> float:
+def _rms(formula: Formula, x: Points, y: Points) -> float:
     columns = _columns(x, list(zip(formula.terms, formula.scales.tolist(), strict=True)))
     return float(np.sqrt(np.mean((columns @ np.asarray(formula.coefficients) - y) ** 2)))
 
 
-def _rounded(formula: Formula, error: float, x: np.ndarray, y: np.ndarray) -> Formula:
-    """The formula with as few digits as serve: scales are rounded first, coefficients fitted to them."""
+def _rounded(formula: Formula, error: float, x: Points, y: Points) -> Formula:
+    """The formula with as few digits as possible: scales are rounded first, then coefficients are fitted to them."""
     allowed = max(WORSE * error, EXACT * (float(np.std(y)) or 1.0))
     for digits in DIGITS:
         scales = _to_digits(np.asarray(formula.scales), digits)
@@ -249,5 +252,5 @@ def _rounded(formula: Formula, error: float, x: np.ndarray, y: np.ndarray) -> Fo
     return formula
 
 
-def _to_digits(values: np.ndarray, digits: int) -> np.ndarray:
+def _to_digits(values: Numbers, digits: int) -> Numbers:
     return np.array([float(f"{v:.{digits - 1}e}") for v in values])

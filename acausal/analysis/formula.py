@@ -1,19 +1,23 @@
-"""Formulas: short sums of terms in one variable, which a model can hold in place of a network."""
+"""Formulas: short sums of terms in one variable, which can replace a network in a model."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 import sympy as sp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 NEAREST = 1e-12
-"""Below this the root is cut off, where its slope has no bound."""
+"""The root is constant below this, where its derivative would be unbounded."""
+
+
+AnyArray: TypeAlias = Array | np.ndarray
 
 
 class Term(NamedTuple):
@@ -21,15 +25,16 @@ class Term(NamedTuple):
 
     Attributes:
         value: of ``x / s``, given the array library to compute it with (`jax.numpy` or `numpy`) and ``x / s``.
-        symbol: the same in sympy. scaled: whether ``s`` matters; of a power it is part of the coefficient.
+        symbol: the same in sympy.
+        scaled: whether the term has a scale ``s``; the scale of a power is part of its coefficient.
     """
 
-    value: Callable[[ModuleType, Any], Any]
-    symbol: Callable[[Any], sp.Expr]
+    value: Callable[[ModuleType, AnyArray], AnyArray]
+    symbol: Callable[[sp.Expr], sp.Expr]
     scaled: bool
 
 
-def _root(xp: ModuleType, x: Any) -> Any:
+def _root(xp: ModuleType, x: AnyArray) -> AnyArray:
     return xp.sign(x) * xp.sqrt(xp.maximum(xp.abs(x), NEAREST))
 
 
@@ -48,9 +53,9 @@ TERMS: dict[str, Term] = {
 
 
 class Formula(eqx.Module):
-    """``f(x) = Σ c_i term_i(x / s_i)``: a law that a neural element takes for its network, ``net=formula``.
+    """``f(x) = Σ c_i term_i(x / s_i)``: a law that can be the network of a neural element, ``net=formula``.
 
-    Its coefficients and scales are trained as weights are.
+    Its coefficients and scales can be trained, like weights.
 
     Attributes:
         terms: names in `TERMS`.
@@ -58,10 +63,10 @@ class Formula(eqx.Module):
     """
 
     terms: tuple[str, ...] = eqx.field(static=True)
-    coefficients: Array
-    scales: Array
+    coefficients: Float[Array, " n_terms"]
+    scales: Float[Array, " n_terms"]
 
-    def __call__(self, x: ArrayLike) -> Array:
+    def __call__(self, x: ArrayLike) -> Float[Array, ""]:
         """The value for a scalar."""
         point = jnp.asarray(x, float)
         parts = zip(self.terms, self.scales, strict=True)

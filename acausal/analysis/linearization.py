@@ -1,4 +1,4 @@
-"""Analyse: linearize a model and look at its modes and frequency response."""
+"""Linearization of a model: its modes and frequency response."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.typing import ArrayLike
+from jaxtyping import Array, Complex, Float, Inexact
 
 from acausal.errors import need_compiled
 
@@ -26,32 +28,34 @@ class Linearization:
         x, u: the point, shapes (n,) and (m,).
     """
 
-    A: Any
-    B: Any
-    C: Any
-    D: Any
+    A: Float[Array, "n_states n_states"]
+    B: Float[Array, "n_states n_inputs"]
+    C: Float[Array, "n_outputs n_states"]
+    D: Float[Array, "n_outputs n_inputs"]
     states: tuple[str, ...]
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
-    x: Any
-    u: Any
+    x: Float[Array, " n_states"]
+    u: Float[Array, " n_inputs"]
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[Float[Array, "rows columns"]]:
         """The four matrices, so that ``A, B, C, D = linearize(...)`` works."""
         return iter((self.A, self.B, self.C, self.D))
 
-    def eigenvalues(self) -> np.ndarray:
+    def eigenvalues(self) -> Inexact[np.ndarray, " n_states"]:
         """Eigenvalues of A (the poles), in 1/s, slowest first."""
         values = np.linalg.eigvals(np.asarray(self.A))
-        return values[np.lexsort((values.imag, np.abs(values)))]
+        return values[np.lexsort((np.imag(values), np.abs(values)))]
 
-    def damping(self) -> np.ndarray:
+    def damping(self) -> Float[np.ndarray, " n_states"]:
         """Damping ratio of every eigenvalue, ``-Re / |.|``; 1 for an integrator."""
-        values: Any = self.eigenvalues()
+        values = self.eigenvalues()
         size = np.abs(values)
-        return np.divide(-values.real, size, out=np.ones_like(size), where=size > 0)
+        return np.divide(-np.real(values), size, out=np.ones_like(size), where=size > 0)
 
-    def frequency_response(self, omega: Any) -> np.ndarray:
+    def frequency_response(
+        self, omega: Float[ArrayLike, " n"]
+    ) -> Complex[np.ndarray, "n n_outputs n_inputs"]:
         """``C (jw - A)^-1 B + D`` at angular frequencies [rad/s], shape (len(omega), p, m)."""
         A, B, C, D = (np.asarray(m) for m in (self.A, self.B, self.C, self.D))
         identity = np.eye(len(A))
@@ -67,8 +71,8 @@ class Linearization:
 
 def linearize(
     system: System,
-    x: Mapping[str, Any] | Any = None,
-    u: Mapping[str, Any] | Any = None,
+    x: Mapping[str, ArrayLike] | Float[ArrayLike, " n_states"] | None = None,
+    u: Mapping[str, ArrayLike] | Float[ArrayLike, " n_inputs"] | None = None,
     *,
     outputs: Sequence[str] = (),
     params: Mapping[str, Any] | None = None,
@@ -77,9 +81,10 @@ def linearize(
     """Linearize a model at a point.
 
     Arguments:
-        x: states by name (the rest from the model's starts) or all as an array; the model's initial state by default.
-        u: inputs by name (the rest zero) or all as an array; zero by default.
-        outputs: variables to take as outputs. params: parameters, the model's own by default. t: time [s].
+        system: a compiled model.
+        x: states by name (the rest from the model's starts) or all as an array; by default the model's initial state.
+        u: inputs by name (the rest zero) or all as an array; by default zero.
+        outputs: variables to take as outputs. params: parameters, by default the model's own. t: time [s].
 
     Raises:
         DataError: if ``x`` or ``u`` do not fit the model.
@@ -90,10 +95,12 @@ def linearize(
     point = system.input_values(u)
     state = system.initial_state(packed, x, point, t)
 
-    def behaviour(state: Any, point: Any) -> tuple[Any, Any]:
-        rates = system.vector_field(t, state, point, packed)
-        seen = system.observe(tuple(outputs), t, state, point, packed) if outputs else jnp.zeros(0)
-        return rates, seen
+    at = system.values(t, state, point, packed)
 
-    (A, B), (C, D) = jax.jacfwd(behaviour, argnums=(0, 1))(state, point)
-    return Linearization(A, B, C, D, system.states, system.inputs, tuple(outputs), state, point)
+    def rates_and_outputs(x: Array, u: Array) -> tuple[Array, Array]:
+        values = at._replace(x=x, u=u)
+        observed = system.read(tuple(outputs), values) if outputs else jnp.zeros(0)
+        return system.rates(values), observed
+
+    (A, B), (C, D) = jax.jacfwd(rates_and_outputs, argnums=(0, 1))(at.x, at.u)
+    return Linearization(A, B, C, D, system.states, system.inputs, tuple(outputs), at.x, at.u)

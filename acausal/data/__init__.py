@@ -1,10 +1,14 @@
 """Measured data: records, signals over time, files of parameters.
 
 In: arrays, CSV files, parameters. Out: `Data`, `Signal`, arrays in a model's units.
-It knows what a compiled model is called and measured in; nothing of simulation or training.
+It knows the names and units of a compiled model; it knows nothing of simulation or training.
 """
 
-from acausal.data.band_limited import FRACTIONS as FRACTIONS, bends as bends, bow as bow
+from acausal.data.band_limited import (
+    FRACTIONS as FRACTIONS,
+    deviation_from_line as deviation_from_line,
+    polynomial_coefficients as polynomial_coefficients,
+)
 from acausal.data.params_file import load_params as load_params, save_params as save_params
 from acausal.data.record import Data as Data
 from acausal.data.signal import Signal as Signal

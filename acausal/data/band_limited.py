@@ -1,32 +1,34 @@
-"""Band-limited signals: what lies between samples that hold all of a signal's frequencies.
+"""Interpolation of band-limited signals, whose samples hold all of their frequencies.
 
-A recorder with an anti-aliasing filter leaves nothing above half its sampling rate. Then the samples determine the
-signal at all times (C. E. Shannon: Communication in the presence of noise, Proceedings of the IRE 37, 1949), and a line
-between them is wrong where frequencies are high.
+A recorder with an anti-aliasing filter passes no frequency above half its sampling rate. Then the samples determine the
+signal at all times (C. E. Shannon: Communication in the presence of noise, Proceedings of the IRE 37, 1949), and linear
+interpolation is wrong where frequencies are high.
 """
 
 from __future__ import annotations
 
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 DEGREE = 7
-"""Of the polynomial that stands for a signal between two samples: exact to 1e-5 at half the sampling rate."""
+"""Degree of the polynomial between two samples: exact to 1e-5 at half the sampling rate."""
 
 FRACTIONS = (1 - np.cos(np.pi * np.arange(1, DEGREE) / DEGREE)) / 2
-"""Where within an interval the polynomial is fixed beside its ends: Chebyshev's extrema."""
+"""Fractions of an interval at which the polynomial interpolates, besides the ends: Chebyshev extrema."""
 
 _BASIS = (FRACTIONS * (1 - FRACTIONS))[:, None] * FRACTIONS[:, None] ** np.arange(DEGREE - 1)
 _INVERSE = np.linalg.inv(_BASIS)
 
 
-def between(values: Array, fractions: np.ndarray) -> Array:
+def between(
+    values: Float[Array, " n"], fractions: Float[np.ndarray, " k"]
+) -> Float[Array, "n_intervals k"]:
     """A band-limited signal between its equally spaced samples.
 
-    The signal is continued beyond both ends by reflection in its end points, less the line through them, which
-    leaves neither jump nor kink, and shifted by multiplication of its Fourier transform.
+    The line through both ends is subtracted, the rest is continued as an odd function about its ends, which leaves
+    neither a jump nor a kink, and shifted by multiplying its Fourier transform.
 
     Arguments:
         values: samples, shape (n,).
@@ -46,7 +48,11 @@ def between(values: Array, fractions: np.ndarray) -> Array:
     return moved.T + on_line
 
 
-def bends(start: Array, end: Array, inner: Array) -> Array:
+def polynomial_coefficients(
+    start: Float[Array, ...],
+    end: Float[Array, ...],
+    inner: Float[Array, "... n_inner"],
+) -> Float[Array, "n_inner ..."]:
     """Coefficients of the polynomial through an interval's ends and its values at `FRACTIONS`.
 
     It is ``start + p (end - start) + p (1 - p) (b0 + b1 p + ...)`` for the fraction p.
@@ -56,15 +62,17 @@ def bends(start: Array, end: Array, inner: Array) -> Array:
         inner: values in between, with a last axis of ``DEGREE - 1``.
 
     Returns:
-        The coefficients b, the last axis first: shape (DEGREE - 1, ...).
+        The coefficients b, with their axis first: shape (DEGREE - 1, ...).
     """
     line = start[..., None] + (end - start)[..., None] * FRACTIONS
     return jnp.moveaxis((inner - line) @ _INVERSE.T, -1, 0)
 
 
-def bow(bends: Array, fraction: ArrayLike) -> Array:
-    """How far the polynomial is from the line between its ends: ``p (1 - p) (b0 + b1 p + ...)``."""
-    p, value = jnp.asarray(fraction), bends[-1]
-    for b in bends[-2::-1]:
+def deviation_from_line(
+    coefficients: Float[Array, "n_inner ..."], fraction: ArrayLike
+) -> Float[Array, ...]:
+    """The polynomial less the line between its ends, ``p (1 - p) (b0 + b1 p + ...)``."""
+    p, value = jnp.asarray(fraction), coefficients[-1]
+    for b in coefficients[-2::-1]:
         value = b + p * value
     return p * (1 - p) * value

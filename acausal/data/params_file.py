@@ -22,11 +22,11 @@ KIND = "parameters of a model, version 1"
 def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
     """Save parameters, as `System.parameters` or a `Fit` gives them, in a safetensors file.
 
-    The file is written wholly or not at all: what was there before stays if that fails.
+    The file is written completely or not at all: if that fails, the old file stays.
 
     Arguments:
         params: numbers and networks by name.
-        path: the file; by custom ``….safetensors``.
+        path: the file, usually ``….safetensors``.
 
     Raises:
         DataError: if the file cannot be written.
@@ -43,8 +43,8 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
 
     Arguments:
         path: the file.
-        model: the model they belong to; or parameters like those that were saved, where networks were
-            exchanged for others than the model's own.
+        model: the model they belong to; or, if networks were replaced by others than the model's own,
+            parameters like those that were saved.
 
     Raises:
         DataError: if the file cannot be read, is damaged, or belongs to another model.
@@ -52,9 +52,7 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
     like: dict[str, Any] = dict(model) if isinstance(model, Mapping) else model.parameters()
     arrays, about = read_arrays(Path(path))
     if about.get("kind") != KIND:
-        raise DataError(
-            f"'{path}' has no {KIND}, but: {about.get('kind', 'it does not say what')}."
-        )
+        raise DataError(f"'{path}' has no {KIND}, but: {about.get('kind', 'something unnamed')}.")
     params = filled_like(like, arrays, f"'{path}'")
     for place, here in _settings(like, ""):
         there = about["settings"].get(place, here)
@@ -65,8 +63,8 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
     return {name: params[name] for name in like}  # JAX sorts them
 
 
-def _settings(thing: Any, place: str) -> Iterator[tuple[str, str]]:
-    """What shapes a network beside its arrays, such as its activation, by place."""
+def _settings(thing: object, place: str) -> Iterator[tuple[str, str]]:
+    """The settings of a network besides its arrays, such as its activation, by place."""
     if isinstance(thing, eqx.Module):
         for field in dataclasses.fields(thing):
             inner, value = f"{place}.{field.name}", getattr(thing, field.name)
@@ -84,7 +82,7 @@ def _settings(thing: Any, place: str) -> Iterator[tuple[str, str]]:
         yield place, _described(thing)
 
 
-def _described(value: Any) -> str:
+def _described(value: object) -> str:
     """A text that is the same in every process."""
     if callable(value):
         return getattr(value, "__name__", type(value).__name__)

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
+from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data.signal import Interpolation, Signal, check_samples, check_time_base, is_uniform
@@ -31,8 +32,8 @@ class Data:
         time: sample times, shape (n,), strictly increasing; in seconds unless ``units["time"]`` says
             otherwise.
         signals: samples by name, each of shape (n,).
-        units: unit of every signal by name; without it the model's units are taken for granted.
-        interpolation: what an input does between samples, one choice for all or by name, as of an
+        units: unit of every signal by name; by default the model's units are assumed.
+        interpolation: of inputs between samples, one choice for all or by name, as of an
             `acausal.Signal`: ``"linear"`` (the default), ``"previous"``, ``"cubic"`` or ``"band-limited"``.
 
     Raises:
@@ -40,8 +41,8 @@ class Data:
             a signal without a unit where others have one, an unknown interpolation.
     """
 
-    time: np.ndarray
-    signals: Mapping[str, np.ndarray]
+    time: Float[np.ndarray, " n"]
+    signals: Mapping[str, Float[np.ndarray, " n"]]
     units: Mapping[str, str] | None = None
     interpolation: str | Mapping[str, str] = "linear"
 
@@ -113,13 +114,13 @@ class Data:
         """The record in the model's units.
 
         Raises:
-            DataError: for a name that is no variable of the model, or a unit of another dimension.
+            DataError: for a name that is not a variable of the model, or a unit of another dimension.
         """
         known = (*system.variables, *system.inputs)
         unknown = [n for n in self.signals if n not in known]
         if unknown:
             raise DataError(
-                f"The data have {listing(unknown)}, which the model has not: "
+                f"The data have {listing(unknown)}, but the model does not: "
                 f"{nearest(unknown[0], known)} Leave others out by data.select([...])."
             )
         if self.units is None:
@@ -131,11 +132,11 @@ class Data:
             interpolation=self.interpolation,
         )
 
-    def columns(self, names: Iterable[str], purpose: str) -> np.ndarray:
-        """The named signals side by side, shape (n, number of names); ``purpose`` is for the error.
+    def columns(self, names: Iterable[str], purpose: str) -> Float[np.ndarray, "n n_names"]:
+        """The named signals side by side; ``purpose`` says in the error what they are needed for.
 
         Raises:
-            DataError: that lists the signals the record lacks.
+            DataError: if the record lacks signals; it lists them.
         """
         names = tuple(names)
         missing = [n for n in names if n not in self.signals]
@@ -190,7 +191,7 @@ class Data:
         """Mean time between samples, in seconds."""
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Float[np.ndarray, " n"]:
         if name not in self.signals:
             raise DataError(f"The record has no '{name}': {nearest(name, self.signals)}")
         return self.signals[name]
@@ -241,7 +242,7 @@ def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:
         match = HEADER.fullmatch(cell)
         if match is None or not match["name"]:
             raise DataError(
-                f"{where}: '{cell}' is no column header; write 'name' or 'name [unit]'."
+                f"{where}: '{cell}' is not a column header; write 'name' or 'name [unit]'."
             )
         name = match["name"]
         if name in names:
@@ -260,7 +261,7 @@ def _numbers(row: list[str], names: list[str], where: str) -> list[float]:
     except ValueError:
         pass
     name, cell = next((n, c) for n, c in zip(names, row, strict=True) if not _is_number(c))
-    raise DataError(f"{where}: '{cell}' in column '{name}' is no number.")
+    raise DataError(f"{where}: '{cell}' in column '{name}' is not a number.")
 
 
 def _is_number(cell: str) -> bool:

@@ -1,22 +1,28 @@
-"""Sampled signals: values over a time base, read at any time.
+"""Sampled signals: values over a time base, interpolated at any time.
 
-A `Signal` is a pure function of time that JAX can trace. It drives a model's input, and it can be a
+A `Signal` is a pure function of time that JAX can trace. It can be a model's input, and it can be a
 component's `Module` (``self.table(time)``), where it is differentiated like a network.
 """
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+import warnings
+from typing import Literal, get_args
 
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
 from jax.typing import ArrayLike as Scalar
+from jaxtyping import Array, Float, Int
 from numpy.typing import ArrayLike
 
 from acausal._jax import array, traced
-from acausal.data.band_limited import FRACTIONS, bends, between, bow
+from acausal.data.band_limited import (
+    FRACTIONS,
+    between,
+    deviation_from_line,
+    polynomial_coefficients,
+)
 from acausal.errors import DataError
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
@@ -33,12 +39,12 @@ class Signal(eqx.Module):
         ts: sample times in seconds, shape (n,), strictly increasing, n ≥ 2.
         values: samples, shape (n,).
         interpolation: ``"linear"``; ``"previous"`` holds each sample until the next; ``"cubic"`` is
-            a Hermite spline whose slope at a sample is that of the parabola through it and its neighbours
+            a Hermite spline whose derivative at a sample is that of the parabola through it and its neighbours
             (continuous derivative, exact for parabolas); ``"band-limited"`` has no frequency above half the
-            sampling rate (`acausal.data.band_limited`), as what a good recorder saw. It needs a uniform time base.
-        extrapolation: outside of the samples, ``"hold"`` the end values, go on by the ``"linear"``
+            sampling rate (`acausal.data.band_limited`), as after an anti-aliasing filter. It needs a uniform time base.
+        extrapolation: outside of the samples, ``"hold"`` the end values, continue the ``"linear"``
             secant of the last two, or repeat them as a ``"periodic"`` signal.
-        name: how error messages call the signal.
+        name: of the signal in error messages.
 
     A uniform time base is indexed by arithmetic, any other by a binary search.
 
@@ -47,9 +53,9 @@ class Signal(eqx.Module):
             finite, lengths that differ, an unknown choice, or a band-limited signal on an uneven time base.
     """
 
-    ts: Array
-    values: Array
-    bends: Array | None
+    ts: Float[Array, " n"]
+    values: Float[Array, " n"]
+    coefficients: Float[Array, "n_coefficients n_intervals"] | None
     interpolation: Interpolation = eqx.field(static=True)
     extrapolation: Extrapolation = eqx.field(static=True)
     uniform: bool = eqx.field(static=True)
@@ -73,9 +79,17 @@ class Signal(eqx.Module):
         self.interpolation = interpolation
         self.extrapolation = extrapolation
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
-        self.bends = self._between(name) if interpolation == "band-limited" else None
+        self.coefficients = self._coefficients(name) if interpolation == "band-limited" else None
 
-    def __call__(self, t: Scalar) -> Array:
+    @property
+    def bends(self) -> Float[Array, "n_coefficients n_intervals"] | None:
+        """Deprecated: `coefficients`."""
+        warnings.warn(
+            "Signal.bends is called Signal.coefficients now", DeprecationWarning, stacklevel=2
+        )
+        return self.coefficients
+
+    def __call__(self, t: Scalar) -> Float[Array, ""]:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
         t = jnp.asarray(t, self.ts.dtype)
         first, last = self.ts[0], self.ts[-1]
@@ -88,7 +102,7 @@ class Signal(eqx.Module):
             value = value + self._secant(end) * (t - inside)
         return value
 
-    def _inside(self, t: Array) -> Array:
+    def _inside(self, t: Array) -> Float[Array, ""]:
         i = self._index(t)
         match self.interpolation:
             case "previous":
@@ -97,14 +111,13 @@ class Signal(eqx.Module):
                 return self.values[i] + self._secant(i) * (t - self.ts[i])
             case "cubic":
                 return self._hermite(i, t)
-
             case "band-limited":
-                assert self.bends is not None
+                assert self.coefficients is not None
                 fraction = (t - self.ts[i]) / (self.ts[i + 1] - self.ts[i])
                 on_line = self.values[i] + self._secant(i) * (t - self.ts[i])
-                return on_line + bow(self.bends[:, i], fraction)
+                return on_line + deviation_from_line(self.coefficients[:, i], fraction)
 
-    def _between(self, name: str) -> Array:
+    def _coefficients(self, name: str) -> Float[Array, "n_coefficients n_intervals"]:
         """Coefficients of the polynomials between the samples, shape (`band_limited.DEGREE` - 1, n - 1)."""
         if not self.uniform:
             raise DataError(
@@ -112,9 +125,9 @@ class Signal(eqx.Module):
                 "or choose another interpolation."
             )
         inner = between(self.values, FRACTIONS)
-        return bends(self.values[:-1], self.values[1:], inner)
+        return polynomial_coefficients(self.values[:-1], self.values[1:], inner)
 
-    def _index(self, t: Array) -> Array:
+    def _index(self, t: Array) -> Int[Array, ""]:
         """The interval that holds ``t``: ``ts[i] <= t <= ts[i + 1]``."""
         n = len(self.ts)
         if self.uniform:
@@ -124,11 +137,11 @@ class Signal(eqx.Module):
             i = jnp.searchsorted(self.ts, t, side="right") - 1
         return jnp.clip(i, 0, n - 2)
 
-    def _secant(self, i: Scalar) -> Array:
+    def _secant(self, i: Scalar) -> Float[Array, ""]:
         return (self.values[i + 1] - self.values[i]) / (self.ts[i + 1] - self.ts[i])
 
-    def _slope(self, i: Array) -> Array:
-        """Slope at sample ``i`` of the parabola through it and its neighbours (at an end, the next two)."""
+    def _derivative(self, i: Int[Array, ""]) -> Float[Array, ""]:
+        """Derivative at sample ``i`` of the parabola through it and its neighbours (at an end, the next two)."""
         if len(self.ts) == 2:
             return self._secant(0)
         j = jnp.clip(i, 1, len(self.ts) - 2)
@@ -136,11 +149,11 @@ class Signal(eqx.Module):
         curvature = (right - left) / (self.ts[j + 1] - self.ts[j - 1])
         return left + curvature * (2 * self.ts[i] - self.ts[j - 1] - self.ts[j])
 
-    def _hermite(self, i: Array, t: Array) -> Array:
+    def _hermite(self, i: Array, t: Array) -> Float[Array, ""]:
         h = self.ts[i + 1] - self.ts[i]
         s = (t - self.ts[i]) / h
         a, b = self.values[i], self.values[i + 1]
-        da, db = h * self._slope(i), h * self._slope(i + 1)
+        da, db = h * self._derivative(i), h * self._derivative(i + 1)
         rest = (1 - s) * (a - b + da) + s * (b - a - db)
         return a + s * (b - a) + s * (1 - s) * rest
 
@@ -163,7 +176,7 @@ def check_time_base(ts: np.ndarray, what: str) -> None:
         )
 
 
-def check_samples(values: Any, shape: tuple[int, ...], what: str) -> None:
+def check_samples(values: ArrayLike, shape: tuple[int, ...], what: str) -> None:
     """Refuse samples of another length than their time base, or that are not finite numbers."""
     if np.shape(values) != shape:
         raise DataError(f"{what} has {_count(values)} for {shape[0]} times.")
@@ -180,14 +193,14 @@ def check_samples(values: Any, shape: tuple[int, ...], what: str) -> None:
         )
 
 
-def is_uniform(ts: np.ndarray) -> bool:
+def is_uniform(ts: Float[np.ndarray, " n"]) -> bool:
     """Whether the samples are equally spaced."""
     interval = (ts[-1] - ts[0]) / (len(ts) - 1)
     places = ts[0] + interval * np.arange(len(ts))
     return bool(np.max(np.abs(ts - places)) <= UNIFORM * interval)
 
 
-def _count(values: Any) -> str:
+def _count(values: ArrayLike) -> str:
     shape = np.shape(values)
     return f"{shape[0]} samples" if len(shape) == 1 else f"values of shape {shape}"
 

@@ -1,7 +1,7 @@
-"""Files of named arrays: written wholly or not at all, checked when read, free of code.
+"""Files of named arrays: written completely or not at all, checked when read, free of code.
 
-The format is safetensors: a JSON header, then raw arrays. A file also says what it is about, in JSON, and carries a
-checksum of all it holds.
+The format is safetensors: a JSON header, then raw arrays. A file also holds a description in JSON, and a checksum of
+all its content.
 """
 
 from __future__ import annotations
@@ -12,16 +12,21 @@ import os
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.typing import ArrayLike
+from jaxtyping import PyTree
 
 from acausal.errors import DataError, listing, reason
 
 Arrays = dict[str, np.ndarray]
+
+RENAMED = {".coefficients": ".bends", ".factor.": ".passage."}
+"""Fields by their old names, as in files of version 0.1."""
 
 
 def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
@@ -29,8 +34,8 @@ def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[st
 
     Arguments:
         path: the file.
-        arrays: what it holds, by name.
-        about: what it is about, as JSON can say it.
+        arrays: its arrays, by name.
+        about: its description, which JSON can express.
 
     Raises:
         OSError: if it cannot be written.
@@ -43,10 +48,10 @@ def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[st
 
 
 def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
-    """The arrays of a file, and what it is about.
+    """The arrays of a file, and its description.
 
     Raises:
-        DataError: if it cannot be read, or is not as it was written.
+        DataError: if it cannot be read, or has changed since it was written.
     """
     from safetensors import SafetensorError, safe_open
 
@@ -59,7 +64,7 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
     except SafetensorError as error:
         raise DataError(f"'{path}' is damaged or no safetensors file: {error}.") from error
     if "about" not in metadata or "sha256" not in metadata:
-        raise DataError(f"'{path}' was not written by acausal: it does not say what it is about.")
+        raise DataError(f"'{path}' was not written by acausal: it has no description.")
     if _checksum(arrays, metadata["about"]) != metadata["sha256"]:
         raise DataError(
             f"'{path}' was changed after it was written: its checksum does not fit. Use another copy of it."
@@ -68,10 +73,10 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
 
 
 def replace_file(path: Path, content: bytes) -> None:
-    """Put a file in the place of another at once: a reader sees the one or the other.
+    """Replace a file at once: a reader sees the old one or the new one.
 
     Raises:
-        OSError: if it cannot be written; the other one is still there.
+        OSError: if it cannot be written; the old one is still there.
     """
     part = path.with_name(f".{path.name}.part")
     try:
@@ -84,17 +89,17 @@ def replace_file(path: Path, content: bytes) -> None:
         with suppress(OSError):
             part.unlink()
         raise
-    with suppress(OSError):  # some file systems know no way to make a rename durable
+    with suppress(OSError):  # some file systems cannot make a rename durable
         _sync(path.parent)
 
 
-def named_arrays(tree: Any) -> Arrays:
+def named_arrays(tree: PyTree) -> Arrays:
     """The arrays and numbers of a pytree, by their place in it."""
     leaves, _ = jax.tree_util.tree_flatten_with_path(eqx.filter(tree, eqx.is_array_like))
     return {_place(path): _stored(leaf) for path, leaf in leaves}
 
 
-def filled_like(like: Any, arrays: Mapping[str, np.ndarray], where: str) -> Any:
+def filled_like(like: PyTree, arrays: Mapping[str, np.ndarray], where: str) -> PyTree:
     """A pytree like another one with the arrays that `named_arrays` gave; ``where`` names it in messages.
 
     Raises:
@@ -103,6 +108,7 @@ def filled_like(like: Any, arrays: Mapping[str, np.ndarray], where: str) -> Any:
     numbers, others = eqx.partition(like, eqx.is_array_like)
     leaves, structure = jax.tree_util.tree_flatten_with_path(numbers)
     places = [_place(path) for path, _ in leaves]
+    arrays = _with_new_names(arrays, places)
     if lacking := [place for place in places if place not in arrays]:
         raise DataError(f"{where} lacks {listing(lacking)}: it belongs to another model.")
     if superfluous := sorted(arrays.keys() - set(places)):
@@ -118,19 +124,31 @@ def filled_like(like: Any, arrays: Mapping[str, np.ndarray], where: str) -> Any:
     return eqx.combine(jax.tree.unflatten(structure, new), others)
 
 
-def _place(path: tuple[Any, ...]) -> str:
-    """Where a leaf is, such as ``extra.net.weights[0]``: what a dict at the top calls its entries needs no quotes."""
+def _with_new_names(arrays: Mapping[str, np.ndarray], places: list[str]) -> Arrays:
+    """The arrays, with places in an older file called as they are now."""
+    found = dict(arrays)
+    for place in places:
+        for new, old in RENAMED.items():
+            if place not in found and (before := place.replace(new, old)) in found:
+                found[place] = found.pop(before)
+    return found
+
+
+def _place(path: tuple[jax.tree_util.KeyEntry, ...]) -> str:
+    """Where a leaf is, such as ``extra.net.weights[0]``, without the quotes of keys of a dict at the top."""
     top, rest = path[:1], path[1:]
-    named = top and isinstance(top[0], jax.tree_util.DictKey)
-    first = str(top[0].key) if named else jax.tree_util.keystr(top).removeprefix(".")
+    if top and isinstance(top[0], jax.tree_util.DictKey):
+        first = str(top[0].key)
+    else:
+        first = jax.tree_util.keystr(top).removeprefix(".")
     return first + jax.tree_util.keystr(rest)
 
 
-def _stored(leaf: Any) -> np.ndarray:
+def _stored(leaf: ArrayLike) -> np.ndarray:
     return np.asarray(jax.random.key_data(leaf) if _is_key(leaf) else leaf)
 
 
-def _restored(like: Any, array: np.ndarray) -> Any:
+def _restored(like: ArrayLike, array: np.ndarray) -> ArrayLike:
     if _is_key(like):
         return jax.random.wrap_key_data(jnp.asarray(array), impl=jax.random.key_impl(like))
     if isinstance(like, np.ndarray):
@@ -138,7 +156,7 @@ def _restored(like: Any, array: np.ndarray) -> Any:
     return jnp.asarray(array) if isinstance(like, jax.Array) else type(like)(array.item())
 
 
-def _is_key(leaf: Any) -> bool:
+def _is_key(leaf: object) -> TypeGuard[jax.Array]:
     return isinstance(leaf, jax.Array) and jnp.issubdtype(leaf.dtype, jax.dtypes.prng_key)
 
 

@@ -1,35 +1,41 @@
 """Networks for use inside equations, and promises that they keep for all weights.
 
 A network is a module that is called with scalars and returns a scalar. `MLP` is the paper's; `Law` and `Energy`
-put networks with promises together from small parts, each of which keeps one promise whatever is inside it, a
-user's own module, too: ``ac.networks.Passive(my_network)``.
+build networks that keep promises out of small parts. Each part keeps one promise, whatever network is inside it, also
+a user's own module: ``ac.networks.Passive(my_network)``.
 
 In: scales and promises. Out: equinox modules.
 It knows no model.
 """
 
+import warnings as _warnings
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
 from acausal.networks.bounded import Between as Between, Positive as Positive
 from acausal.networks.convex import Convex as Convex
-from acausal.networks.dry_friction_factor import Passage as Passage
+from acausal.networks.dry_friction_factor import DryFrictionFactor as DryFrictionFactor
 from acausal.networks.energy import Bowl as Bowl, FromRest as FromRest, Levelled as Levelled
+from acausal.networks.energy_spec import Energy as Energy
 from acausal.networks.extrapolation import (
     Continued as Continued,
     ContinuedEnergy as ContinuedEnergy,
 )
 from acausal.networks.fourier import Fourier as Fourier
-from acausal.networks.law import Law as Law
+from acausal.networks.law_spec import Law as Law
+from acausal.networks.min_slope import (
+    WithMinCurvature as WithMinCurvature,
+    WithMinSlope as WithMinSlope,
+)
 from acausal.networks.mlp import MLP as MLP
 from acausal.networks.monotone import Monotone as Monotone
 from acausal.networks.passive import Passive as Passive, SameSign as SameSign
-from acausal.networks.potential import Energy as Energy
 from acausal.networks.scaled import (
-    Potential as Potential,
+    EnergyLaw as EnergyLaw,
     Scaled as Scaled,
     inputs_of as inputs_of,
     law_of as law_of,
 )
-from acausal.networks.slope import Rounder as Rounder, Steeper as Steeper
 from acausal.networks.symmetry import Even as Even, Odd as Odd
 from acausal.networks.trainable import (
     networks as networks,
@@ -37,3 +43,21 @@ from acausal.networks.trainable import (
     remove_offset as remove_offset,
 )
 from acausal.networks.zero import OffsetCorrected as OffsetCorrected, ThroughZero as ThroughZero
+
+_RENAMED = {
+    "Passage": "DryFrictionFactor",
+    "Potential": "EnergyLaw",
+    "Rounder": "WithMinCurvature",
+    "Steeper": "WithMinSlope",
+}
+
+if not _TYPE_CHECKING:  # the old names are for programs that were written before
+
+    def __getattr__(name: str) -> type:
+        if name not in _RENAMED:
+            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
+        new = _RENAMED[name]
+        _warnings.warn(
+            f"acausal.networks.{name} is called {new} now", DeprecationWarning, stacklevel=2
+        )
+        return globals()[new]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import jax
 import jax.numpy as jnp
-from jax import Array
+from jaxtyping import Array
 
 from acausal.errors import DeclarationError, nearest
 
@@ -22,21 +22,21 @@ ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
 }
 """Activations by name."""
 
-RISING = ("relu", "tanh", "softplus", "elu", "identity")
-"""Those that nowhere fall: what a monotone network is made of."""
+INCREASING = ("relu", "tanh", "softplus", "elu", "identity")
+"""Those that never decrease: monotone networks are made of them."""
 
 SMOOTH = ("tanh", "softplus", "silu", "gelu", "elu", "sin")
-"""Those with a continuous slope, so that a force that is the slope of an energy has no steps."""
+"""Those with a continuous derivative, so that a force that is the derivative of an energy has no jumps."""
 
 SMOOTH_AND_CONVEX = ("softplus", "elu")
-"""Those that rise ever faster, too: what a convex energy is made of."""
+"""Those that are also convex: convex energies are made of them."""
 
 
 def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str = "") -> str:
     """The name of an activation, if it is one of those allowed.
 
     Raises:
-        DeclarationError: if it is none; ``use`` says for what.
+        DeclarationError: if it is not; ``use`` says for what.
     """
     if name not in ACTIVATIONS:
         raise DeclarationError(f"no activation '{name}': {nearest(name, ACTIVATIONS)}")

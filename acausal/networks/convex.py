@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import ACTIVATIONS, SMOOTH_AND_CONVEX, checked
@@ -19,14 +19,14 @@ from acausal.networks.secondary import Secondary, shifted
 class Convex(Layered):
     """A network ``W(x)`` that is convex in its first inputs, for any weights and any secondary inputs.
 
-    Proof: ``h' = ρ(|U| h + V x + b)`` with a convex, rising ρ. A sum of convex functions with positive weights is
-    convex, so is one with an affine function added, and so is a convex rising function of it. Secondary inputs only
+    Proof: ``h' = ρ(|U| h + V x + b)`` with a convex, increasing ρ. A sum of convex functions with positive weights is
+    convex, so is one with an affine function added, and so is a convex increasing function of it. Secondary inputs only
     shift the biases (`Secondary`). After B. Amos, L. Xu, J. Z. Kolter: Input convex neural networks, ICML 2017.
 
     Arguments:
         in_size: number of inputs in which the network is convex. secondary: number of further ones.
         width, depth: neurons in each hidden layer, and hidden layers.
-        activation: one that is convex, rises and has a continuous slope, see `SMOOTH_AND_CONVEX`.
+        activation: one that is convex and increasing, with a continuous derivative, see `SMOOTH_AND_CONVEX`.
         last_layer: factor on the initial weights of the last layer.
         key: a JAX key, or a seed.
 
@@ -66,8 +66,8 @@ class Convex(Layered):
         )
         self.secondary = Secondary(secondary, width, depth, key=others) if secondary else None
 
-    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
-        """The output, with a way to spell the product of a matrix and a vector."""
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
+        """The output, given a function for the product of a matrix and a vector."""
         activation = ACTIVATIONS[self.activation]
         n = self.weights[0].shape[1]
         x = jnp.stack([jnp.asarray(i) for i in inputs[:n]])

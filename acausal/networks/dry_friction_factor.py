@@ -1,27 +1,53 @@
-"""How a law goes through zero that is a product with its first input."""
+"""A factor that rises through zero, as dry friction does, for laws that are products with it."""
 
 from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 STEEPEST = 7.0
 """Logarithm of the greatest steepness, about 1100."""
 
 
-class Passage(eqx.Module):
-    """``x + c tanh(k x)`` with trained ``c, k > 0``: it rises through zero, steeply if it is a dry friction."""
+class DryFrictionFactor(eqx.Module):
+    """``x + c tanh(k x)`` with trained ``c, k > 0``: it rises through zero, steeply for dry friction."""
 
-    height: Array
-    steepness: Array
+    height: Float[Array, ""]
+    steepness: Float[Array, ""]
 
     def __init__(self, height: float = -1.0, steepness: float = 1.5) -> None:
         self.height, self.steepness = jnp.asarray(height, float), jnp.asarray(steepness, float)
 
-    def __call__(self, x: ArrayLike) -> Array:
+    def __call__(self, x: ArrayLike) -> Float[Array, ""]:
         """The output for a scalar input."""
         k = jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
         return jnp.asarray(x) + jax.nn.softplus(self.height) * jnp.tanh(k * x)
+
+
+class WithFactor(eqx.Module):
+    """Base of laws that are a product of a `DryFrictionFactor` of the first input and a network."""
+
+    net: Callable[..., Array]
+    factor: DryFrictionFactor
+
+    @property
+    def passage(self) -> DryFrictionFactor:
+        """Deprecated: `factor`."""
+        warnings.warn("'passage' is called 'factor' now", DeprecationWarning, stacklevel=2)
+        return self.factor
+
+
+def chosen_factor(
+    factor: DryFrictionFactor | None, passage: DryFrictionFactor | None
+) -> DryFrictionFactor:
+    """The factor that a constructor is given, also by its old name; a fresh one by default."""
+    if passage is not None:
+        warnings.warn("passage=... is called factor=... now", DeprecationWarning, stacklevel=3)
+        factor = passage
+    return DryFrictionFactor() if factor is None else factor

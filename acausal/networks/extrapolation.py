@@ -1,4 +1,4 @@
-"""How laws and energies go on beyond what is known of them."""
+"""Extrapolation of laws and energies beyond the range of their data."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Literal
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError
 
 Extrapolation = Literal["saturating", "linear", "cubic"]
-"""Held at the limit, along the tangent there, or along a cube."""
+"""Constant beyond the limit, along the tangent there, or along a cubic."""
 
 Function = Callable[[Array], Array]
 
@@ -23,20 +23,20 @@ Function = Callable[[Array], Array]
 class Continued(eqx.Module):
     """A law of ``x`` within limits, and beyond each of them a polynomial about that limit.
 
-    What is odd or monotone within symmetric limits is so everywhere, and what is passive, with ``rising``.
+    A law that is odd or monotone within symmetric limits is so everywhere; so is a passive law, with ``rising``.
 
-    - ``"saturating"``: held at its value.
+    - ``"saturating"``: constant.
     - ``"linear"``: along its tangent.
-    - ``"cubic"``: along the ``F(0) + a x + b x³`` that has its value and slope at the limit ``L``, so that
+    - ``"cubic"``: along the ``F(0) + a x + b x³`` that has its value and derivative at the limit ``L``, so that
       ``2 L² b = F'(L) − (F(L) − F(0)) / L``. Where that is negative, for a law that softens, along its tangent.
 
     Attributes:
-        low, high: the limits of the first input, with zero between them if the law goes on along a cube.
-        extrapolation: how it goes on.
-        rising: whether a tangent that falls is replaced by a level line, which keeps a passive law passive.
+        low, high: the limits of the first input, with zero between them for a cubic extrapolation.
+        extrapolation: the kind of extrapolation.
+        rising: whether a falling tangent is replaced by a constant, which keeps a passive law passive.
 
     Raises:
-        DeclarationError: for limits that leave nothing to go on from.
+        DeclarationError: for limits that do not enclose an interval, or zero where a cubic needs it.
     """
 
     net: Callable[..., Array]
@@ -48,21 +48,21 @@ class Continued(eqx.Module):
     def __check_init__(self) -> None:
         check_limits(self.low, self.high, self.extrapolation)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         x, near, limit = _places(inputs[0], self.low, self.high)
 
         def law(y: Array) -> Array:
             return self.net(y, *inputs[1:])
 
-        ahead = AHEAD[self.extrapolation](law, near, limit, self.rising)
-        return _polynomial(ahead, x - near)
+        derivatives = DERIVATIVES[self.extrapolation](law, near, limit, self.rising)
+        return _polynomial(derivatives, x - near)
 
 
 class ContinuedEnergy(eqx.Module):
-    """An energy within limits, and beyond them what makes its slope go on as a `Continued` law.
+    """An energy within limits, extrapolated so that its derivative is extrapolated as a `Continued` law.
 
-    What is even or convex within symmetric limits is so everywhere. Attributes and errors are those of `Continued`.
+    An energy that is even or convex within symmetric limits is so everywhere. Attributes and errors as in `Continued`.
     """
 
     net: Callable[..., Array]
@@ -73,37 +73,39 @@ class ContinuedEnergy(eqx.Module):
     def __check_init__(self) -> None:
         check_limits(self.low, self.high, self.extrapolation)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         x, near, limit = _places(inputs[0], self.low, self.high)
 
         def energy(y: Array) -> Array:
             return self.net(y, *inputs[1:])
 
-        ahead = AHEAD[self.extrapolation](lambda y: _tangent(energy, y)[1], near, limit, False)
-        return _polynomial([energy(near), *ahead], x - near)
+        derivatives = DERIVATIVES[self.extrapolation](
+            lambda y: _tangent(energy, y)[1], near, limit, False
+        )
+        return _polynomial([energy(near), *derivatives], x - near)
 
 
 def check_limits(low: float, high: float, extrapolation: Extrapolation) -> None:
-    """Whether a law can go on beyond these limits.
+    """Check that a law can be extrapolated beyond these limits.
 
     Raises:
-        DeclarationError: if it can't.
+        DeclarationError: if it cannot.
     """
-    if extrapolation not in AHEAD:
+    if extrapolation not in DERIVATIVES:
         raise DeclarationError(
-            f"extrapolation={extrapolation!r} is none of {', '.join(map(repr, AHEAD))}"
+            f"extrapolation={extrapolation!r} is none of {', '.join(map(repr, DERIVATIVES))}"
         )
     if not -math.inf < low < high < math.inf:
         raise DeclarationError(f"limits={low:g}, {high:g}: the first must be less than the second")
     if extrapolation == "cubic" and not low < 0 < high:
         raise DeclarationError(
-            f"limits={low:g}, {high:g}: a law goes on along a cube about zero, which must lie between its limits"
+            f"limits={low:g}, {high:g}: a cubic extrapolation is about zero, which must lie between its limits"
         )
 
 
 def _places(x: ArrayLike, low: float, high: float) -> tuple[Array, Array, Array]:
-    """The input, the nearest one within the limits, and the limit on its side."""
+    """The input, the nearest value within the limits, and the limit on its side."""
     given = jnp.asarray(x)
     return given, jnp.clip(given, low, high), jnp.where(given < 0, low, high)
 
@@ -113,35 +115,35 @@ def _held(law: Function, near: Array, limit: Array, rising: bool) -> Sequence[Ar
 
 
 def _straight(law: Function, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
-    value, slope = _tangent(law, near)
-    return [value, jnp.maximum(slope, 0) if rising else slope]
+    value, derivative = _tangent(law, near)
+    return [value, jnp.maximum(derivative, 0) if rising else derivative]
 
 
 def _cube(law: Function, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
-    value, slope = _straight(law, near, limit, rising)
+    value, derivative = _straight(law, near, limit, rising)
     secant = (value - law(jnp.zeros_like(near))) / limit
-    b = jnp.maximum((slope - secant) / (2 * limit**2), 0)
-    return [value, slope, 6 * b * limit, 6 * b]
+    b = jnp.maximum((derivative - secant) / (2 * limit**2), 0)
+    return [value, derivative, 6 * b * limit, 6 * b]
 
 
-AHEAD: dict[Extrapolation, Callable[[Function, Array, Array, bool], Sequence[Array]]] = {
+DERIVATIVES: dict[Extrapolation, Callable[[Function, Array, Array, bool], Sequence[Array]]] = {
     "saturating": _held,
     "linear": _straight,
     "cubic": _cube,
 }
-"""The value and the derivatives with which a law goes on from a limit."""
+"""The value and the derivatives of a law's extrapolation at a limit."""
 
 
 def _tangent(function: Function, x: Array) -> tuple[Array, Array]:
-    """The value and the slope at a point."""
+    """The value and the derivative at a point."""
     return jax.jvp(function, (x,), (jnp.ones_like(x),))
 
 
-def _polynomial(derivatives: Sequence[Array], beyond: Array) -> Array:
-    """The polynomial with these derivatives, so far from where it has them."""
-    value, *slopes = derivatives
-    power = jnp.ones_like(beyond)
-    for n, slope in enumerate(slopes, start=1):
-        power = power * beyond / n
-        value = value + slope * power
+def _polynomial(derivatives: Sequence[Array], distance: Array) -> Array:
+    """The polynomial with these derivatives at a point, at a distance from there."""
+    value, *others = derivatives
+    power = jnp.ones_like(distance)
+    for n, derivative in enumerate(others, start=1):
+        power = power * distance / n
+        value = value + derivative * power
     return value

@@ -1,11 +1,11 @@
-"""Laws that repeat, such as the cogging of a motor over its angle or the error of a screw over its turns."""
+"""Periodic laws, such as the cogging of a motor over its angle or the error of a screw over its turns."""
 
 from __future__ import annotations
 
 import equinox as eqx
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError
 
@@ -13,7 +13,7 @@ from acausal.errors import DeclarationError
 class Fourier(eqx.Module):
     """``output_scale Σ_k a_k sin(2πkx/period) + b_k cos(2πkx/period)``, ``k = 1 … harmonics``: it starts as zero.
 
-    Its mean over a period is zero whatever is learned, so that a law of position alone is conservative.
+    Its mean over a period is zero for any coefficients, so that a law of position alone is conservative.
 
     Raises:
         DeclarationError: for a period or a number of harmonics that is not positive.
@@ -32,7 +32,7 @@ class Fourier(eqx.Module):
         self.sines, self.cosines = jnp.zeros(harmonics), jnp.zeros(harmonics)
         self.period, self.output_scale = float(period), output_scale
 
-    def __call__(self, x: ArrayLike) -> Array:
+    def __call__(self, x: ArrayLike) -> Float[Array, ""]:
         """The output for a scalar input."""
         orders = jnp.arange(1, len(self.sines) + 1)
         angles = 2 * jnp.pi / self.period * orders * jnp.asarray(x)

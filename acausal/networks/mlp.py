@@ -9,8 +9,8 @@ from functools import partial
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import ACTIVATIONS, checked
@@ -24,15 +24,15 @@ Key = Array | int
 
 
 class Layered(eqx.Module):
-    """Base of networks that are made of layers, so that the products in them can be spelled in several ways."""
+    """Base of networks that are made of layers, so that their products can be computed in several ways."""
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output, a scalar, for scalar inputs."""
         return self.evaluate(inputs, jnp.matmul)
 
     @abstractmethod
-    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
-        """The output, with a way to spell the product of a matrix and a vector."""
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
+        """The output, given a function for the product of a matrix and a vector."""
 
 
 class MLP(Layered):
@@ -47,12 +47,12 @@ class MLP(Layered):
         activation: of the hidden layers, by name (`ACTIVATIONS`); the last layer is linear.
         input_scale: typical magnitude of each input, in its unit (one number for all, or a tuple).
         output_scale: typical magnitude of the output, in its unit.
-        last_layer: factor on the initial weights of the last layer; a small one starts near F = 0, that is with
-            the model as physics alone gives it.
+        last_layer: factor on the initial weights of the last layer; with a small one training starts near F = 0,
+            that is with the model without the network.
         key: a JAX key, or a seed.
 
-    The first layer's weights and biases start uniform in ±2, so that the kinks of its neurons are spread over inputs
-    of a few input scales; hidden weights in ±√(6/width); other biases at zero.
+    The first layer's weights and biases start uniform in ±2, so that the kinks of its neurons spread over a few input
+    scales; hidden weights in ±√(6/width); other biases at zero.
 
     Raises:
         DeclarationError: for an unknown activation, a size below one or scales that do not fit.
@@ -83,8 +83,8 @@ class MLP(Layered):
         self.in_size = in_size
         self.input_scale, self.output_scale = input_scale, output_scale
 
-    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
-        """The output, with a way to spell the product of a matrix and a vector."""
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
+        """The output, given a function for the product of a matrix and a vector."""
         if len(inputs) != self.in_size:
             raise DeclarationError(
                 f"a network of {self.in_size} inputs is called with {len(inputs)}"

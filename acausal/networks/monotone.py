@@ -1,4 +1,4 @@
-"""A network that never falls as its first input rises."""
+"""A network that increases with its first input."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Callable, Sequence
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
-from acausal.networks.activations import ACTIVATIONS, RISING, checked
+from acausal.networks.activations import ACTIVATIONS, INCREASING, checked
 from acausal.networks.mlp import Key, Layered, Product, as_key, layers
 from acausal.networks.secondary import Secondary, shifted
 
@@ -18,20 +18,20 @@ from acausal.networks.secondary import Secondary, shifted
 class Monotone(Layered):
     """A network with ``∂F/∂x ≥ 0`` in its first input ``x``, for any weights and any secondary inputs.
 
-    Proof: from layer to layer the weights count by their magnitude, ``h' = ρ(|W| h + b)``, and every activation ρ
-    rises; so does what they are composed of. Secondary inputs only shift the biases (`Secondary`). Every other
-    neuron has the activation turned by half a turn, ``−ρ(−z)``: with ReLUs alone a network of positive weights could
-    only bend upwards (D. Runje, S. M. Shankaranarayana: Constrained monotonic neural networks, ICML 2023).
+    Proof: every layer uses the magnitudes of its weights, ``h' = ρ(|W| h + b)``, and every activation ρ is increasing;
+    so is their composition. Secondary inputs only shift the biases (`Secondary`). Every other
+    neuron has the activation rotated by 180°, ``−ρ(−z)``: with ReLUs alone a network of positive weights would be
+    convex (D. Runje, S. M. Shankaranarayana: Constrained monotonic neural networks, ICML 2023).
 
     Arguments:
         secondary: number of further inputs.
         width, depth: neurons in each hidden layer, and hidden layers.
-        activation: one that rises, see `RISING`.
+        activation: one that is increasing, see `INCREASING`.
         last_layer: factor on the initial weights of the last layer.
         key: a JAX key, or a seed.
 
     Raises:
-        DeclarationError: for an activation that falls somewhere.
+        DeclarationError: for an activation that decreases somewhere.
     """
 
     weights: tuple[Array, ...]
@@ -49,13 +49,13 @@ class Monotone(Layered):
         last_layer: float = 0.1,
         key: Key,
     ) -> None:
-        self.activation = checked(activation, RISING, "a monotone network")
+        self.activation = checked(activation, INCREASING, "a monotone network")
         own, others = jax.random.split(as_key(key))
         self.weights, self.biases = layers(1, width, depth, last_layer, own)
         self.secondary = Secondary(secondary, width, depth, key=others) if secondary else None
 
-    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Array:
-        """The output, with a way to spell the product of a matrix and a vector."""
+    def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
+        """The output, given a function for the product of a matrix and a vector."""
         activation = ACTIVATIONS[self.activation]
         h = jnp.stack([jnp.asarray(inputs[0])])
         biases = shifted(self.biases[:-1], self.secondary, inputs[1:], product)

@@ -7,35 +7,41 @@ from collections.abc import Callable
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
-from acausal.networks.dry_friction_factor import Passage
+from acausal.networks.dry_friction_factor import DryFrictionFactor, WithFactor, chosen_factor
 
 START = -2.0
-"""What is added to a network inside a softplus, so that a law begins small: softplus(-2) = 0.13."""
+"""Added to a network inside a softplus, so that a law starts small: softplus(-2) = 0.13."""
 
 
-class Passive(eqx.Module):
-    """``p(x) softplus(F(x, T))`` with a `Passage` ``p``: it has the sign of ``x`` whatever the network says."""
+class Passive(WithFactor):
+    """``p(x) softplus(F(x, T))`` with a `DryFrictionFactor` ``p``: it has the sign of ``x`` for any network ``F``."""
 
-    net: Callable[..., Array]
-    passage: Passage = eqx.field(default_factory=Passage)
+    def __init__(
+        self,
+        net: Callable[..., Array],
+        factor: DryFrictionFactor | None = None,
+        *,
+        passage: DryFrictionFactor | None = None,
+    ) -> None:
+        self.net, self.factor = net, chosen_factor(factor, passage)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
-        return self.passage(inputs[0]) * jax.nn.softplus(self.net(*inputs) + START)
+        return self.factor(inputs[0]) * jax.nn.softplus(self.net(*inputs) + START)
 
 
 class SameSign(eqx.Module):
-    """A law that has the sign of its first input but for rounding, and here has it to the last bit.
+    """A law that has the sign of its first input apart from rounding; here it has the sign exactly.
 
-    Where the signs differ, the value is taken from itself: that leaves zero, and slopes as they are.
+    Where the signs differ, the value is subtracted from itself: that leaves zero, and the derivatives as they are.
     """
 
     net: Callable[..., Array]
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         value = self.net(*inputs)
         differ = jnp.sign(value) != jnp.sign(jnp.asarray(inputs[0]))

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 from acausal.networks.mlp import Scale, scaled
 
 REACH = 1e6
-"""So many input scales from zero a law is held at what it is there, so that no input makes it overflow."""
+"""Beyond so many input scales from zero a law is constant, so that no input makes it overflow."""
 
 
 class Scaled(eqx.Module):
@@ -24,18 +23,18 @@ class Scaled(eqx.Module):
     input_scale: Scale = eqx.field(static=True, default=1.0)
     output_scale: float = eqx.field(static=True, default=1.0)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         numbers = jnp.clip(scaled(inputs, self.input_scale), -REACH, REACH)
         return self.output_scale * self.net(*numbers)
 
 
-class Potential(eqx.Module):
-    """An energy ``W(x) = energy_scale · net(x / input_scale)``, whose slope is a law.
+class EnergyLaw(eqx.Module):
+    """An energy ``W(x) = energy_scale · net(x / input_scale)``, whose derivative is a law, `law`.
 
     Attributes:
         energy_scale: magnitude of the energy; that of the law is ``energy_scale / input_scale``.
-        inputs: how many of the first inputs it is differentiated by.
+        inputs: by how many of the first inputs it is differentiated.
     """
 
     net: Callable[..., Array]
@@ -43,7 +42,7 @@ class Potential(eqx.Module):
     energy_scale: float = eqx.field(static=True, default=1.0)
     inputs: int = eqx.field(static=True, default=1)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The energy for scalar inputs."""
         return self.energy_scale * self.net(*scaled(inputs, self.input_scale))
 
@@ -51,8 +50,8 @@ class Potential(eqx.Module):
         """The law ``∂W/∂x``: a scalar, or of shape (inputs,) where there are several."""
         moved = tuple(jnp.asarray(x) + 0.0 for x in inputs[: self.inputs])
         others = inputs[self.inputs :]
-        slopes = jax.grad(lambda point: self(*point, *others))(moved)
-        return slopes[0] if self.inputs == 1 else jnp.stack(slopes)
+        forces = jax.grad(lambda point: self(*point, *others))(moved)
+        return forces[0] if self.inputs == 1 else jnp.stack(forces)
 
     @property
     def output_scale(self) -> float:
@@ -61,11 +60,11 @@ class Potential(eqx.Module):
         return self.energy_scale / (scale[0] if isinstance(scale, tuple) else scale)
 
 
-def law_of(network: Any) -> Callable[..., Array]:
-    """The law that a network stands for: itself, or the slope of an energy."""
-    return network.law if isinstance(network, Potential) else network
+def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
+    """The law that a network stands for: itself, or the derivative of an energy."""
+    return network.law if isinstance(network, EnergyLaw) else network
 
 
-def inputs_of(network: Any) -> int:
+def inputs_of(network: Callable[..., Array]) -> int:
     """How many of a network's inputs its law is about; the others are secondary."""
-    return network.inputs if isinstance(network, Potential) else 1
+    return network.inputs if isinstance(network, EnergyLaw) else 1

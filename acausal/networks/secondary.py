@@ -1,4 +1,4 @@
-"""How secondary inputs, such as a temperature, enter a network that promises something of its first ones."""
+"""Secondary inputs, such as a temperature, of networks that keep a promise about their first inputs."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array
 
 from acausal.networks.mlp import SPREAD, Key, Product, as_key, uniform
 
@@ -16,7 +16,7 @@ from acausal.networks.mlp import SPREAD, Key, Product, as_key, uniform
 class Secondary(eqx.Module):
     """Shifts of the layers of another network by the inputs ``T``: ``M_i tanh(A T + a)``.
 
-    Whatever the weights, each layer of the other network is only shifted. So a promise that holds for any biases
+    For any weights, each layer of the other network is only shifted. So a promise that holds for any biases
     holds for any secondary inputs.
     """
 

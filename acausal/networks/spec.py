@@ -1,46 +1,58 @@
-"""What the recipes of laws and energies share: sizes, scales, and how they go on beyond the data."""
+"""What the specifications of laws and energies share: sizes, scales, zero crossing and extrapolation."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Any, Literal, TypedDict, get_args
 
 from acausal.errors import DeclarationError
 from acausal.networks.extrapolation import Extrapolation, check_limits
-from acausal.networks.mlp import Scale, check_sizes
+from acausal.networks.mlp import Key, Scale, check_sizes
 
 ZeroCrossing = Literal["regularizer", "offset", "exact"]
 Net = Callable[..., Any]
 
+
+class Layers(TypedDict):
+    """Arguments that all networks of layers take."""
+
+    width: int
+    depth: int
+    activation: str
+    key: Key
+
+
 KNOWN = 3.0
-"""So many input scales from zero the data are taken to reach, where no limits are given."""
+"""The range of the data is taken to be so many input scales from zero, where no limits are given."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Recipe:
-    """How to make a network with promises; called with a key it makes one with fresh weights.
+class NetworkSpec:
+    """The specification of a network and of the promises that it keeps; called with a key it makes a fresh network.
 
     Attributes:
+        passive: the element never gives back more energy than it took, see `Law` and `Energy`.
         secondary: number of further inputs, after those that the promises are about.
         width, depth: neurons in each hidden layer, and hidden layers.
         activation: of the hidden layers, by name; ``None`` takes the default.
         input_scale: magnitude of the inputs: one number, or one for each.
         output_scale: magnitude of the law.
         odd: the law is odd, ``F(−x) = −F(x)``; its energy is even.
-        zero_crossing: how the law comes to vanish at zero: by a ``"regularizer"`` in training, that is by itself not at
-            all; by correction of its ``"offset"``, ``F(x) − F(0)``; or ``"exact"``, to the last bit. ``None`` is what
-            the other promises imply.
-        extrapolation: how the law goes on beyond the limits: ``"saturating"`` held, ``"linear"`` along its tangent,
-            ``"cubic"`` along the ``F(0) + a x + b x³`` with its value and slope there, `Continued`.
+        zero_crossing: why the law vanishes at zero: a ``"regularizer"`` penalizes its offset in training, and the
+            network itself does nothing; its ``"offset"`` is subtracted, ``F(x) − F(0)``; or it is ``"exact"``, zero by
+            construction. ``None`` leaves it to the other promises.
+        extrapolation: of the law beyond the limits: ``"saturating"`` is constant, ``"linear"`` follows its tangent,
+            ``"cubic"`` the ``F(0) + a x + b x³`` with its value and derivative there, `Continued`.
         limits: of the first input, in its unit: a pair, or one number for both sides. The default is three input
             scales.
-        floor: the least slope of a monotone law, relative to ``output_scale / input_scale``.
-        start: a slope that a fresh monotone law has besides, likewise, and that is trained. A law that is divided by
-            had better not start near zero.
+        floor: the minimum derivative of a monotone law, relative to ``output_scale / input_scale``.
+        start: a further derivative of a fresh monotone law, likewise, which is trained. If a model divides by the
+            law's derivative, it should not start near zero.
     """
 
+    passive: bool = False
     secondary: int = 0
     width: int = 16
     depth: int = 2
@@ -67,14 +79,22 @@ class Recipe:
             raise DeclarationError(
                 "input_scale and output_scale are magnitudes; give positive numbers"
             )
-        for name, slope in (("floor", self.floor), ("start", self.start)):
-            if not 0 <= slope < math.inf:
-                raise DeclarationError(f"{name}={slope} is a slope; give zero or more")
+        for name, value in (("floor", self.floor), ("start", self.start)):
+            if not 0 <= value < math.inf:
+                raise DeclarationError(
+                    f"{name}={value} is a derivative of an increasing law; give zero or more"
+                )
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
-                "limits=... says where a law is continued; say how by extrapolation='linear' or another"
+                "limits=... says from where a law is extrapolated; say how by extrapolation='linear' or another"
             )
         _ = self.rho, self.range
+        for name in ("passive", "odd"):
+            if getattr(self, name):
+                self._refuse_regularizer(name)
+        for name in ("floor", "start"):
+            if getattr(self, name):
+                self.check_bound(name)
 
     @property
     def in_size(self) -> int:
@@ -92,10 +112,10 @@ class Recipe:
 
     @property
     def range(self) -> tuple[float, float]:
-        """Between which values of the first input, relative to its scale, the data lie.
+        """The range of the first input in the data, relative to its scale.
 
         Raises:
-            DeclarationError: for limits that are none, or that a promise does not allow.
+            DeclarationError: for limits that do not enclose an interval, or that a promise does not allow.
         """
         scale = self.input_scale[0] if isinstance(self.input_scale, tuple) else self.input_scale
         limits = self.limits
@@ -117,20 +137,28 @@ class Recipe:
     @property
     def vanishes(self) -> bool:
         """Whether the law is zero at zero by construction."""
-        raise NotImplementedError
+        return self.passive or self.odd or self.zero_crossing in ("offset", "exact")
 
-    def continued(self, net: Net, beyond: Callable[..., Net], **more: Any) -> Net:
-        """The network, continued beyond the limits by `Continued` or the like if that is wanted."""
-        if self.extrapolation is None:
-            return net
-        return beyond(net, *self.range, self.extrapolation, **more)
-
-    def refuse_regularizer(self, because: str) -> None:
-        """A law that vanishes by construction leaves nothing to a regularizer or a correction.
+    def check_bound(self, name: str) -> None:
+        """Whether the law or energy can have a ``floor`` or ``start``.
 
         Raises:
-            DeclarationError: if the zero crossing is to come from one of them.
+            DeclarationError: if it cannot.
         """
+        raise NotImplementedError
+
+    def layers(self, key: Key) -> Layers:
+        """What all networks of layers take."""
+        return {"width": self.width, "depth": self.depth, "activation": self.rho, "key": key}
+
+    def continued(self, net: Net, continuation: Callable[..., Net], **more: bool) -> Net:
+        """The network, extrapolated beyond the limits by a `Continued` or a `ContinuedEnergy` if that is wanted."""
+        if self.extrapolation is None:
+            return net
+        return continuation(net, *self.range, self.extrapolation, **more)
+
+    def _refuse_regularizer(self, because: str) -> None:
+        """A law that vanishes by construction needs no regularizer or correction."""
         if self.zero_crossing in ("regularizer", "offset"):
             raise DeclarationError(
                 f"{because}=True makes the law vanish at zero already; leave out zero_crossing={self.zero_crossing!r}"

@@ -1,4 +1,4 @@
-"""Laws that look the same from both sides."""
+"""Odd and even laws."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import equinox as eqx
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 
 class Odd(eqx.Module):
@@ -15,7 +15,7 @@ class Odd(eqx.Module):
 
     net: Callable[..., Array]
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         x, *others = inputs
         return 0.5 * (self.net(x, *others) - self.net(-jnp.asarray(x), *others))
@@ -31,7 +31,7 @@ class Even(eqx.Module):
     net: Callable[..., Array]
     inputs: int = eqx.field(static=True, default=1)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         mirrored = [-jnp.asarray(x) for x in inputs[: self.inputs]]
         return 0.5 * (self.net(*inputs) + self.net(*mirrored, *inputs[self.inputs :]))

@@ -1,17 +1,18 @@
-"""The networks among a model's parameters: found, corrected after training."""
+"""The networks among a model's parameters, and their correction after training."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 import equinox as eqx
 import jax
+from jaxtyping import Array
 
 from acausal.data import Signal
 from acausal.networks.energy import Levelled
-from acausal.networks.scaled import Potential
+from acausal.networks.scaled import EnergyLaw
 from acausal.networks.zero import OffsetCorrected
 
 
@@ -21,7 +22,7 @@ def modules(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
 
 
 def networks(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
-    """The modules that hold something to train: floating-point arrays that are no time base or table."""
+    """The modules that can be trained: those with floating-point arrays other than a time base or table."""
     return {name: module for name, module in modules(params).items() if _trainable(module)}
 
 
@@ -35,19 +36,19 @@ def remove_offset(
 ) -> dict[str, Any]:
     """The parameters with networks wrapped in `OffsetCorrected` (all networks, or those named).
 
-    Of an energy the slope at zero is removed, which is the offset of its law.
+    For an energy the derivative at zero is removed, which is the offset of its law.
     """
     chosen = networks(params) if names is None else names
     return {n: _corrected(leaf) if n in chosen else leaf for n, leaf in params.items()}
 
 
-def _corrected(network: Any) -> Any:
-    if isinstance(network, Potential):
+def _corrected(network: Callable[..., Array]) -> eqx.Module:
+    if isinstance(network, EnergyLaw):
         return replace(network, net=Levelled(network.net, network.inputs))
     return OffsetCorrected(network)
 
 
-def output_scale(module: Any) -> float:
+def output_scale(module: object) -> float:
     """The typical output of a network's law: its ``output_scale`` if it has one, else 1."""
     if isinstance(module, OffsetCorrected):
         return output_scale(module.net)

@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import equinox as eqx
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
-from acausal.networks.dry_friction_factor import Passage
+from acausal.networks.dry_friction_factor import DryFrictionFactor, WithFactor, chosen_factor
 
 
 class OffsetCorrected(eqx.Module):
@@ -20,17 +20,23 @@ class OffsetCorrected(eqx.Module):
 
     net: Callable[..., Array]
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The corrected output for scalar inputs."""
         return self.net(*inputs) - self.net(jnp.zeros_like(inputs[0]), *inputs[1:])
 
 
-class ThroughZero(eqx.Module):
-    """``p(x) F(x, T)`` with a `Passage` ``p``: zero at zero to the last bit, for one evaluation of the network."""
+class ThroughZero(WithFactor):
+    """``p(x) F(x, T)`` with a `DryFrictionFactor` ``p``: exactly zero at zero, for one evaluation of the network."""
 
-    net: Callable[..., Array]
-    passage: Passage = eqx.field(default_factory=Passage)
+    def __init__(
+        self,
+        net: Callable[..., Array],
+        factor: DryFrictionFactor | None = None,
+        *,
+        passage: DryFrictionFactor | None = None,
+    ) -> None:
+        self.net, self.factor = net, chosen_factor(factor, passage)
 
-    def __call__(self, *inputs: ArrayLike) -> Array:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
-        return self.passage(inputs[0]) * self.net(*inputs)
+        return self.factor(inputs[0]) * self.net(*inputs)

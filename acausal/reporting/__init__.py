@@ -7,6 +7,7 @@ the attributes of a small protocol.
 
 from acausal.reporting.diagram import diagram as diagram
 from acausal.reporting.html import Page as Page, write_json as write_json
+from acausal.reporting.over_time import plot_over_time as plot_over_time
 from acausal.reporting.plot import (
     GUIDE as GUIDE,
     LEARNED as LEARNED,

@@ -2,26 +2,43 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import diffrax as dfx
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
+from jax.typing import ArrayLike
+from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import cast, traced
 from acausal.errors import SimulationError, StepLimitError
-from acausal.simulation import inputs, solvers
+from acausal.simulation import solvers
+from acausal.simulation.inputs import evaluate, evaluate_all, jumps
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 
 Tolerance = float | Array
 
 
+class Solved(NamedTuple):
+    """What diffrax gives back.
+
+    Attributes:
+        x: states at the saved times, shape (n, n_states).
+        reached: the last time. ``last``: the state there.
+        result: whether and why it stopped.
+    """
+
+    x: Float[Array, "n n_states"]
+    reached: Float[Array, ""]
+    last: Float[Array, " n_states"]
+    result: dfx.RESULTS
+
+
 def simulate_adaptive(
     run: Run,
-    saved: np.ndarray,
+    saved: Float[np.ndarray, " n"],
     solver: solvers.Solver,
     rtol: Tolerance,
     atol: Tolerance,
@@ -45,42 +62,44 @@ def simulate_adaptive(
         SimulationError: if the end is not reached.
     """
     solver = solvers.for_adaptive_steps(solver)
-    jumps = jnp.asarray(inputs.jumps(run.drive, run.start, run.end))
-    run, t, jumps = cast((run, jnp.asarray(saved), jumps), dtype)
+    jump_times = jnp.asarray(jumps(run.inputs, run.begin, run.end))
+    run, t, jump_times = cast((run, jnp.asarray(saved), jump_times), dtype)
     chosen = dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint
-    x, reached, last, result = _solve(run, t, solver, rtol, atol, jumps, max_steps, chosen)
-    if not traced(x, reached):
-        _check(run, np.asarray(x), float(reached), np.asarray(last), result, max_steps, solver)
-    return Solution(t, x, inputs.evaluate_all(run.drive, t), run.system, run.packed)
+    solved = _solve(run, t, solver, rtol, atol, jump_times, max_steps, chosen)
+    if not traced(solved.x, solved.reached):
+        _check(run, solved, max_steps, solver)
+    u = evaluate_all(run.inputs, t)
+    return Solution(run.start._replace(t=t, x=solved.x, u=u), run.system)
 
 
 @eqx.filter_jit
 def _solve(
     run: Run,
-    ts: Array,
+    ts: Float[Array, " n"],
     solver: solvers.Solver,
     rtol: Tolerance,
     atol: Tolerance,
-    jumps: Array,
+    jump_times: Float[Array, " n_jumps"],
     max_steps: int,
     adjoint: dfx.AbstractAdjoint,
-) -> tuple[Array, Array, Array, Any]:
-    arrays, rest = eqx.partition((run.packed, run.drive), eqx.is_array)
+) -> Solved:
+    constant = run.start._replace(t=None, x=None, u=None)
+    arrays, rest = eqx.partition((constant, run.inputs), eqx.is_array)
 
-    def field(t: Any, x: Array, args: Any) -> Array:
-        packed, drive = eqx.combine(args, rest)
-        return run.system.vector_field(t, x, inputs.evaluate(drive, t), packed)
+    def field(t: ArrayLike, x: Array, args: PyTree) -> Array:
+        values, inputs = eqx.combine(args, rest)
+        return run.system.rates(values._replace(t=t, x=x, u=evaluate(inputs, t)))
 
-    controller: Any = dfx.PIDController(rtol=rtol, atol=atol)
-    if jumps.shape[0]:
-        controller = dfx.ClipStepSizeController(controller, jump_ts=jumps)
+    controller: dfx.AbstractStepSizeController[Any, Any] = dfx.PIDController(rtol=rtol, atol=atol)
+    if jump_times.shape[0]:
+        controller = dfx.ClipStepSizeController(controller, jump_ts=jump_times)
     solution: Any = dfx.diffeqsolve(
         dfx.ODETerm(field),
         solver,
-        run.start,
+        run.begin,
         run.end,
         None,
-        run.x0,
+        run.start.x,
         arrays,
         saveat=dfx.SaveAt(subs=[dfx.SubSaveAt(ts=ts), dfx.SubSaveAt(t1=True)]),
         stepsize_controller=controller,
@@ -88,33 +107,26 @@ def _solve(
         throw=False,
         adjoint=adjoint,
     )
-    return solution.ys[0], solution.ts[1][-1], solution.ys[1][-1], solution.result
+    return Solved(solution.ys[0], solution.ts[1][-1], solution.ys[1][-1], solution.result)
 
 
-def _check(
-    run: Run,
-    x: np.ndarray,
-    reached: float,
-    last: np.ndarray,
-    result: Any,
-    max_steps: int,
-    solver: solvers.Solver,
-) -> None:
-    if bool(result == dfx.RESULTS.successful) and np.isfinite(x).all():
+def _check(run: Run, solved: Solved, max_steps: int, solver: solvers.Solver) -> None:
+    if bool(solved.result == dfx.RESULTS.successful) and np.isfinite(solved.x).all():
         return
+    reached = float(solved.reached)
     where = f"The simulation with {type(solver).__name__} stopped at t = {reached:g} s, before {run.end:g} s"
-    exhausted = bool(result == dfx.RESULTS.max_steps_reached)
-    ahead = (run.end - run.start) / max_steps if exhausted else run.end - reached
-    if reason := run.explain(reached, last, ahead):
+    exhausted = bool(solved.result == dfx.RESULTS.max_steps_reached)
+    ahead = (run.end - run.begin) / max_steps if exhausted else run.end - reached
+    if reason := run.explain(run.at(reached, solved.last), ahead):
         raise SimulationError(f"{where}.{reason}")
     if not exhausted:
         raise SimulationError(
             f"{where}: its steps became too small, or its values not finite. "
-            "The model may run away there: look at its parameters, initial values and inputs."
+            "The model may diverge there: look at its parameters, initial values and inputs."
         )
     implicit = isinstance(solver, dfx.AbstractImplicitSolver)
     stiff = "" if implicit else "it is stiff (choose solver='kvaerno5'), "
     raise StepLimitError(
-        f"{where}, after max_steps={max_steps}. Perhaps {stiff}it runs away there, "
+        f"{where}, after max_steps={max_steps}. Perhaps {stiff}it diverges there, "
         "or its inputs are rough (raise max_steps, loosen rtol, or give dt for fixed steps)."
     )

@@ -1,68 +1,70 @@
 """Fixed steps: one step of a scheme, and its repetition.
 
 Explicit Runge–Kutta schemes are unrolled from the diffrax solver's own tableau, so that XLA sees plain
-arithmetic with constant coefficients; of any other solver the `step` method is called.
+arithmetic with constant coefficients. For any other solver, its `step` method is called.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import diffrax as dfx
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import march
-from acausal.data import bow
-from acausal.simulation.inputs import Drive, Samples
+from acausal._jax import stored_scan
+from acausal.codegen import Values
+from acausal.data import deviation_from_line
+from acausal.simulation.inputs import Samples, TimeFunction
 from acausal.simulation.solvers import Solver
 
 if TYPE_CHECKING:
     from acausal.system import System
 
-Field = Callable[[ArrayLike, Array, Any], Array]
+State: TypeAlias = Float[Array, " n_states"]
+
+Field = Callable[[ArrayLike, State, PyTree], State]
 """The right-hand side within a step: (fraction of the step, state, arguments) -> derivative."""
 
-_Args = tuple[Any, tuple[Drive | None, ...], "Step"]
-"""What a right-hand side needs beside the state: parameters, inputs that are functions, the step."""
-
-Stepper = Callable[[Field, Array, ArrayLike, Any, Array | None], Array]
+Stepper = Callable[[Field, State, Float[Array, ""], PyTree, State | None], State]
 """One step of a scheme: (field, state, length, arguments, derivative at the start if known) -> state."""
 
 
 class Steps(eqx.Module):
-    """A row of n steps.
+    """A sequence of n steps.
 
     Attributes:
         t: their starts, shape (n,), in seconds.
         h: their lengths in seconds, shape (n,), or () where all are equal.
-        inputs: what drives the model over each.
+        inputs: the inputs over each of them.
     """
 
-    t: Array
-    h: Array
+    t: Float[Array, " n"]
+    h: Float[Array, "*n"]
     inputs: Samples
 
 
 class Step(eqx.Module):
-    """One of `Steps`: its start and length, the inputs at both ends, and how they bend in between."""
+    """One of `Steps`: its start and length, the inputs at both ends, and how they deviate from a line in between."""
 
-    t: Array
-    h: Array
-    start: Array
-    end: Array
-    bends: Array | None
+    t: Float[Array, ""]
+    h: Float[Array, ""]
+    start: Float[Array, " n_inputs"]
+    end: Float[Array, " n_inputs"]
+    coefficients: Float[Array, "n_coefficients n_inputs"] | None
 
-    def time(self, fraction: ArrayLike) -> Array:
+    def time(self, fraction: ArrayLike) -> Float[Array, ""]:
         """The time at a fraction of the step."""
         return self.t if _is_zero(fraction) else self.t + fraction * self.h
 
-    def inputs(self, fraction: ArrayLike, functions: tuple[Drive | None, ...]) -> Array:
-        """The inputs at a fraction of the step, shape (number of inputs,)."""
+    def inputs(
+        self, fraction: ArrayLike, functions: tuple[TimeFunction | None, ...]
+    ) -> Float[Array, " n_inputs"]:
+        """The inputs at a fraction of the step."""
         u = self._sampled(fraction)
         if all(f is None for f in functions):
             return u
@@ -73,30 +75,64 @@ class Step(eqx.Module):
         if _is_zero(fraction):
             return self.start
         on_line = self.start + fraction * (self.end - self.start)
-        return on_line if self.bends is None else on_line + bow(self.bends, fraction)
+        if self.coefficients is None:
+            return on_line
+        return on_line + deviation_from_line(self.coefficients, fraction)
 
 
 def _is_zero(fraction: ArrayLike) -> bool:
     return isinstance(fraction, float) and fraction == 0.0
 
 
+class Within(NamedTuple):
+    """What the right-hand side needs within a step, beside the state.
+
+    Attributes:
+        values: what stays the same over the step; its time, states and inputs are replaced.
+        functions: the inputs that are functions of time.
+        step: the step.
+    """
+
+    values: Values
+    functions: tuple[TimeFunction | None, ...]
+    step: Step
+
+    def at(self, fraction: ArrayLike, x: State) -> Values:
+        """The values of the model at a fraction of the step."""
+        step = self.step
+        t, u = step.time(fraction), step.inputs(fraction, self.functions)
+        return self.values._replace(t=t, x=x, u=u)
+
+
+class Integrated(NamedTuple):
+    """The result of `integrate`.
+
+    Attributes:
+        x: the states at the steps' starts, shape (n, n_states).
+        y: the outputs there, shape (n, n_outputs); ``None`` without any.
+        end: the state after the last step, shape (n_states,).
+    """
+
+    x: Float[Array, "n n_states"]
+    y: Float[Array, "n n_outputs"] | None
+    end: State
+
+
 def integrate(
     system: System,
-    packed: Any,
-    x0: Array,
+    start: Values,
     steps: Steps,
     solver: Solver,
     *,
     outputs: Sequence[str] = (),
     substeps: int = 1,
     direct: bool = False,
-) -> tuple[Array, Array | None, Array]:
-    """Integrate the model over a row of steps. Pure: trace, differentiate and map it.
+) -> Integrated:
+    """Integrate the model over some steps. Pure: trace, differentiate and map it.
 
     Arguments:
         system: the model.
-        packed: its parameters, `system.pack(params)`.
-        x0: initial state, shape (number of states,).
+        start: the values of the model at the start of the first step. Time and inputs are read from ``steps``.
         steps: the n steps and their inputs.
         solver: a one-step diffrax solver, from `solvers.for_fixed_steps`.
         outputs: variables to observe at the start of every step, where their terms are shared with the
@@ -105,83 +141,82 @@ def integrate(
         direct: whether derivatives in forward mode must work, too; those in reverse mode then take more memory.
 
     Returns:
-        The states at the steps' starts, shape (n, number of states); the outputs there, shape
-        (n, number of outputs), ``None`` without any; the state at the end. A step whose equations are not
-        solved gives NaN.
+        States and outputs at the steps' starts, and the state at the end. A step whose equations are not solved
+        gives NaN.
     """
     outputs = tuple(outputs)
     explicit = isinstance(solver, dfx.AbstractERK)
     advance = _explicit(solver) if explicit else _implicit(solver)
     equal = steps.h if steps.h.ndim == 0 else None
-    constants, fixed = eqx.partition((packed, steps.inputs.functions, equal), eqx.is_array)
+    constant = start._replace(t=None, x=None, u=None)
+    constants, fixed = eqx.partition((constant, steps.inputs.functions, equal), eqx.is_array)
 
-    def field(fraction: ArrayLike, x: Array, args: _Args) -> Array:
-        packed, functions, step = args
-        return system.vector_field(step.time(fraction), x, step.inputs(fraction, functions), packed)
+    def field(fraction: ArrayLike, x: State, within: Within) -> State:
+        return system.rates(within.at(fraction, x))
 
-    def part(x: Array, j: ArrayLike, args: _Args, slope: Array | None) -> Array:
-        def within(fraction: ArrayLike, x: Array, args: Any) -> Array:
-            j, args = args
-            return field((j + fraction) / substeps, x, args)
+    def part(x: State, j: ArrayLike, within: Within, first_stage: State | None) -> State:
+        def part_field(fraction: ArrayLike, x: State, args: tuple[ArrayLike, Within]) -> State:
+            j, within = args
+            return field((j + fraction) / substeps, x, within)
 
-        return advance(within, x, args[2].h / substeps, (j, args), slope)
+        return advance(part_field, x, within.step.h / substeps, (j, within), first_stage)
 
-    def whole(x: Array, args: _Args, slope: Array | None) -> Array:
+    def whole(x: State, within: Within, first_stage: State | None) -> State:
         if substeps == 1:
-            return advance(field, x, args[2].h, args, slope)
-        x = part(x, jnp.zeros((), x.dtype), args, slope)
+            return advance(field, x, within.step.h, within, first_stage)
+        x = part(x, jnp.zeros((), x.dtype), within, first_stage)
         rest = jnp.arange(1.0, substeps, dtype=x.dtype)
-        return jax.lax.scan(lambda x, j: (part(x, j, args, None), None), x, rest)[0]
+        return jax.lax.scan(lambda x, j: (part(x, j, within, None), None), x, rest)[0]
 
-    def observe(x: Array, args: _Args) -> tuple[Array | None, Array | None]:
-        packed, functions, step = args
-        point = (step.t, x, step.inputs(0.0, functions), packed)
+    def observe(x: State, within: Within) -> tuple[State | None, Array | None]:
         if not outputs:
             return None, None
+        values = within.at(0.0, x)
         if explicit:
-            return system.vector_field_and_observe(outputs, *point)
-        return None, system.observe(outputs, *point)
+            return system.rates_and_read(outputs, values)
+        return None, system.read(outputs, values)
 
-    def step(constants: Any, x: Array, row: Any) -> tuple[Array, Array | None]:
-        packed, functions, equal = eqx.combine(constants, fixed)
-        t, own, start, end, bends = row
-        args = packed, functions, Step(t, equal if own is None else own, start, end, bends)
-        slope, y = observe(x, args)
-        return whole(x, args, slope), y
+    def step(constants: PyTree, x: State, row: PyTree) -> tuple[State, Array | None]:
+        values, functions, equal = eqx.combine(constants, fixed)
+        t, own, start, end, coefficients = row
+        length = equal if own is None else own
+        within = Within(values, functions, Step(t, length, start, end, coefficients))
+        first_stage, y = observe(x, within)
+        return whole(x, within, first_stage), y
 
     own, samples = None if equal is not None else steps.h, steps.inputs
-    rows = (steps.t, own, samples.start, samples.end, samples.bends)
-    xs, end, ys = march(step, constants, x0, rows, direct=direct)
-    return xs, ys, end
+    rows = (steps.t, own, samples.start, samples.end, samples.coefficients)
+    xs, end, ys = stored_scan(step, constants, start.x, rows, direct=direct)
+    return Integrated(xs, ys, end)
 
 
 def _explicit(solver: dfx.AbstractERK) -> Stepper:
     """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
-    tableau: Any = solver.tableau
+    tableau = cast(dfx.ButcherTableau, solver.tableau)
     rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
     fractions = [0.0, *(float(c) for c in tableau.c)]
     weights = [float(b) for b in tableau.b_sol]
     needed = max(i for i, b in enumerate(weights) if b) + 1
 
-    def step(field: Field, x: Array, h: ArrayLike, args: Any, slope: Array | None) -> Array:
-        slopes = [] if slope is None else [slope]
-        for i in range(len(slopes), needed):
-            slopes.append(field(fractions[i], _sum(x, h, rows[i], slopes), args))
-        return _sum(x, h, weights, slopes)
+    def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
+        stages = [] if first is None else [first]
+        for i in range(len(stages), needed):
+            stages.append(field(fractions[i], _sum(x, h, rows[i], stages), args))
+        return _sum(x, h, weights, stages)
 
     return step
 
 
-def _sum(x: Array, h: ArrayLike, weights: Sequence[float], slopes: Sequence[Array]) -> Array:
-    for weight, slope in zip(weights, slopes, strict=False):
-        x = x + (weight * h) * slope if weight else x
+def _sum(x: State, h: Array, weights: Sequence[float], stages: Sequence[State]) -> State:
+    for weight, stage in zip(weights, stages, strict=False):
+        x = x + (weight * h) * stage if weight else x
     return x
 
 
 def _implicit(solver: Solver) -> Stepper:
     """A solver's own `step`, in local time from 0 to h."""
 
-    def step(field: Field, x: Array, h: Any, args: Any, slope: Array | None) -> Array:
+    def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
         term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
         start, h, args = _strong((jnp.zeros_like(h), h, args))
         memory = solver.init(term, start, h, x, args)
@@ -191,7 +226,7 @@ def _implicit(solver: Solver) -> Stepper:
     return step
 
 
-def _strong(tree: Any) -> Any:
+def _strong(tree: PyTree) -> PyTree:
     """Arrays without JAX's weak types, which diffrax would take for a change of type within its loops."""
     return jax.tree.map(
         lambda a: jax.lax.convert_element_type(a, a.dtype) if eqx.is_array(a) else a, tree

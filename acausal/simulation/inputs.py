@@ -1,26 +1,27 @@
-"""What drives a model: a user's inputs, checked, as functions of time or as samples on a grid of steps."""
+"""The inputs of a simulation: checked, then functions of time, or samples on a grid of steps."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import Array
 from jax.typing import ArrayLike
+from jaxtyping import Array, Float
 
 from acausal._jax import traced
-from acausal.data import FRACTIONS, Data, Signal, bends
+from acausal.data import FRACTIONS, Data, Signal, polynomial_coefficients
 from acausal.errors import DataError, listing, nearest
+from acausal.simulation.step_grid import ON_GRID
 
-Drive = Callable[[ArrayLike], Array]
+TimeFunction: TypeAlias = Callable[[ArrayLike], Array]
 """One input as a function of time: time in seconds -> scalar."""
 
-ON_GRID = 1e-6
-"""A sample lies on the grid of steps if it is within this fraction of a step of a step's end."""
+Ends: TypeAlias = Float[np.ndarray, " n_ends"]
+"""The ends of n steps, with the first one's start: n + 1 times in seconds."""
 
 
 class Constant(eqx.Module):
@@ -43,7 +44,7 @@ class Function(eqx.Module):
         """The function's value as a scalar array.
 
         Raises:
-            DataError: for a function that JAX cannot trace, or that returns no scalar.
+            DataError: for a function that JAX cannot trace, or that does not return a scalar.
         """
         try:
             value = jnp.asarray(self.function(t), jnp.result_type(t))
@@ -54,38 +55,38 @@ class Function(eqx.Module):
             ) from error
         if value.shape != ():
             raise DataError(
-                f"Input '{self.name}' is a function that returns shape {value.shape}, no scalar."
+                f"Input '{self.name}' is a function that returns shape {value.shape}, not a scalar."
             )
         return value
 
 
 class Samples(eqx.Module):
-    """Inputs over a row of n steps.
+    """Inputs over n steps.
 
     Attributes:
         start: values at the steps' starts, shape (n, number of inputs).
         end: values at their ends.
         functions: per input, what is evaluated at stage times instead of the samples, or ``None``.
-        bends: how inputs deviate from the line between, the coefficients of `acausal.data.band_limited.bow`, shape
-            (n, coefficients, number of inputs); ``None`` where all are linear.
+        coefficients: of the polynomials by which inputs deviate from the line in between
+            (`acausal.data.band_limited.deviation_from_line`); ``None`` where all are linear.
     """
 
-    start: Array
-    end: Array
-    functions: tuple[Drive | None, ...] = ()
-    bends: Array | None = None
+    start: Float[Array, "n n_inputs"]
+    end: Float[Array, "n n_inputs"]
+    functions: tuple[TimeFunction | None, ...] = ()
+    coefficients: Float[Array, "n n_coefficients n_inputs"] | None = None
 
 
-def read(
-    names: tuple[str, ...], given: Mapping[str, Any] | Data | None, grid: np.ndarray | None
-) -> tuple[Drive, ...]:
+def functions_of_time(
+    names: tuple[str, ...], given: Mapping[str, Any] | Data | None, ends: Ends | None
+) -> tuple[TimeFunction, ...]:
     """One function of time for each of the model's inputs.
 
     Arguments:
         names: the model's inputs.
-        given: by name, a number; samples on ``grid``; a pair (times, samples); a `Signal`; a function of
+        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; a function of
             time. Or a record that holds the inputs among other signals.
-        grid: ends of the fixed steps, for samples without times.
+        ends: ends of the fixed steps, for samples without times.
 
     Raises:
         DataError: for an input that is missing, unknown or malformed.
@@ -101,10 +102,10 @@ def read(
         raise DataError(
             f"No value for the model's input {listing(missing)}: give inputs={{'{missing[0]}': ...}}."
         )
-    return tuple(_drive(name, given[name], grid) for name in names)
+    return tuple(_function(name, given[name], ends) for name in names)
 
 
-def _drive(name: str, value: Any, grid: np.ndarray | None) -> Drive:
+def _function(name: str, value: object, ends: Ends | None) -> TimeFunction:
     if isinstance(value, Signal | Constant):
         return value
     if callable(value):
@@ -112,52 +113,66 @@ def _drive(name: str, value: Any, grid: np.ndarray | None) -> Drive:
     if isinstance(value, tuple) and len(cast(tuple[Any, ...], value)) == 2:
         times, samples = cast(tuple[ArrayLike, ArrayLike], value)
         return Signal(times, samples, name=name)
-    if np.ndim(value) == 0:
-        if not traced(value) and not np.isfinite(value):
-            raise DataError(f"Input '{name}' is {value}.")
-        return Constant(jnp.asarray(value, float))
-    if grid is None:
+    samples = cast(ArrayLike, value)
+    if np.ndim(samples) == 0:
+        if not traced(samples) and not np.isfinite(samples):
+            raise DataError(f"Input '{name}' is {samples}.")
+        return Constant(jnp.asarray(samples, float))
+    if ends is None:
         raise DataError(
             f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps."
         )
-    if np.shape(value) != grid.shape:
+    if np.shape(samples) != ends.shape:
         raise DataError(
-            f"Input '{name}' has samples of shape {np.shape(value)}; "
-            f"the {len(grid) - 1} steps from {grid[0]:g} to {grid[-1]:g} s need {len(grid)}."
+            f"Input '{name}' has samples of shape {np.shape(samples)}; "
+            f"the {len(ends) - 1} steps from {ends[0]:g} to {ends[-1]:g} s need {len(ends)}."
         )
-    return Signal(grid, cast(ArrayLike, value), name=name)
+    return Signal(ends, samples, name=name)
 
 
-def evaluate(drives: tuple[Drive, ...], t: ArrayLike) -> Array:
-    """All inputs at one time, shape (number of inputs,)."""
-    return jnp.stack([d(t) for d in drives]) if drives else jnp.zeros(0)
+def evaluate(functions: tuple[TimeFunction, ...], t: ArrayLike) -> Float[Array, " n_inputs"]:
+    """All inputs at one time."""
+    return jnp.stack([f(t) for f in functions]) if functions else jnp.zeros(0)
 
 
 @eqx.filter_jit
-def evaluate_all(drives: tuple[Drive, ...], t: Array) -> Array:
-    """All inputs at n times, shape (n, number of inputs)."""
-    return jax.vmap(lambda t: evaluate(drives, t))(t)
+def evaluate_all(
+    functions: tuple[TimeFunction, ...], t: Float[Array, " n"]
+) -> Float[Array, "n n_inputs"]:
+    """All inputs at n times."""
+    return jax.vmap(lambda t: evaluate(functions, t))(t)
 
 
-def over_steps(drives: tuple[Drive, ...], grid: np.ndarray) -> Samples:
+class _Sampled(NamedTuple):
+    """One input over n steps: values at starts and ends, and the coefficients of its deviation from the line."""
+
+    start: ArrayLike
+    end: ArrayLike
+    coefficients: Float[Array, "n_coefficients n"] | None = None
+
+
+def over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
     """The inputs over fixed steps.
 
-    An input that is a polynomial within every step becomes samples, which a scan reads at no cost;
-    any other stays a function and is evaluated at the stages of every step.
+    An input that is a polynomial within every step becomes samples, which a scan reads at no cost.
+    Any other one stays a function, which is evaluated at the stages of every step.
     """
-    columns = [_on_grid(d, grid) for d in drives]
-    nothing = jnp.zeros(len(grid) - 1)
-    pairs = [(nothing, nothing, None) if c is None else c for c in columns]
-    functions = tuple(d if c is None else None for d, c in zip(drives, columns, strict=True))
-    if not pairs:
-        empty = jnp.zeros((len(grid) - 1, 0))
+    sampled = [_on_grid(f, ends) for f in functions]
+    nothing = jnp.zeros(len(ends) - 1)
+    columns = [_Sampled(nothing, nothing) if c is None else c for c in sampled]
+    left = tuple(f if c is None else None for f, c in zip(functions, sampled, strict=True))
+    if not columns:
+        empty = jnp.zeros((len(ends) - 1, 0))
         return Samples(empty, empty)
-    starts, ends, bent = zip(*pairs, strict=True)
-    return Samples(jnp.stack(starts, axis=1), jnp.stack(ends, axis=1), functions, _bends(bent))
+    at_starts, at_ends, coefficients = zip(*columns, strict=True)
+    return Samples(
+        jnp.stack(at_starts, axis=1), jnp.stack(at_ends, axis=1), left, _side_by_side(coefficients)
+    )
 
 
-def _bends(columns: tuple[Array | None, ...]) -> Array | None:
-    """The coefficients side by side, shape (n, coefficients, number of inputs)."""
+def _side_by_side(
+    columns: tuple[Float[Array, "n_coefficients n"] | None, ...],
+) -> Float[Array, "n n_coefficients n_inputs"] | None:
     some = [c for c in columns if c is not None]
     if not some:
         return None
@@ -165,54 +180,57 @@ def _bends(columns: tuple[Array | None, ...]) -> Array | None:
     return jnp.stack([straight if c is None else c for c in columns], axis=-1).swapaxes(0, 1)
 
 
-def _on_grid(drive: Drive, grid: np.ndarray) -> tuple[ArrayLike, ArrayLike, Array | None] | None:
-    """An input at both ends of every step, and how it bends in between; ``None`` if it is no polynomial there."""
-    if isinstance(drive, Constant):
-        value = jnp.broadcast_to(drive.value, (len(grid) - 1,))
-        return value, value, None
-    if not isinstance(drive, Signal) or traced(drive.ts):
+def _on_grid(function: TimeFunction, ends: Ends) -> _Sampled | None:
+    """An input over every step; ``None`` if it is not a polynomial there."""
+    if isinstance(function, Constant):
+        value = jnp.broadcast_to(function.value, (len(ends) - 1,))
+        return _Sampled(value, value)
+    if not isinstance(function, Signal) or traced(function.ts):
         return None
-    ts, values = np.asarray(drive.ts), drive.values
+    ts, values = np.asarray(function.ts), function.values
     if not traced(values):
         values = np.asarray(values)  # spares the compilation of every operation below
-    if drive.extrapolation != "hold" or not _knots_on(grid, ts):
+    if function.extrapolation != "hold" or not _samples_on(ends, ts):
         return None
-    if drive.interpolation in ("cubic", "band-limited"):
-        return _curved(drive, grid)
-    if drive.interpolation == "previous":
-        value = values[np.maximum(np.searchsorted(ts, (grid[1:] + grid[:-1]) / 2) - 1, 0)]
-        return value, value, None
-    i = np.clip(np.searchsorted(ts, grid, side="right") - 1, 0, len(ts) - 2)
-    w = np.clip((grid - ts[i]) / (ts[i + 1] - ts[i]), 0.0, 1.0)
+    if function.interpolation in ("cubic", "band-limited"):
+        return _curved(function, ends)
+    if function.interpolation == "previous":
+        value = values[np.maximum(np.searchsorted(ts, (ends[1:] + ends[:-1]) / 2) - 1, 0)]
+        return _Sampled(value, value)
+    i = np.clip(np.searchsorted(ts, ends, side="right") - 1, 0, len(ts) - 2)
+    w = np.clip((ends - ts[i]) / (ts[i + 1] - ts[i]), 0.0, 1.0)
     w = np.where(np.abs(w - np.round(w)) < ON_GRID, np.round(w), w)
     value = values[i] + w * (values[i + 1] - values[i])
-    return value[:-1], value[1:], None
+    return _Sampled(value[:-1], value[1:])
 
 
-def _curved(signal: Signal, grid: np.ndarray) -> tuple[Array, Array, Array]:
-    """Of a polynomial between knots a part between them is one of the same degree, fixed by as many points."""
-    steps = grid[:-1, None] + np.diff(grid)[:, None] * FRACTIONS
-    at_ends, inner = _at(signal, grid), _at(signal, steps.ravel())
+def _curved(signal: Signal, ends: Ends) -> _Sampled:
+    """A part of a polynomial is a polynomial of the same degree, determined by as many points."""
+    steps = ends[:-1, None] + np.diff(ends)[:, None] * FRACTIONS
+    at_ends, inner = _at(signal, ends), _at(signal, steps.ravel())
     start, end = at_ends[:-1], at_ends[1:]
-    return start, end, bends(start, end, inner.reshape(steps.shape))
+    return _Sampled(start, end, polynomial_coefficients(start, end, inner.reshape(steps.shape)))
 
 
 @eqx.filter_jit
-def _at(signal: Signal, t: ArrayLike) -> Array:
+def _at(signal: Signal, t: ArrayLike) -> Float[Array, " n"]:
     """A signal at many times."""
     return jax.vmap(signal)(jnp.asarray(t))
 
 
-def _knots_on(grid: np.ndarray, ts: np.ndarray) -> bool:
-    knots = ts[(ts > grid[0]) & (ts < grid[-1])]
-    near = np.clip(np.searchsorted(grid, knots), 1, len(grid) - 1)
-    distance = np.minimum(np.abs(knots - grid[near]), np.abs(knots - grid[near - 1]))
-    return bool(np.all(distance <= ON_GRID * (grid[near] - grid[near - 1])))
+def _samples_on(ends: Ends, ts: Float[np.ndarray, " n"]) -> bool:
+    """Whether all samples within the span are at ends of steps."""
+    inner = ts[(ts > ends[0]) & (ts < ends[-1])]
+    near = np.clip(np.searchsorted(ends, inner), 1, len(ends) - 1)
+    distance = np.minimum(np.abs(inner - ends[near]), np.abs(inner - ends[near - 1]))
+    return bool(np.all(distance <= ON_GRID * (ends[near] - ends[near - 1])))
 
 
-def jumps(drives: tuple[Drive, ...], start: float, end: float) -> np.ndarray:
+def jumps(
+    functions: tuple[TimeFunction, ...], start: float, end: float
+) -> Float[np.ndarray, " n_jumps"]:
     """Times between ``start`` and ``end`` at which an input is known to jump."""
-    held = [d for d in drives if isinstance(d, Signal) and d.interpolation == "previous"]
-    known = [np.asarray(d.ts) for d in held if not traced(d.ts)]
+    held = [f for f in functions if isinstance(f, Signal) and f.interpolation == "previous"]
+    known = [np.asarray(f.ts) for f in held if not traced(f.ts)]
     ts = np.unique(np.concatenate(known)) if known else np.zeros(0)
     return ts[(ts > start) & (ts < end)]

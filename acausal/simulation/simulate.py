@@ -9,22 +9,25 @@ import diffrax as dfx
 import jax.numpy as jnp
 import numpy as np
 from jax.typing import DTypeLike
+from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import precision
 from acausal.data import Data
 from acausal.errors import DataError, StepLimitError, need_compiled
-from acausal.simulation import inputs as drives, solvers
+from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
-from acausal.simulation.fixed import grid, simulate_fixed
+from acausal.simulation.fixed import simulate_fixed
+from acausal.simulation.inputs import evaluate_all, functions_of_time
 from acausal.simulation.run import EIGENVALUES, Run
 from acausal.simulation.solution import Solution
+from acausal.simulation.step_grid import step_ends
 
 if TYPE_CHECKING:
     from acausal.system import System
 
 POINTS = 500
-"""Points that an adaptive simulation saves unless it is told which."""
+"""Points that an adaptive simulation saves by default."""
 
 
 def simulate(
@@ -54,14 +57,14 @@ def simulate(
         dt: fixed step in seconds; it must divide the span.
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
-            steps; a pair (times, samples), read linearly; a `Signal`; a function of time that JAX can trace. A
-            `Data` record gives the inputs it has. Samples that fall on the steps' ends cost nothing.
+            steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time that JAX can trace.
+            Or a `Data` record that holds the inputs. Samples that fall on the steps' ends cost nothing.
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it is Kvaerno5 if the Jacobian at the start has damped modes so fast that stability
-            would cost Tsit5 more than 5000 steps, or if Tsit5 does not arrive within ``max_steps`` (neither
-            while JAX traces, nor above 300 states).
+            would cost Tsit5 more than 5000 steps, or if Tsit5 does not reach the end within ``max_steps`` (neither
+            is checked while JAX traces, or for more than 300 states).
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
@@ -82,13 +85,13 @@ def simulate(
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
-    ends = None if dt is None else grid(start, end, dt)
+    ends = None if dt is None else step_ends(start, end, dt)
     known = _in_model_units(system, inputs) if isinstance(inputs, Data) else inputs
-    drive = drives.read(system.inputs, known, ends)
+    functions = functions_of_time(system.inputs, known, ends)
     packed = system.pack(params)
-    u_start = drives.evaluate_all(drive, jnp.asarray([start]))[0]
+    u_start = evaluate_all(functions, jnp.asarray([start]))[0]
     x_start = system.initial_state(packed, x0, u_start, start)
-    run = Run(system, packed, x_start, drive, start, end)
+    run = Run(system, system.values(start, x_start, u_start, packed), functions, end)
     run.check_start()
     if ends is not None:
         scheme = solvers.solver_named("tsit5" if solver == "auto" else solver)
@@ -110,27 +113,27 @@ def _in_model_units(system: System, record: Data) -> Data:
 
 
 def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
-    """Tsit5 and, should it need too many steps, Kvaerno5; this at once for a model that is stiff at the start."""
+    """Tsit5, then Kvaerno5 if Tsit5 needs too many steps; Kvaerno5 alone for a model that is stiff at the start."""
     implicit = solvers.solver_named("kvaerno5")
-    if solvers.stiff(run.modes(), run.end - run.start):
+    if solvers.stiff(run.modes(), run.end - run.begin):
         return (implicit,)
     explicit = solvers.solver_named("tsit5")
-    return (explicit, implicit) if len(run.x0) <= EIGENVALUES else (explicit,)
+    return (explicit, implicit) if len(run.start.x) <= EIGENVALUES else (explicit,)
 
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:
     try:
         start, end = (float(v) for v in t)
     except (TypeError, ValueError):
-        raise DataError(f"t={t!r} is no span of time; give (start, end) in seconds.") from None
+        raise DataError(f"t={t!r} is not a span of time; give (start, end) in seconds.") from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
         raise DataError(
-            f"t=({start:g}, {end:g}) is no span of time; give (start, end), start < end."
+            f"t=({start:g}, {end:g}) is not a span of time; give (start, end), start < end."
         )
     return start, end
 
 
-def _save_times(saveat: ArrayLike, start: float, end: float) -> np.ndarray:
+def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
     ts = np.atleast_1d(np.asarray(saveat, float))
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")

@@ -1,4 +1,4 @@
-"""The result of a simulation: a trajectory that knows its model, so that any variable can be read by name."""
+"""The result of a simulation: a trajectory with its model, so that any variable can be read by name."""
 
 from __future__ import annotations
 
@@ -7,23 +7,31 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, cast
 
 import equinox as eqx
 import jax
 import numpy as np
-from jax import Array
+from jaxtyping import Array, Float
 
 from acausal._jax import traced
+from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+
     from acausal.system import System
+
+AXES = Values(0, 0, 0, None)  # pyright: ignore[reportArgumentType]
+"""Which of the values in a trajectory have an axis of time."""
 
 
 @partial(
     jax.tree_util.register_dataclass,
-    data_fields=["t", "x", "u", "packed"],
+    data_fields=["values"],
     meta_fields=["system"],
     drop_fields=["_observed"],
 )
@@ -31,28 +39,44 @@ if TYPE_CHECKING:
 class Solution:
     """A trajectory. ``solution["body.a"]`` is any variable of the model over ``t``, by its dotted name.
 
-    Variables that are no states are computed when they are first asked for.
+    Variables other than states are computed when they are first asked for.
 
     Attributes:
-        t: times, shape (n,), in seconds.
-        x: states, shape (n, number of states).
-        u: inputs, shape (n, number of inputs).
+        values: times, states and inputs with a leading axis of n points, and parameters.
         system: the model.
-        packed: its parameters, `system.pack(params)`.
     """
 
-    t: Array
-    x: Array
-    u: Array
+    values: Values
     system: System
-    packed: Any = field(repr=False)
-    _observed: dict[str, Array] = field(default_factory=dict[str, Array], init=False, repr=False)
+    _observed: dict[str, Float[Array, " n"]] = field(
+        default_factory=dict[str, Array], init=False, repr=False
+    )
 
-    def __getitem__(self, name: str) -> Array:
+    @property
+    def t(self) -> Float[Array, " n"]:
+        """Times, in seconds."""
+        return cast(Array, self.values.t)
+
+    @property
+    def x(self) -> Float[Array, "n n_states"]:
+        """States."""
+        return self.values.x
+
+    @property
+    def u(self) -> Float[Array, "n n_inputs"]:
+        """Inputs."""
+        return self.values.u
+
+    @property
+    def packed(self) -> Packed:
+        """The model's parameters, `system.pack(params)`."""
+        return self.values.packed
+
+    def __getitem__(self, name: str) -> Float[Array, " n"]:
         """The variable's values, shape (n,).
 
         Raises:
-            DataError: for a name that the model has not.
+            DataError: for a name that the model does not have.
         """
         self._observe((name,))
         return self._observed[name]
@@ -62,13 +86,13 @@ class Solution:
         """The names that can be asked for."""
         return tuple(dict.fromkeys((*self.system.variables, *self.system.inputs)))
 
-    def to_dict(self, names: Iterable[str] | None = None) -> dict[str, np.ndarray]:
+    def to_dict(self, names: Iterable[str] | None = None) -> dict[str, Float[np.ndarray, " n"]]:
         """Time and variables (by default all) as arrays, under ``time`` and their names."""
         names = self.names if names is None else tuple(names)
         self._observe(names)
         return {"time": np.asarray(self.t), **{n: np.asarray(self._observed[n]) for n in names}}
 
-    def to_dataframe(self, names: Iterable[str] | None = None) -> Any:
+    def to_dataframe(self, names: Iterable[str] | None = None) -> DataFrame:
         """A pandas DataFrame of the variables (by default all), indexed by time.
 
         Raises:
@@ -90,7 +114,7 @@ class Solution:
             writer.writerow(f"{n} [{self._unit(n)}]" for n in columns)
             writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
 
-    def plot(self, *names: str, axes: Sequence[Any] | None = None) -> Any:
+    def plot(self, *names: str, axes: Sequence[Axes] | None = None) -> Figure:
         """Plot variables over time, those of one unit in one diagram.
 
         Arguments:
@@ -100,29 +124,12 @@ class Solution:
         Returns:
             The matplotlib figure.
         """
-        from matplotlib import pyplot as plt
+        from acausal.reporting import plot_over_time
 
-        names = names or self.system.states
-        self._observe(names)
-        groups: dict[str, list[str]] = {}
-        for name in names:
-            groups.setdefault(self._unit(name), []).append(name)
-        if axes is None:
-            size = (7.0, 1.0 + 2.0 * len(groups))
-            _, grid = plt.subplots(
-                len(groups), 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
-            )
-            axes = list(grid[:, 0])
-        for ax, (unit, members) in zip(axes, groups.items(), strict=True):
-            for name in members:
-                ax.plot(self.t, self._observed[name], label=name)
-            ax.set_ylabel(
-                f"{members[0]} in {unit or '1'}" if len(members) == 1 else f"in {unit or '1'}"
-            )
-            if len(members) > 1:
-                ax.legend()
-        axes[-1].set_xlabel("time in s")
-        return axes[0].figure
+        curves = self.to_dict(names or self.system.states)
+        return plot_over_time(
+            curves.pop("time"), curves, {n: self._unit(n) for n in curves}, axes=axes
+        )
 
     def _unit(self, name: str) -> str:
         return "s" if name == "time" else self.system.unit(name)
@@ -136,7 +143,7 @@ class Solution:
             if name not in self.system.variables:
                 raise DataError(f"The model has no variable '{name}': {nearest(name, self.names)}")
         if new:
-            values = _observe_all(self.system, new, self.t, self.x, self.u, self.packed)
+            values = _read_all(self.system, new, self.values)
             self._observed.update(zip(new, values, strict=True))
 
     def __repr__(self) -> str:
@@ -147,10 +154,8 @@ class Solution:
 
 
 @eqx.filter_jit
-def _observe_all(
-    system: System, names: tuple[str, ...], t: Array, x: Array, u: Array, packed: Any
-) -> list[Array]:
-    def at(t: Array, x: Array, u: Array) -> Array:
-        return system.observe(names, t, x, u, packed)
+def _read_all(system: System, names: tuple[str, ...], values: Values) -> list[Float[Array, " n"]]:
+    def at(values: Values) -> Float[Array, " n_names"]:
+        return system.read(names, values)
 
-    return list(jax.vmap(at, out_axes=1)(t, x, u))
+    return list(jax.vmap(at, (AXES,), 1)(values))

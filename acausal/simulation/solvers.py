@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import diffrax as dfx
 import equinox as eqx
 import numpy as np
+from jax.typing import DTypeLike
+from numpy.typing import NDArray
 
 from acausal.errors import SimulationError, nearest
 from acausal.simulation.stages import StageNewton, stage_newton
@@ -15,15 +17,19 @@ from acausal.simulation.stages import StageNewton, stage_newton
 Solver = dfx.AbstractSolver
 
 STIFF_STEPS = 5000
-"""Explicit steps that stability alone may cost before an implicit solver is chosen."""
+"""Explicit steps that stability alone may cost; an implicit solver is chosen beyond that."""
 
-STABILITY = 3.3
-"""Reach of the stability region of Tsit5 along the negative real axis, in units of 1/step."""
+TSIT5_STABILITY_LIMIT = 3.3
+"""Where the stability region of Tsit5 ends on the negative real axis, in units of 1/step."""
 
-IMPLICIT, PATIENCE = {"float64": 1e-9, "float32": 1e-5}, 100
-"""Of the nonlinear equations of implicit fixed steps: the tolerance of the state by precision, relative and absolute,
-and the corrections that are allowed; there is no shorter step to fall back to.
-"""
+STABILITY_LIMIT = 2.0
+"""About where the stability regions of all explicit schemes end, in units of 1/step."""
+
+STAGE_TOLERANCE = {"float64": 1e-9, "float32": 1e-5}
+"""Tolerance of the state in the equations of implicit fixed steps, relative and absolute, by precision."""
+
+STAGE_STEPS = 100
+"""Newton steps allowed in each implicit fixed step: there is no shorter step to try instead."""
 
 
 class RK4(dfx.AbstractERK):
@@ -59,7 +65,7 @@ SOLVERS: dict[str, Callable[[], Solver]] = {
     "kvaerno4": lambda: dfx.Kvaerno4(root_finder=stage_newton()),
     "kvaerno5": lambda: dfx.Kvaerno5(root_finder=stage_newton()),
 }
-"""Solvers by name; any other diffrax solver for ordinary differential equations may be given itself."""
+"""Solvers by name; any other diffrax solver for ordinary differential equations can be passed itself."""
 
 
 def solver_named(solver: str | Solver) -> Solver:
@@ -89,37 +95,39 @@ def for_adaptive_steps(solver: Solver) -> Solver:
     return solver
 
 
-def for_fixed_steps(solver: Solver, dtype: Any = np.float64) -> Solver:
-    """The solver for fixed steps: an implicit one gets tolerances, which no step-size controller sets.
+def for_fixed_steps(solver: Solver, dtype: DTypeLike = np.float64) -> Solver:
+    """The solver for fixed steps: an implicit one gets its own tolerances, as there is no step-size controller.
 
     Arguments:
         solver: as the user chose it.
         dtype: precision of the steps.
 
     Raises:
-        SimulationError: for a solver that is no Runge–Kutta scheme.
+        SimulationError: for a solver that is not a Runge–Kutta scheme.
     """
     if isinstance(solver, dfx.AbstractERK):
         return solver
     if not isinstance(solver, dfx.ImplicitEuler | dfx.AbstractRungeKutta):
         name = type(solver).__name__
         raise SimulationError(
-            f"{name} is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
+            f"{name} is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}."
         )
-    tolerance = IMPLICIT[np.dtype(dtype).name]
+    tolerance = STAGE_TOLERANCE[np.dtype(dtype).name]
     newton = StageNewton(rtol=tolerance, atol=tolerance, diverges=np.inf)
-    return eqx.tree_at(lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, PATIENCE))
+    return eqx.tree_at(
+        lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, STAGE_STEPS)
+    )
 
 
-def stiff(modes: Any, span: float) -> bool:
-    """Whether modes that die out quickly would force an explicit solver to needlessly short steps.
+def stiff(modes: NDArray[np.complex128], span: float) -> bool:
+    """Whether quickly decaying modes would force an explicit solver to needlessly short steps.
 
     Only damped modes count, those with −Re λ at least as large as their |Im λ|: oscillations must be
-    resolved by any solver. Stiff means that the fastest would cost Tsit5 more than `STIFF_STEPS` steps.
+    resolved by any solver. A model is stiff if the fastest mode would cost Tsit5 more than `STIFF_STEPS` steps.
 
     Arguments:
-        modes: eigenvalues of the model's Jacobian, in 1/s.
+        modes: eigenvalues of the model's Jacobian, shape (n,), in 1/s.
         span: of the simulation, in seconds.
     """
     damped = modes[-modes.real >= np.abs(modes.imag)]
-    return float(np.max(-damped.real, initial=0.0)) * span / STABILITY > STIFF_STEPS
+    return float(np.max(-damped.real, initial=0.0)) * span / TSIT5_STABILITY_LIMIT > STIFF_STEPS

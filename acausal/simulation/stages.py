@@ -3,100 +3,108 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 import diffrax as dfx
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import optimistix as optx
-from jax import Array
+from jaxtyping import Array, Bool, Float, Int, PyTree
+
+from acausal.simulation.stage_arguments import KEPT, stage_of
+
+Unknown: TypeAlias = Float[Array, " n_states"]
+Factors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
+Residual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
+"""(unknown, arguments) -> residual, and what comes along."""
 
 KAPPA = 0.01
-"""How much of a step's tolerance the iteration may leave."""
+"""The part of a step's tolerance that may remain as error when the iteration stops."""
 
 SLOW = 0.1
 """Rate of convergence at which the Jacobian is renewed."""
 
 
 class _Iteration(eqx.Module):
-    """Where the iteration is: the factors of the Jacobian, and the sizes of the last two corrections."""
+    """The state of the iteration: the factors of the Jacobian, and the sizes of the last two corrections."""
 
-    factors: tuple[Array, Array]
-    size: Array
-    previous: Array
-    renewed: Array
-    count: Array
+    factors: Factors
+    size: Float[Array, ""]
+    previous: Float[Array, ""]
+    renewed: Bool[Array, ""]
+    count: Int[Array, ""]
 
     @property
-    def rate(self) -> Array:
-        """How much smaller the last correction was than the one before."""
+    def rate(self) -> Float[Array, ""]:
+        """The ratio of the last two corrections."""
         return self.size / self.previous
 
 
 class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
     """Newton's method with a Jacobian that is kept as long as the iteration converges fast.
 
-    diffrax solves a stage for its slope, or its slope times the step; the tolerances are those of the state, so
-    a correction counts by what it changes in the state. (`diffrax.VeryChord` takes them for tolerances of the
-    slope; of a stiff model that is less than rounding leaves, and every step fails.)
+    diffrax solves a stage for its derivative, or its derivative times the step. The tolerances are those of the state,
+    so a correction is measured by the change of the state. (`diffrax.VeryChord` applies them to the derivative; for a
+    stiff model that is below its rounding error, and every step fails.)
     E. Hairer, G. Wanner: Solving Ordinary Differential Equations II, Springer 1996, section IV.8.
 
     Attributes:
         rtol, atol: tolerances of the state. norm: of corrections over tolerances.
-        diverges: the rate of convergence at which the search is given up, so that a shorter step is tried;
+        diverges: the rate of convergence at which the iteration stops, so that a shorter step is tried;
             infinite where the step is fixed.
     """
 
     rtol: float
     atol: float
-    norm: Callable[[Any], Any] = optx.max_norm
+    norm: Callable[[PyTree], Float[Array, ""]] = optx.max_norm
     diverges: float = 2.0
 
     def init(
         self,
-        fn: Any,
-        y: Array,
-        args: Any,
+        fn: Residual,
+        y: Unknown,
+        args: PyTree,
         options: dict[str, Any],
-        f_struct: Any,
-        aux_struct: Any,
+        f_struct: PyTree,
+        aux_struct: PyTree,
         tags: frozenset[object],
     ) -> _Iteration:
-        """The start of an iteration, from the Jacobian at a point; diffrax hands it on to a step's other stages."""
-        if "init_state" in options:
-            return options["init_state"]
+        """The start of an iteration, from the Jacobian at a point; diffrax reuses it for the other stages of a step."""
+        if KEPT in options:
+            return options[KEPT]
         infinite = jnp.full((), jnp.inf, y.dtype)
         return _Iteration(_factors(fn, y, args), infinite, infinite, jnp.array(False), jnp.array(0))
 
     def step(
         self,
-        fn: Any,
-        y: Array,
-        args: Any,
+        fn: Residual,
+        y: Unknown,
+        args: PyTree,
         options: dict[str, Any],
         state: _Iteration,
         tags: frozenset[object],
-    ) -> tuple[Array, _Iteration, Any]:
+    ) -> tuple[Unknown, _Iteration, PyTree]:
         """One correction."""
         renew = (state.count > 1) & (state.rate > SLOW)
         factors = jax.lax.cond(renew, lambda: _factors(fn, y, args), lambda: state.factors)
         residual, aux = fn(y, args)
         correction = jax.scipy.linalg.lu_solve(factors, residual)
         found = y - correction
-        at, per_unit = _state(found, args)
-        size = self.norm(correction * per_unit / (self.atol + self.rtol * jnp.abs(at)))
+        stage = stage_of(found, args)
+        allowed = self.atol + self.rtol * jnp.abs(stage.state)
+        size = self.norm(correction * stage.per_unit / allowed)
         return found, _Iteration(factors, size, state.size, renew, state.count + 1), aux
 
     def terminate(
         self,
-        fn: Any,
-        y: Array,
-        args: Any,
+        fn: Residual,
+        y: Unknown,
+        args: PyTree,
         options: dict[str, Any],
         state: _Iteration,
         tags: frozenset[object],
-    ) -> tuple[Array, optx.RESULTS]:
+    ) -> tuple[Bool[Array, ""], optx.RESULTS]:
         """Whether the iteration has converged, or does not."""
         rate = state.rate
         left = jnp.where(rate < 1, state.size * rate / (1 - rate), state.size)
@@ -110,40 +118,24 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def postprocess(
         self,
-        fn: Any,
-        y: Array,
-        aux: Any,
-        args: Any,
+        fn: Residual,
+        y: Unknown,
+        aux: PyTree,
+        args: PyTree,
         options: dict[str, Any],
         state: _Iteration,
         tags: frozenset[object],
         result: optx.RESULTS,
-    ) -> tuple[Array, Any, dict[str, Any]]:
+    ) -> tuple[Unknown, PyTree, dict[str, Any]]:
         """The root as it is."""
         return y, aux, {}
 
 
-def stage_newton() -> Any:
+def stage_newton() -> optx.AbstractRootFinder[Any, Any, Any, Any]:
     """A `StageNewton` with the tolerances of the step-size controller."""
     return dfx.with_stepsize_controller_tols(StageNewton)()
 
 
-def _factors(fn: Any, y: Array, args: Any) -> tuple[Array, Array]:
+def _factors(fn: Residual, y: Unknown, args: PyTree) -> Factors:
     jacobian = jax.jacfwd(lambda y: fn(y, args)[0])(y)
     return jax.scipy.linalg.lu_factor(jacobian)
-
-
-def _state(y: Array, args: Any) -> tuple[Array, Array]:
-    """The state of a stage, and what a unit of the stage's unknown is in it.
-
-    The arguments are what diffrax gives the equations of a stage: for its slope, for its slope times the step,
-    or for the whole step of the implicit Euler method.
-    """
-    match args:
-        case _, diagonal, _, product, _, partial, _, control:
-            per_unit = diagonal * product(jnp.ones_like(y), control)
-        case _, diagonal, _, _, partial, _, _:
-            per_unit = diagonal * jnp.ones_like(y)
-        case _:
-            partial, per_unit = args[2], jnp.ones_like(y)
-    return partial + per_unit * y, per_unit

@@ -1,4 +1,4 @@
-"""March and batch: the numbers and derivatives of a plain scan, alone and mapped."""
+"""The scan with stored states, and batches: the numbers and derivatives of a plain scan, alone and mapped."""
 
 from functools import partial
 
@@ -10,7 +10,7 @@ from jax import lax
 
 import acausal as ac
 from acausal._jax.batching import LARGEST, batched, is_small, operations
-from acausal._jax.scan import march
+from acausal._jax.scan import stored_scan
 from tests.support import oscillator
 
 US, COUNT = jnp.linspace(0.0, 1.0, 7), jnp.arange(7)
@@ -48,8 +48,8 @@ def assert_close(a, b):
 
 
 def assert_same(transform, **jit):
-    """That what is made of `march` is what is made of the scan."""
-    assert_close(*(jax.jit(lambda f=f: transform(f), **jit)() for f in (march, plain)))
+    """That what is made of `stored_scan` is what is made of the scan."""
+    assert_close(*(jax.jit(lambda f=f: transform(f), **jit)() for f in (stored_scan, plain)))
 
 
 def test_it_repeats_a_step():
@@ -96,14 +96,14 @@ def test_second_derivatives():
 
 
 def test_forward_mode_where_it_is_asked_for():
-    direct = partial(march, direct=True)
+    direct = partial(stored_scan, direct=True)
 
     def jacobian(repeat):
         return jax.jacfwd(lambda x: run(repeat, x0=x)[1])(X0)
 
     assert_close(jacobian(direct), jacobian(plain))
     with pytest.raises(TypeError, match="forward-mode"):
-        jacobian(march)
+        jacobian(stored_scan)
 
 
 def test_what_calls_a_library_is_left_to_jax():
@@ -140,7 +140,7 @@ def test_totals_are_written_once_a_turn_where_they_are_large():
 
     def sines(width):
         weights = jnp.ones((width, 3))
-        back = jax.grad(lambda w: jnp.sum(march(one, w, X0, US)[1]))
+        back = jax.grad(lambda w: jnp.sum(stored_scan(one, w, X0, US)[1]))
         return str(jax.make_jaxpr(back)(weights)).count("cos")
 
     def one(weights, x, u):

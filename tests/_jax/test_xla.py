@@ -2,9 +2,12 @@
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 import pytest
 
 import acausal as ac
+from acausal._jax import batching
+from acausal._jax.scan import stored_scan
 from acausal._jax.xla import compile_small_loops, compiles_small_loops
 from acausal.components import translational as tl
 
@@ -57,3 +60,25 @@ def test_the_steps_of_a_simulation_are_one_function():
     assert (
         sum(" call(" in line and "xla_cpu_small_call" in line for line in program.split("\n")) == 2
     )
+
+
+def test_where_xla_does_not_the_results_are_the_same(monkeypatch):
+    """Loops are plain scans then, mapped by JAX."""
+
+    def step(gain, x, u):
+        return jnp.tanh(gain * x) + u, jnp.sum(x)
+
+    def loss(x0, gain):
+        _, end, sums = stored_scan(step, gain, x0, jnp.linspace(0.0, 1.0, 9))
+        return jnp.sum(end) + jnp.sum(sums**2)
+
+    def gradients():
+        x0s = jnp.linspace(0.0, 1.0, 33).reshape(11, 3)
+        return jax.jit(jax.vmap(jax.grad(loss, (0, 1)), (0, None)))(x0s, jnp.asarray(0.7))
+
+    expected = gradients()
+    asked = []
+    monkeypatch.setattr(batching, "compiles_small_loops", lambda: asked.append(True))
+    for own, wanted in zip(gradients(), expected, strict=True):
+        np.testing.assert_allclose(own, wanted, rtol=1e-12)
+    assert asked

@@ -108,10 +108,10 @@ def test_the_law_of_an_energy_is_distilled():
 @pytest.mark.parametrize(
     ("wishes", "sentence"),
     [
-        ({"low": 1.0, "high": 1.0}, "distill: 1 to 1 is no interval; give low < high."),
+        ({"low": 1.0, "high": 1.0}, "distill: 1 to 1 is not an interval; give low < high."),
         ({"terms": 0}, "distill: terms=0; a formula has at least one."),
         ({"among": ["tan"]}, "distill: there is no term 'tan': did you mean 'tanh'?"),
-        ({"network": lambda x, T: x * T}, "distill: the network is no law of one variable"),
+        ({"network": lambda x, T: x * T}, "distill: the network is not a law of one variable"),
         ({"network": lambda x: jnp.log(x)}, "distill: the network is not finite everywhere"),
     ],
 )

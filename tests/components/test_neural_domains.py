@@ -236,7 +236,7 @@ def test_a_law_is_learned(domain: str) -> None:
         progress=False,
     )
     net = fit.params["element.net"]
-    true = jax.grad(case.true) if isinstance(net, ac.networks.Potential) else case.true
+    true = jax.grad(case.true) if isinstance(net, ac.networks.EnergyLaw) else case.true
     low, high = fit.seen["element.net"].interval(1)
     x = jnp.linspace(low[0], high[0], 21)
     expected = jax.vmap(true)(x)

@@ -298,7 +298,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
     ),
     "cube about zero": (
         lambda: neural.Compliance(extrapolation="cubic", limits=(0.0, 1.0)),
-        "a law goes on along a cube about zero, which must lie between its limits",
+        "a cubic extrapolation is about zero, which must lie between its limits",
     ),
     "convex law": (lambda: neural.Compliance(convex=True), "say energy=True, too"),
     "monotone energy": (

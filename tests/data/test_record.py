@@ -88,7 +88,7 @@ def test_temperatures_have_an_offset():
         (
             lambda: ac.Data(TIME, {"mass.vv": TIME}).for_system(plain()),
             (
-                "The data have 'mass.vv', which the model has not: did you mean 'mass.v'? "
+                "The data have 'mass.vv', but the model does not: did you mean 'mass.v'? "
                 "Leave others out by data.select([...])."
             ),
         ),
@@ -128,7 +128,7 @@ def test_csv(tmp_path):
     [
         ("", "is empty; its first line must name the columns."),
         ("time,x\n0,1\n1\n", ", line 3: 1 values for 2 columns."),
-        ("time,x\n0,1\n1,abc\n", ", line 3: 'abc' in column 'x' is no number."),
+        ("time,x\n0,1\n1,abc\n", ", line 3: 'abc' in column 'x' is not a number."),
         (
             "time,x\n0,1\n1,nan\n",
             ": 'x' is nan at sample 1; leave such samples out, or fill the gap.",
@@ -137,7 +137,7 @@ def test_csv(tmp_path):
         ("time,x,x\n0,1,1\n", ", line 1: two columns are called 'x'."),
         (
             "time,x [m\n0,1\n",
-            ", line 1: 'x [m' is no column header; write 'name' or 'name [unit]'.",
+            ", line 1: 'x [m' is not a column header; write 'name' or 'name [unit]'.",
         ),
         ("t,x\n0,1\n1,1\n", " has no column 'time': known are 't', 'x'."),
         (
@@ -164,7 +164,7 @@ def test_interpolation_goes_along_with_the_record():
     part = record.between(0, 0.5).select(["u", "y"])
     assert part.signal("u").interpolation == "previous"
     assert part.signal("y").interpolation == "linear"
-    assert ac.Data(t, {"u": t}, interpolation="band-limited").signal("u").bends is not None
+    assert ac.Data(t, {"u": t}, interpolation="band-limited").signal("u").coefficients is not None
 
 
 @pytest.mark.parametrize(

@@ -161,14 +161,14 @@ def test_sampled_inputs_are_their_signals_within_steps(interpolation, parts):
     samples = over_steps(signals, grid)
     assert samples.functions == (None, None)
     for fraction in (0.0, 0.3, 0.8):
-        bends = samples.bends
+        coefficients = samples.coefficients
         for i in (0, 7, 20 * parts - 1):
             step = Step(
                 grid[i],
                 grid[1],
                 samples.start[i],
                 samples.end[i],
-                None if bends is None else bends[i],
+                None if coefficients is None else coefficients[i],
             )
             t = grid[i] + fraction * (grid[i + 1] - grid[i])
             expected = [signal(t) for signal in signals]

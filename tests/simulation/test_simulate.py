@@ -274,7 +274,7 @@ def test_a_second_call_does_not_compile():
         (
             {"inputs": {"push.f": lambda t: jnp.ones(2)}},
             ac.DataError,
-            "Input 'push.f' is a function that returns shape (2,), no scalar.",
+            "Input 'push.f' is a function that returns shape (2,), not a scalar.",
         ),
         (
             {"inputs": {"push.f": lambda t: np.sin(t) if t > 0.5 else 0.0}},
@@ -298,7 +298,7 @@ def test_a_second_call_does_not_compile():
         (
             {"inputs": NO_FORCE, "dt": 0.1, "saveat": [0.25]},
             ac.DataError,
-            "saveat has 0.25 s, which is no step's end; save multiples of dt, or leave dt out for adaptive steps.",
+            "saveat has 0.25 s, not the end of a step; save multiples of dt, or leave dt out for adaptive steps.",
         ),
         (
             {"inputs": NO_FORCE, "solver": "tsit6"},
@@ -313,7 +313,7 @@ def test_a_second_call_does_not_compile():
         (
             {"inputs": NO_FORCE, "dt": 0.1, "solver": diffrax.LeapfrogMidpoint()},
             ac.SimulationError,
-            f"LeapfrogMidpoint is no one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.",
+            f"LeapfrogMidpoint is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.",
         ),
         (
             {"inputs": NO_FORCE, "x0": {"mass.s": np.nan}},
@@ -330,13 +330,13 @@ def test_mistakes_get_one_sentence(arguments, kind, sentence):
 
 @pytest.mark.parametrize("t", [(1, 1), (0, np.nan), 3, (0,), None, ("a", "b")])
 def test_what_is_no_span(t):
-    with pytest.raises(ac.DataError, match=r"^t=.* is no span of time"):
+    with pytest.raises(ac.DataError, match=r"^t=.* is not a span of time"):
         ac.simulate(plain(), t, inputs=NO_FORCE)
 
 
 @pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast"])
 def test_what_is_no_step(dt):
-    with pytest.raises(ac.DataError, match=r"^dt=.* is no step"):
+    with pytest.raises(ac.DataError, match=r"^dt=.* is not a step"):
         ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=dt)
 
 

@@ -94,16 +94,14 @@ def test_the_loss_of_sequences_is_that_of_simulations():
 
 def test_substeps_are_smaller_steps():
     fine, coarse = problem(dt=0.0025), problem()
-    packed = learned().pack(learned().parameters(0))
-    ends = [integrate(learned(), packed, jnp.zeros(2), p.records[0].steps, p.solver, substeps=p.substeps)[2]
+    start = learned().values(0.0, jnp.zeros(2), jnp.zeros(1), learned().parameters(0))
+    ends = [integrate(learned(), start, p.records[0].steps, p.solver, substeps=p.substeps)[2]
             for p in (fine, coarse)]  # fmt: skip
     sol = ac.simulate(
         learned(), (0, 20.0), dt=0.0025, solver="heun", params=learned().parameters(0),
         inputs=record(), saveat=record().time,
     )  # fmt: skip
-    xs = integrate(learned(), packed, jnp.zeros(2), fine.records[0].steps, fine.solver, substeps=4)[
-        0
-    ]
+    xs = integrate(learned(), start, fine.records[0].steps, fine.solver, substeps=4)[0]
     np.testing.assert_allclose(xs, sol.x, atol=1e-9)
     assert float(jnp.abs(ends[0] - ends[1]).max()) > 1e-6
 

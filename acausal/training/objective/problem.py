@@ -304,9 +304,12 @@ class Problem(eqx.Module):
         Float[Array, " n_states"],
     ]:
         """States and targets at every sample, and the state at the end."""
+        packed, x0, steps = cast((packed, x0, steps), self.dtype)
+        first: Any = steps.t[0]
         x, predicted, end = integrate(
             self.system,
-            *cast((packed, x0, steps), self.dtype),
+            Values(first, x0, steps.inputs.start[0], packed),
+            steps,
             self.solver,
             outputs=self.targets,
             substeps=self.substeps,

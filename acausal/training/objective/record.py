@@ -65,11 +65,11 @@ def _samples(data: Data, inputs: tuple[str, ...]) -> Samples:
     signals = tuple(data.signal(name) for name in inputs)
     inner = over_steps(signals, data.time)
     last = jnp.asarray([data[name][-1] for name in inputs])[None]
-    bends = inner.bends
-    if bends is not None:
-        bends = jnp.concatenate([bends, jnp.zeros_like(bends[:1])])
+    coefficients = inner.coefficients
+    if coefficients is not None:
+        coefficients = jnp.concatenate([coefficients, jnp.zeros_like(coefficients[:1])])
     start, end = (jnp.concatenate([side, last]) for side in (inner.start, inner.end))
-    return Samples(start, end, (), bends)
+    return Samples(start, end, (), coefficients)
 
 
 class Batch(eqx.Module):

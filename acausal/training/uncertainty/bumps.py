@@ -11,7 +11,7 @@ import numpy as np
 from jax.scipy.special import erf
 from jaxtyping import Array, Float
 
-from acausal.networks import Potential
+from acausal.networks import EnergyLaw
 
 BUMPS, SIGMAS = 12, 3.0
 """Bumps of each law, evenly over so many sigmas of its inputs to either side."""
@@ -30,7 +30,7 @@ class Bumped(eqx.Module):
 
     def __call__(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
         """The law, or the energy whose derivative it is."""
-        shapes = self.areas if isinstance(self.net, Potential) else self.bumps
+        shapes = self.areas if isinstance(self.net, EnergyLaw) else self.bumps
         return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
 
     def bumps(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
