@@ -337,7 +337,7 @@ GALLERY: dict[str, Wrong] = {
         ac.ConnectionError,
         (
             "m.flange_a (Flange) and c.port (HeatPort)",
-            "only connectors of one domain can be joined",
+            "only connectors of one domain can be connected",
         ),
     ),
     "unlike connectors of one name": (
@@ -391,7 +391,7 @@ GALLERY: dict[str, Wrong] = {
             s=blocks.Sum(nin=3),
         ),
         ac.ConnectionError,
-        ("p.y[1] and its fellows are 2 signals, s.u[1] and its 3",),
+        ("vectors differ in length: p.y has 2, s.u has 3",),
     ),
     "a vector and a signal": (
         lambda: joined(
@@ -401,7 +401,7 @@ GALLERY: dict[str, Wrong] = {
             g=blocks.Gain(k=1),
         ),
         ac.ConnectionError,
-        ("p.y[1] is an element of a vector of 2, g.u is single", "connect one element"),
+        ("p.y is a vector of 2, g.u is single", "connect one element"),
     ),
     "a support that an option leaves out": (
         lambda: joined(

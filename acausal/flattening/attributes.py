@@ -43,7 +43,7 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
 
     def declared(attribute: str, dtype: Any) -> np.ndarray:
         local = [
-            [form.prototype._attribute(d, attribute) for _, d in form.variables]
+            [_attribute(form.prototype, d, attribute) for _, d in form.variables]
             for form in layout.forms
         ]
         return tiled(
@@ -69,19 +69,19 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
     ]
     for number, component in enumerate(layout.components):
         for index, path, d in named[layout.form_of[number]]:
-            if component._modifiers.get(d.name, Start()).value is not None:
+            if component._node.modifiers.get(d.name, Start()).value is not None:
                 continue
             variable = int(base[number]) + index
-            given[variable] = d.start in component._modifiers
+            given[variable] = d.start in component._node.modifiers
             form = layout.form_of[number], index
             if form not in start_of_form:
                 value = _start_element(getattr(component, d.start), path, d.name)
                 start_of_form[form] = number, _binding(layout, variable, value, layout.variable)
             starts.append(_moved(layout, *start_of_form[form], number, variable))
-        if not component._modifiers:
+        if not component._node.modifiers:
             continue
         form = layout.form(number)
-        for name, modifier in component._modifiers.items():
+        for name, modifier in component._node.modifiers.items():
             if not isinstance(modifier, Start):
                 continue
             for index in _indices(form, name):
@@ -102,10 +102,18 @@ def variable_attributes(layout: Layout) -> tuple[Any, ...]:
     return start, fixed, nominal, state, given, tuple(starts)
 
 
+def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
+    """A declared attribute of a variable; it may be the name of another attribute of the component."""
+    value = getattr(variable, attribute)
+    if isinstance(value, str) and value not in STATE_SELECT:
+        return getattr(component, value)
+    return value
+
+
 def _rank(prototype: Component, variable: Variable) -> float:
     """How much a variable is wanted as a state; half a rank more where its option was set by hand."""
-    by_hand = variable.state in prototype._options
-    return STATE_SELECT.index(prototype._attribute(variable, "state")) + 0.5 * by_hand
+    by_hand = variable.state in prototype._node.options
+    return STATE_SELECT.index(_attribute(prototype, variable, "state")) + 0.5 * by_hand
 
 
 def _indices(form: Form, name: str) -> Iterator[int]:
@@ -137,15 +145,15 @@ def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], n
     bindings: list[Binding] = []
     for number, component in enumerate(layout.components):
         form = layout.form(number)
-        for name, given in component._modifiers.items():
+        for name, given in component._node.modifiers.items():
             if isinstance(given, Start) or name in form.module_index:
                 continue
-            declared = cast(Declaration, component._declaration(name))
-            shape = component._shape(name, declared)
+            declared = cast(Declaration, component._node.declaration(name))
+            shape = component._node.shape(name, declared)
             values = np.asarray(given, dtype=object)
             if values.shape not in ((), shape):
                 raise DeclarationError(
-                    f"{component._label()}.{name} needs {_sizes(shape)} values, got {_sizes(values.shape)}"
+                    f"{component._node.label}.{name} needs {_sizes(shape)} values, got {_sizes(values.shape)}"
                 )
             elements = np.broadcast_to(values, shape or ()).flat
             for path, element in zip(element_names(name, shape), elements, strict=True):
@@ -194,13 +202,13 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
     default = declaration.default
     if default is None or callable(default) or isinstance(default, str):
         return np.nan
-    if declaration.shape is not None and declaration.name in form.prototype._modifiers:
+    if declaration.shape is not None and declaration.name in form.prototype._node.modifiers:
         return np.nan  # all instances of the form have such an array of their own
     if declaration.shape is not None:
         index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
         default = np.broadcast_to(
             np.asarray(default, dtype=float),
-            form.prototype._shape(declaration.name, declaration) or (),
+            form.prototype._node.shape(declaration.name, declaration) or (),
         )[index]
     return float(default)
 
@@ -257,7 +265,7 @@ def _binding(
         number = layout.position.get(id(reference.owner))
         if number is None:
             raise DeclarationError(
-                f"'{name(target)}' refers to '{reference.path}' of {reference.owner._label()}, which is not "
+                f"'{name(target)}' refers to '{reference.path}' of {reference.owner.label}, which is not "
                 "part of the model; assign that component to an attribute, or give a number"
             )
         names[reference] = ALONE if alone else sp.Symbol(f"p{len(symbols)}", real=True)
@@ -273,10 +281,10 @@ def module_values(layout: Layout) -> tuple[Any, ...]:
     values: list[Any] = []
     for number, component in enumerate(layout.components):
         for name, declaration in layout.form(number).modules:
-            value = component._modifiers.get(name, declaration.default)
+            value = component._node.modifiers.get(name, declaration.default)
             if value is None:
                 raise DeclarationError(
-                    f"{component._label()} has no module '{name}'; give {name}=..."
+                    f"{component._node.label} has no module '{name}'; give {name}=..."
                 )
             if isinstance(value, str):
                 value = getattr(component, value)

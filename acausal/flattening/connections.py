@@ -125,12 +125,12 @@ def _edges(layout: Layout) -> tuple[Integers, dict[int, type[Connector] | None]]
     edges: list[tuple[int, int]] = []
     kinds: dict[int, type[Connector] | None] = {}
     for component in layout.components:
-        for ends in component._connections:
+        for ends in component._node.connections:
             sides: list[int] = []
             for end in ends:
                 owner, variable, kind = _locate(layout, component, end)
                 kinds[variable] = kind
-                sides.append(2 * variable + (owner is component))
+                sides.append(2 * variable + (owner is component._node))
             edges.append((sides[0], sides[1]))
     return np.asarray(edges, dtype=np.int64).reshape(-1, 2), kinds
 
@@ -142,7 +142,7 @@ def _locate(
     number = layout.position.get(id(owner))
     if number is None:
         raise ConnectionError(
-            f"{scope._label()} connects {endpoint_label(end)} of {owner._label()}, which is not part of the model; "
+            f"{scope._node.label} connects {endpoint_label(end)} of {owner.label}, which is not part of the model; "
             "assign that component to an attribute"
         )
     form, base = layout.form(number), int(layout.variable_base[number])

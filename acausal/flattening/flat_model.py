@@ -73,7 +73,7 @@ def flatten(model: Component) -> FlatModel:
     start, fixed, nominal, state, given, starts = variable_attributes(layout)
     value, bindings, folded = parameter_values(layout)
     return FlatModel(
-        name=model._label(),
+        name=model._node.label,
         layout=layout,
         groups=(*equations, *connection_groups(layout, sets)),
         initial=initial,

@@ -59,8 +59,8 @@ def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[Equati
 def _equations(component: Component) -> Iterable[Eq]:
     """What a component states, what its modifiers add, and what holds of parameters found at the initial time."""
     yield from component.equations()
-    yield from component._bindings
-    for name, declared in component._declarations():
+    yield from component._node.bindings
+    for name, declared in component._node.declarations():
         if isinstance(declared, InitialParameter):
             yield Eq(der(getattr(component, name)), 0)
 
@@ -74,8 +74,8 @@ def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list
         own = [f for f in frames if "site-packages" not in f.filename and f.filename != __file__]
         line = f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
         raise DeclarationError(
-            f"{component._label()}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from the "
-            "method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
+            f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
+            "the method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
         ) from None
 
 
@@ -83,7 +83,7 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
     owner = form.prototype
     if not isinstance(equation, Eq):
         raise DeclarationError(
-            f"{owner._label()}: equations() yields {equation!r}; yield ac.Eq(left, right)"
+            f"{owner._node.label}: equations() yields {equation!r}; yield ac.Eq(left, right)"
         )
     where = f"{type(owner).__name__}: {equation}"
     residual: Any = _without_der(equation.lhs - equation.rhs, where)
@@ -188,17 +188,13 @@ def _age(symbol: sp.Symbol) -> tuple[int, int]:
 
 
 def _chain(owner: Component, reference: Reference, where: str) -> tuple[str, ...]:
-    names: list[str] = []
-    component: Component | None = reference.owner
-    while component is not None and component is not owner:
-        names.append(component._name)
-        component = component._parent
-    if component is None:
+    names = reference.owner.route_from(owner._node)
+    if names is None:
         raise DeclarationError(
-            f"{where}: '{reference.path}' belongs to {reference.owner._label()}, which is not part of "
-            f"{owner._label()}; assign it to an attribute, or connect instead"
+            f"{where}: '{reference.path}' belongs to {reference.owner.label}, which is not part of "
+            f"{owner._node.label}; assign it to an attribute, or connect instead"
         )
-    return tuple(reversed(names))
+    return names
 
 
 def _fill(layout: Layout, template: Template, slots: _Slots, members: Integers) -> EquationGroup:
@@ -222,6 +218,6 @@ def _owners(layout: Layout, members: Integers, chain: tuple[str, ...]) -> Intege
     for member in members:
         component = layout.components[member]
         for name in chain:
-            component = component._children[name]
-        owners.append(layout.position[id(component)])
+            component = component._node.children[name]
+        owners.append(layout.position[id(component._node)])
     return np.asarray(owners, dtype=np.int64)

@@ -26,7 +26,6 @@ class FileRecord:
     """What a file says about a model beyond its parts and connections.
 
     Attributes:
-        title: name of the model.
         experiment: keys of the file that are not part of the model.
         initial: initial equations, as text and as equation.
         bindings: variables that are given a value.
@@ -37,7 +36,6 @@ class FileRecord:
         placed: connectors that stand among the components.
     """
 
-    title: str = ""
     experiment: dict[str, Any] = field(default_factory=dict[str, Any])
     initial: list[tuple[str, Eq]] = field(default_factory=list[tuple[str, Eq]])
     bindings: list[Eq] = field(default_factory=list[Eq])
@@ -72,9 +70,6 @@ class Netlist(Component):
         """The initial equations of the file."""
         yield from (equation for _, equation in self._file.initial)
 
-    def _label(self) -> str:
-        return super()._label() if self._path() else self._file.title or "Netlist"
-
     def remember(self, part: str, key: str, raw: Any) -> None:
         """Note what the file says about a modifier of a part ("" for the model itself)."""
         owner = attribute(self, part) if part else self
@@ -83,13 +78,13 @@ class Netlist(Component):
     def tell_apart(self) -> None:
         """Make the equations of the file part of what tells this model from others with the same parts."""
         initial = tuple(text for text, _ in self._file.initial)
-        self._constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
+        self._node.constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
 
     def settle(self) -> None:
         """Take the present state as what the file led to, after an enclosing file has modified this model."""
         for (part, key), (raw, _) in list(self._file.texts.items()):
             self.remember(part, key, raw)
-        for child in self._children.values():
+        for child in self._node.children.values():
             if isinstance(child, Netlist):
                 child.settle()
 
@@ -134,22 +129,21 @@ def state(part: Any, key: str) -> tuple[Any, ...]:
     """What modifiers of that name have made of a part: unchanged as long as it holds the same objects."""
     if not isinstance(part, Component):
         return ()
-    if key in part._children:
-        child = part._children[key]
-        return tuple(
-            v
-            for name in (*child._declared, *child._dynamic, *child._children)
-            for v in state(child, name)
-        )
-    own = [part._modifiers.get(key), part._options.get(key), part._constants.get(key)]
-    inner = [v for name, v in part._modifiers.items() if name.startswith(f"{key}.")]
+    node = part._node
+    if key in node.children:
+        child = node.children[key]
+        below = child._node
+        names = (*below.class_declarations, *below.own_declarations, *below.children)
+        return tuple(v for name in names for v in state(child, name))
+    own = [node.modifiers.get(key), node.options.get(key), node.constants.get(key)]
+    inner = [v for name, v in node.modifiers.items() if name.startswith(f"{key}.")]
     return (*own, *inner)
 
 
 def _member(component: Component, name: str) -> Any:
     """A part, connector, declaration or plain value of a component, nothing that could be called."""
     if (
-        name not in component._children
+        name not in component._node.children
         and name not in component._declared
         and name not in component.__dict__
     ):
@@ -169,10 +163,7 @@ def is_left_out(model: Component, path: str) -> bool:
         return False
     name = name.partition("[")[0]
     declared = owner._declared.get(name)
-    if declared is None:
-        return False
-    when = declared._when if isinstance(declared, Connector) else declared.when
-    return when is not None and not owner._exists(when)
+    return declared is not None and not owner._node.has(declared)
 
 
 def hint(model: Component, text: str) -> str:
@@ -180,8 +171,8 @@ def hint(model: Component, text: str) -> str:
     head, _, tail = text.rpartition(".")
     owner = attribute(model, head) if head else model
     if isinstance(owner, Component):
-        return nearest(tail, [*(n for n, _ in owner._declarations()), *owner._children])
-    return nearest(text.partition(".")[0], model._children)
+        return nearest(tail, [*(n for n, _ in owner._node.declarations()), *owner._node.children])
+    return nearest(text.partition(".")[0], model._node.children)
 
 
 def arguments_of(cls: Any) -> dict[str, Any]:

@@ -44,7 +44,7 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
     """
     _check_keys(document, where)
     model = Netlist()
-    model._file.title = document.get("model", "")
+    model._node.title = document.get("model", "")
     model._file.experiment = {k: document[k] for k in EXPERIMENT_KEYS if k in document}
     scope = Scope(model, libraries)
     for name, entry in as_object(document, "connectors", where).items():
@@ -82,9 +82,10 @@ def _declare(scope: Scope, document: Mapping[str, Any], where: str) -> None:
     # ... but keep them as the file has them
     model._file.texts = {("", name): model._file.texts["", name] for name in parameters}
     keys = [key for entries in parts.values() for key, _ in entries]
-    model._children = {key: model._children[key] for key in keys if key in model._children}
-    names = dict.fromkeys((*parameters, *model._dynamic))
-    model._dynamic = {name: model._dynamic[name] for name in names if name in model._dynamic}
+    node = model._node
+    node.children = {key: node.children[key] for key in keys if key in node.children}
+    own = node.own_declarations
+    node.own_declarations = {n: own[n] for n in dict.fromkeys((*parameters, *own)) if n in own}
 
 
 def _order(
@@ -255,14 +256,14 @@ def _connect(model: Netlist, pair: Any, where: str) -> None:
     ends = cast(list[Any], pair)
     if not (isinstance(pair, list) and len(ends) == 2 and all(isinstance(p, str) for p in ends)):
         raise NetlistError(f"{where}: a connection is a pair of names")
-    count = len(model._connections)
+    count = len(model._node.connections)
     if not any(is_left_out(model, text) for text in ends):  # else it falls away, as in Modelica
         found = [attribute(model, text) for text in ends]
         for text, end in zip(ends, found, strict=True):
             if end is None:
                 raise NetlistError(f"{where}: there is no '{shortened(text)}'; {hint(model, text)}")
         within(where, lambda: model.connect(*found))
-    model._file.wires.append((list(ends), len(model._connections) - count))
+    model._file.wires.append((list(ends), len(model._node.connections) - count))
 
 
 def _initial(scope: Scope, text: Any, where: str) -> None:

@@ -127,7 +127,7 @@ def _reckoned(expression: sp.Expr, where: str, via: tuple[sp.Basic, ...]) -> flo
             raise NetlistError(
                 f"{where}: '{symbol}' changes with time; a structural choice is fixed"
             )
-        given = symbol.owner._modifiers.get(symbol.path, symbol.declaration.default)
+        given = symbol.owner.modifiers.get(symbol.path, symbol.declaration.default)
         if isinstance(given, sp.Expr) and symbol not in via:
             given = _reckoned(given, where, (*via, symbol))
         if not isinstance(given, int | float):

@@ -73,7 +73,7 @@ class _Measures:
 
 def _declarations(layout: Layout) -> Iterator[tuple[str, Declaration]]:
     for form in layout.forms:
-        where = form.prototype._label()
+        where = form.prototype._node.label
         for path, declaration in (*form.variables, *form.parameters, *form.modules):
             yield f"{where}.{path}", declaration
 

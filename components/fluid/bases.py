@@ -77,7 +77,7 @@ class TwoPort(PartialMedium):
         """As of every component; a mass of zero is none, so that there is no state."""
         if modifiers.get("m") == 0:
             del modifiers["m"]
-            self._modifiers.pop("m", None)
+            self._node.modifiers.pop("m", None)
         super().modify(**modifiers)
 
     def equations(self) -> Iterator[ac.Eq]:

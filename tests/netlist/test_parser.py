@@ -12,7 +12,7 @@ import sympy as sp
 from hypothesis import given, strategies as st
 
 import acausal as ac
-from acausal.modeling.declarations import references
+from acausal.modeling import references
 from acausal.netlist.parser import ExpressionError, parse, parse_equation
 from acausal.netlist.printer import written
 
@@ -258,7 +258,8 @@ def test_writing_is_the_inverse_of_reading(text: str) -> None:
     if not isinstance(first, sp.Expr):
         return
     names = {
-        r: sp.Symbol(r.path if r.owner is MODEL else f"sine.{r.path}") for r in references(first)
+        r: sp.Symbol(r.path if r.owner is MODEL._node else f"sine.{r.path}")
+        for r in references(first)
     }
     again = parse(written(first.xreplace(names)), lookup)
     values = {MODEL.a: 3.1, MODEL.b: -0.7, MODEL.sine.f: 2.3}

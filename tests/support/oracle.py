@@ -19,7 +19,7 @@ from acausal.codegen import Values
 from acausal.codegen.lower import ModuleValue, evaluate
 from acausal.codegen.parameters import Packed
 from acausal.flattening.template import EquationGroup, Integers
-from acausal.modeling.declarations import time
+from acausal.modeling import time
 
 Signal = Callable[[Any, Array, Array], Array]
 """Values from time, states and inputs."""

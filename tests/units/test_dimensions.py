@@ -15,8 +15,7 @@ from hypothesis import given, strategies as st
 import acausal as ac
 from acausal import components
 from acausal.flattening.flat_model import FlatModel, flatten
-from acausal.modeling.component import Component
-from acausal.modeling.functions import COMPUTABLE
+from acausal.modeling import COMPUTABLE, Component
 from acausal.units import dimensions
 from acausal.units.check import check_dimensions
 from acausal.units.conversion import parse
