@@ -4,9 +4,8 @@ In: a `Component`. Out: a frozen `FlatModel`.
 It knows declarations; neither JAX nor what is reduced later.
 """
 
-from acausal.flattening.attributes import tiled as tiled
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
-from acausal.flattening.layout import Layout as Layout
+from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.sums import Statement as Statement, Total as Total, balance as balance
 from acausal.flattening.template import (
     Binding as Binding,

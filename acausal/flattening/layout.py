@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -22,6 +22,10 @@ from acausal.modeling import (
     Variable,
     element_names,
 )
+
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)
@@ -172,6 +176,22 @@ def members_of_forms(layout: Layout) -> list[Integers]:
     order = np.argsort(layout.form_of, kind="stable")
     bounds = np.searchsorted(layout.form_of[order], np.arange(len(layout.forms) + 1))
     return [order[a:b] for a, b in itertools.pairwise(bounds)]
+
+
+def tiled(
+    layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: type[T]
+) -> np.ndarray[Any, np.dtype[T]]:
+    """Spread values from the forms to all their instances.
+
+    Arguments:
+        base: for each component, the index of its first value in the result; one more entry, the total.
+        local: for each form, its values.
+    """
+    flat = np.empty(int(base[-1]), dtype=dtype)
+    for members, values in zip(members_of_forms(layout), local, strict=True):
+        if len(values):
+            flat[base[members][:, None] + np.arange(len(values))] = np.asarray(values, dtype=dtype)
+    return flat
 
 
 def _structure(component: Component) -> Hashable:
