@@ -18,7 +18,6 @@ from acausal.flattening.flat_model import FlatModel, flatten
 from acausal.modeling import COMPUTABLE, Component
 from acausal.units import dimensions
 from acausal.units.check import check_dimensions
-from acausal.units.conversion import parse
 from acausal.units.dimensions import (
     BASE,
     DERIVED,
@@ -30,6 +29,7 @@ from acausal.units.dimensions import (
     dimension as read,
 )
 from acausal.units.infer import RULES, examine
+from acausal.units.pint_units import pint_unit
 from tests.support.parts import model
 
 # -- units -------------------------------------------------------------------------------------------
@@ -67,7 +67,7 @@ def test_a_unit_that_is_not_given_is_unknown() -> None:
 
 
 def of_pint(text: str) -> Dimension | None:
-    powers = parse(text).dimensionality
+    powers = pint_unit(text).dimensionality
     return Dimension(tuple(powers.get(name, 0) for name in BASE.values()))
 
 
