@@ -437,7 +437,7 @@ GALLERY: dict[str, Wrong] = {
     "no name": (
         lambda: setattr(Model(), "left mass", tl.Mass(m=1)),
         ac.DeclarationError,
-        ("'left mass' is no name for a part", "letters, digits and underscores"),
+        ("'left mass' is not a name for a part", "letters, digits and underscores"),
     ),
     "one part of two models": (
         part_of_two,
@@ -607,12 +607,12 @@ GALLERY: dict[str, Wrong] = {
     "a unit without its dot": (
         lambda: compiled(bump=Bump("Nm-3")),
         ac.UnitError,
-        ("Bump 'bump'.k: 'Nm-3' is no unit; did you mean 'N.m-3'?",),
+        ("Bump 'bump'.k: 'Nm-3' is not a unit; did you mean 'N.m-3'?",),
     ),
     "an unknown unit": (
         lambda: compiled(bump=Bump("Nwton")),
         ac.UnitError,
-        ("Bump 'bump'.k: 'Nwton' is no unit",),
+        ("Bump 'bump'.k: 'Nwton' is not a unit",),
     ),
     "a mass that is a length": (
         mass_of_a_length,
@@ -860,7 +860,7 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
     ),
     "a missing comma": (
         '{"model": "x"\n "components": {}}',
-        ("line 2, column 2: no JSON (Expecting ',' delimiter)",),
+        ("line 2, column 2: not JSON (Expecting ',' delimiter)",),
     ),
     "a number that is none": (
         '{"parameters": {"a": NaN}}',

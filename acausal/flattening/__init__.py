@@ -1,7 +1,7 @@
 """Flatten: a component tree becomes equation templates and the integers that fill their slots.
 
 In: a `Component`. Out: a frozen `FlatModel`.
-It knows declarations; neither JAX nor what is reduced later.
+It knows declarations; neither JAX nor any later stage.
 """
 
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten

@@ -34,7 +34,7 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
     """Start, fixed, nominal and state attributes of all variables: declared ones, then those of modifiers.
 
     Raises:
-        DeclarationError: for a start that has too few elements, or refers to what is not part of the model.
+        DeclarationError: for a start that has too few elements, or refers to something outside of the model.
     """
     declared = _declared_attributes(layout)
     bindings: list[Binding] = []

@@ -64,7 +64,7 @@ def flatten(model: Component) -> FlatModel:
     """Number the variables of a component tree and instantiate its equations.
 
     Raises:
-        DeclarationError: for a parameter without a value, or an equation that uses what is not in the model.
+        DeclarationError: for a parameter without a value, or an equation that refers to something outside of the model.
         ConnectionError: for connections that cannot be made.
     """
     layout = lay_out(model)

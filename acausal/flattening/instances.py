@@ -1,4 +1,4 @@
-"""Instantiate: the equations of a component tree as templates, and what fills their slots."""
+"""Instances: the equations of a component tree as templates, and the indices that fill their slots."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[Equati
     """All equations, and all initial equations, as groups of instances of templates.
 
     Raises:
-        DeclarationError: for an equation that cannot be read, or uses what is not in the model.
+        DeclarationError: for an equation that cannot be read, or refers to something outside of the model.
     """
     equations: list[EquationGroup] = []
     initial: list[EquationGroup] = []

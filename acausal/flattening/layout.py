@@ -1,4 +1,4 @@
-"""Lay out: where the variables, parameters and modules of a component tree lie in a flat numbering."""
+"""Layout: the numbers of all components, variables, parameters and modules of a component tree."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ T = TypeVar("T", bound=np.generic)
 
 @dataclass(frozen=True)
 class Form:
-    """What all instances of one class with the same structural choices share: their local names.
+    """The local names that all instances of one class with the same structural choices share.
 
     Attributes:
         variables, parameters, modules: local path and declaration, in order of declaration.
         connectors: local name -> (class, index of its first variable).
-        prototype: the first instance met; its equations stand for all.
+        prototype: one of the instances; its equations are those of all.
     """
 
     prototype: Component
@@ -62,9 +62,13 @@ class Form:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where every component's variables, parameters and modules lie in the flat numbering.
+    """The components of a model and the numbers of everything that they declare.
 
-    ``variable_base[i]`` is the index of component i's first variable; the arrays have one more entry, the total.
+    Attributes:
+        components, paths: every component, parents before children, and its dotted path.
+        forms: the distinct forms; ``form_of[i]`` is the index of component i's.
+        variable_base: ``variable_base[i]`` is the index of component i's first variable; the last entry is the total.
+        parameter_base, module_base: likewise.
     """
 
     components: tuple[Component, ...]
@@ -195,7 +199,7 @@ def tiled(
 
 
 def _structure(component: Component) -> Hashable:
-    """What decides a component's declarations and equations, besides its parts."""
+    """Everything, besides its parts, that decides a component's declarations and equations."""
     node = component._node
     for name, value in node.constants.items():
         if _holds_parts(value):
@@ -212,7 +216,7 @@ def _structure(component: Component) -> Hashable:
 
 
 def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:
-    """What a declaration says, whichever instance made it."""
+    """The attributes of a declaration, which decide the form whichever instance made it."""
     if isinstance(declared, Connector):
         return (declared._when,)
     return tuple((k, _frozen(v)) for k, v in sorted(vars(declared).items()))

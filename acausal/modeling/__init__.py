@@ -1,7 +1,7 @@
 """What a user declares: components, connectors, parameters, variables and equations.
 
 In: classes that a user writes. Out: a tree of `Component` with sympy equations over references.
-It knows neither JAX nor files, and nothing of what is made of a model later.
+It knows neither JAX nor files, nor any later stage.
 """
 
 from sympy import (

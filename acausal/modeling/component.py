@@ -137,7 +137,7 @@ class Component:
         """Make sure that a name is free; one that is not ``anew`` may stand for a default of the class."""
         if not name.isidentifier():
             raise DeclarationError(
-                f"'{name}' is no name for a part: letters, digits and underscores only"
+                f"'{name}' is not a name for a part: letters, digits and underscores only"
             )
         if name == "time":
             raise DeclarationError("'time' is the time; choose another name")

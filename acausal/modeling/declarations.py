@@ -42,7 +42,7 @@ class Start:
 class Declaration:
     """Base of everything that a component declares as a class attribute.
 
-    ``unit`` is in Modelica's spelling, ``"N.m/rad"``; ``"1"`` is that of a pure number, ``""`` fits everything.
+    ``unit`` is in Modelica's spelling, ``"N.m/rad"``; a pure number has ``"1"``, and ``""`` fits everything.
     ``when`` names an option: the declaration exists only where that option is true (a leading ``not ``
     inverts it). ``shape`` makes a vector or a matrix; its sizes are integers, names of attributes,
     or ``":"`` for parameters that take the size of their value.
@@ -72,8 +72,8 @@ class Declaration:
 class Parameter(Declaration):
     """A constant of a component: a number, or an expression of the enclosing component's parameters.
 
-    Without ``default`` the value must be given where the component is made. A parameter whose default
-    is zero and which nobody sets is folded out of the equations.
+    Without ``default`` the value must be given where the component is made. A parameter that is left at a default of
+    zero is folded out of the equations. To keep it adjustable, set it explicitly (0.0 will do).
     """
 
     def __init__(
@@ -115,9 +115,9 @@ class Variable(Declaration):
 
 
 class InitialParameter(Variable):
-    """A parameter whose value the conditions at the initial time determine (Modelica's ``fixed=false``).
+    """A parameter that the initial conditions determine (Modelica's ``fixed=false``).
 
-    It is a variable that does not change; ``start`` is the guess. A library's parameter becomes one by
+    It is a variable with a derivative of zero; ``start`` is the guess. A library's parameter becomes one by
     ``ac.Start(guess, fixed=False)`` as its value.
     """
 
@@ -160,11 +160,11 @@ class Option(Declaration):
 class Module(Declaration):
     """A callable parameter: a neural network, a table, any equinox module from scalars to a scalar.
 
-    The value is the module itself or a function ``key -> module`` that makes it, so that every call of
-    ``system.parameters(key)`` starts from fresh weights. The default may also be the name of the component's
-    method that is such a function. In equations it is called: ``self.net(self.v)``.
+    The value is the module itself, or a function ``key -> module``, so that every call of
+    ``system.parameters(key)`` has new weights. The default may also be the name of a method of the component
+    that is such a function. In equations it is called: ``self.net(self.v)``.
 
-    ``unit`` is that of its result, ``takes`` those of its arguments; left open they fit everything.
+    ``unit`` is the unit of its result, ``takes`` has those of its arguments; an empty one fits everything.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Modifiers: what is given for a declaration is checked and recorded in the component's node."""
+"""Modifiers: values, options, modules and starts are checked, and recorded in the component's node."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from acausal.modeling.symbols import Eq, ModuleReference, Reference
 def record_modifier(
     node: Node[Any], name: str, declared: Declaration | Connector, value: Any
 ) -> None:
-    """Check what is given for a declaration, and keep it in the node.
+    """Check a modifier, and record it in the node.
 
     Raises:
         DeclarationError: for a value of the wrong kind or range, or outside an option's choices.
@@ -100,7 +100,7 @@ def _merge_start(node: Node[Any], name: str, start: Start) -> None:
 
 
 def start_of(where: str, value: Any) -> Start:
-    """A start as given: a `Start`, or a mapping of its attributes."""
+    """The start that a modifier gives: a `Start`, or a mapping of its attributes."""
     if isinstance(value, Start):
         for element in np.ravel(np.asarray(value.value, dtype=object)):
             _check_start(where, element)
@@ -149,7 +149,7 @@ def is_open(value: Any) -> bool:
 
 
 def value_of(where: str, declaration: Parameter, value: Any) -> Any:
-    """A parameter's value as given: a finite number in range, an expression of parameters, or an array of these."""
+    """The value that a modifier gives: a finite number in range, an expression of parameters, or an array of these."""
     if declaration.shape is not None:
         return values_of(where, declaration, value)
     return _number(where, declaration, value)

@@ -1,7 +1,7 @@
 """Write: a component tree becomes a netlist document.
 
-What came from a file and is unchanged is written as it stood there. Of a part whose class is in a library its name is
-written and how it differs from a fresh one; any other part is written as a subsystem.
+Whatever was read from a file and not changed is written as the file had it. A part whose class is in a library is
+written as the name of the class and the modifiers that differ from a new instance; any other part as a subsystem.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ class Writer:
         self.libraries = libraries
 
     def model(
-        self, model: Component, said: Mapping[str, Any] = MappingProxyType({})
+        self, model: Component, stated: Mapping[str, Any] = MappingProxyType({})
     ) -> dict[str, Any]:
         """The document of a composite.
 
         Arguments:
-            said: modifiers of its parts that the enclosing model's file states already.
+            stated: modifiers of its parts that are already in the file of the enclosing model.
 
         Raises:
             NetlistError: in one sentence, for what a file cannot hold.
@@ -61,7 +61,7 @@ class Writer:
         connectors = self._connectors(model)
         placed = {n: {"class": connectors.pop(n)} for n in (read._file.placed if read else ())}
         parts = {
-            name: self._part(model, name, part, _inner(said, name))
+            name: self._part(model, name, part, _inner(stated, name))
             for name, part in model._node.children.items()
         }
         sections = {
@@ -78,7 +78,7 @@ class Writer:
         document |= {key: section for key, section in sections.items() if section}
         return document | {key: experiment[key] for key in EXPERIMENT_KEYS if key in experiment}
 
-    # -- what a model declares -----------------------------------------------------------------------
+    # -- declarations of a model ---------------------------------------------------------------------
 
     def _parameters(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
@@ -102,7 +102,9 @@ class Writer:
         if not isinstance(declared, Parameter):
             return self._json(model, model._node.constants[name], name)
         value = model._node.modifiers.get(name, declared.default)
-        if not _is_within(model, value):  # given from outside: the enclosing model says so
+        if not _is_within(
+            model, value
+        ):  # given from outside: it is written with the enclosing model
             value = declared.default
         if callable(value) and not isinstance(value, sp.Expr):
             value = value(model)
@@ -140,7 +142,7 @@ class Writer:
     # -- parts ---------------------------------------------------------------------------------------
 
     def _part(
-        self, model: Component, name: str, part: Component, said: Mapping[str, Any]
+        self, model: Component, name: str, part: Component, stated: Mapping[str, Any]
     ) -> dict[str, Any]:
         texts: Mapping[tuple[str, str], tuple[Any, Any]]
         texts = model._file.texts if isinstance(model, Netlist) else {}
@@ -148,14 +150,14 @@ class Writer:
         if cls is not None:
             known = _known(model, name)
             entry: dict[str, Any] = {"class": self._class(cls, part._node.label, known)}
-            changed = self._modifiers(model, part, cls, said)
+            changed = self._modifiers(model, part, cls, stated)
         elif part._node.children:
             kept = {
                 key: raw
                 for (owner, key), (raw, before) in texts.items()
                 if owner == name and _same(before, state(part, key))
             }
-            entry = self.model(part, {**said, **kept})
+            entry = self.model(part, {**stated, **kept})
             changed = {
                 key: self._json(model, value, f"{part._node.label}.{key}")
                 for key, value in part._node.modifiers.items()
@@ -174,24 +176,24 @@ class Writer:
         return {**entry, "with": given} if given else entry
 
     def _modifiers(
-        self, model: Component, part: Component, cls: Any, said: Mapping[str, Any]
+        self, model: Component, part: Component, cls: Any, stated: Mapping[str, Any]
     ) -> dict[str, Any]:
-        """What a part of a library must be given to become what it is."""
-        made = model._file.made.get(part._node.name) if isinstance(model, Netlist) else None
+        """The modifiers that a new instance of the class needs to equal a part."""
+        made = model._file.arguments.get(part._node.name) if isinstance(model, Netlist) else None
         arguments = made or self._arguments(part, cls)
         try:
             fresh = cls(**arguments)
-        except Exception:  # whatever a constructor does not like
+        except Exception:  # an exception of the library's own code
             raise _unwritable(part) from None
         found = {
             key: self._json(model, value, f"{part._node.label}.{key}", cls._declared.get(key))
             for key, value in arguments.items()
             if not isinstance(cls._declared.get(key), Option) or value != cls._declared[key].default
         }
-        return found | self._differences(model, part, fresh, (part, fresh), said)
+        return found | self._differences(model, part, fresh, (part, fresh), stated)
 
     def _arguments(self, part: Component, cls: Any) -> dict[str, Any]:
-        """Options, vectors, and arguments of the class that it keeps as attributes of the same name."""
+        """Arguments to make a part with: its options, vectors, and constants named as arguments of the class."""
         found = dict(part._node.options)
         for name, value in part._node.modifiers.items():
             declared = cls._declared.get(name)
@@ -208,9 +210,9 @@ class Writer:
         part: Component,
         fresh: Component,
         roots: tuple[Component, Component],
-        said: Mapping[str, Any],
+        stated: Mapping[str, Any],
     ) -> dict[str, Any]:
-        """Modifiers that make a fresh part, and the parts within, equal to this one."""
+        """Modifiers that make a new part, and the parts within, equal to this one."""
         alike = [(n, type(c)) for n, c in part._node.children.items()] == [
             (n, type(c)) for n, c in fresh._node.children.items()
         ]
@@ -228,7 +230,7 @@ class Writer:
         given = {**part._node.options, **part._node.modifiers}
         before = {**fresh._node.options, **fresh._node.modifiers}
         for key, value in given.items():
-            if key in said or key.partition(".")[0] in said:
+            if key in stated or key.partition(".")[0] in stated:
                 continue
             if key in before and _comparable(roots[0], value) == _comparable(roots[1], before[key]):
                 continue
@@ -240,7 +242,7 @@ class Writer:
                 found[key] = text
         for name, child in part._node.children.items():
             inner = self._differences(
-                model, child, fresh._node.children[name], roots, _inner(said, name)
+                model, child, fresh._node.children[name], roots, _inner(stated, name)
             )
             if inner:
                 found[name] = inner
@@ -251,7 +253,7 @@ class Writer:
         return cls if any(library.name_of(cls) for library in self.libraries) else None
 
     def _class(self, cls: type, where: str, known: str | None = None) -> str:
-        """The name of a class: the one that the file has for it, if it still means that class."""
+        """The name of a class; the one in the file, if it is still a name of that class."""
         for library in self.libraries:
             if known is not None and library.find(known) is cls:
                 return known
@@ -304,13 +306,13 @@ class Writer:
         } | state
 
 
-def _inner(said: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    inner = said.get(name, {})
+def _inner(stated: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    inner = stated.get(name, {})
     return cast(Mapping[str, Any], inner) if isinstance(inner, Mapping) else {}
 
 
 def _known(model: Component, name: str) -> str | None:
-    return model._file.named.get(name) if isinstance(model, Netlist) else None
+    return model._file.class_names.get(name) if isinstance(model, Netlist) else None
 
 
 def _check_statements(model: Component) -> None:
@@ -323,7 +325,7 @@ def _check_statements(model: Component) -> None:
 
 
 def _connections(model: Component) -> list[list[str]]:
-    """What the file connected, then what was connected since."""
+    """The connections of the file, then those that were made since."""
     found: list[list[str]] = []
     count = 0
     if isinstance(model, Netlist):
@@ -358,7 +360,7 @@ def _is_within(model: Component, value: Any) -> bool:
 
 
 def _comparable(root: Component, value: Any) -> Any:
-    """A value with names instead of references, so that those of like parts are equal."""
+    """A value with names instead of references, so that the values of equal parts are equal."""
     match value:
         case sp.Expr() if _is_within(root, value):
             names = {r: sp.Symbol(_path(root, r, "")) for r in references(value)}

@@ -29,7 +29,7 @@ def check_dimensions(flat: FlatModel) -> None:
     A variable or parameter without a unit agrees with everything.
 
     Raises:
-        UnitError: for text that is no unit; for equations, values and connections of unlike dimensions. It names
+        UnitError: for text that is not a unit; for equations, values and connections of unlike dimensions. It names
             the components, the equations as they are written, and the unlike terms in them, at most a dozen.
     """
     _refuse(list(_misspelt(flat.layout)))

@@ -93,7 +93,7 @@ def dimension(text: str) -> Dimension | None:
     """The dimension of a unit in Modelica's spelling; None for ``""``, a unit that is not given.
 
     Raises:
-        UnitError: for text that is no unit; it names the nearest one.
+        UnitError: for text that is not a unit; it names the nearest one.
     """
     return _read(text) if text.strip() else None
 
@@ -121,7 +121,7 @@ def _read(text: str) -> Dimension:
 
 def _no_unit(text: str, meant: str | None = None) -> UnitError:
     known = [meant] if meant else [*QUANTITIES, *DERIVED]
-    return UnitError(f"'{shortened(text)}' is no unit; {nearest(meant or text, known)}")
+    return UnitError(f"'{shortened(text)}' is not a unit; {nearest(meant or text, known)}")
 
 
 def _symbol(symbol: str, text: str) -> Dimension:

@@ -28,7 +28,7 @@ def pint_unit(text: str) -> pint.Unit:
     """A pint unit from Modelica's spelling: ``"N.m/rad"``, ``"kg/m3"``, ``"m/s2"``, ``"1"``.
 
     Raises:
-        SpellingError: for text that is no unit, or a symbol that pint does not know.
+        SpellingError: for text that is not a unit, or a symbol that pint does not know.
     """
     import pint
 

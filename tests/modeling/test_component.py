@@ -213,7 +213,7 @@ def test_names_do_not_hide_what_the_framework_needs():
 
 
 def test_a_name_is_an_identifier():
-    with refused(ac.DeclarationError, "'a.b' is no name for a part"):
+    with refused(ac.DeclarationError, "'a.b' is not a name for a part"):
         setattr(Model(), "a.b", Mass(m=1.0))
 
 

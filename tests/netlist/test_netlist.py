@@ -624,8 +624,8 @@ def nested(levels: int) -> dict[str, Any]:
 
 
 HOSTILE: dict[str, tuple[Any, str]] = {
-    "nothing": ("", "line 1, column 1: no JSON"),
-    "half a file": ('{"model": "x",', "line 1, column 15: no JSON"),
+    "nothing": ("", "line 1, column 1: not JSON"),
+    "half a file": ('{"model": "x",', "line 1, column 15: not JSON"),
     "no text": (b"\xff\xfe\x00", "not a text file in UTF-8"),
     "a list": ("[]", "a model is an object {...}, not a list"),
     "10 MB of brackets": ("[" * 5_000_000 + "]" * 5_000_000, "nested more than 100 deep"),
@@ -635,10 +635,10 @@ HOSTILE: dict[str, tuple[Any, str]] = {
         "nested more than 100 deep",
     ),
     "deep subsystems": (nested(200), "nested more than 100 deep"),
-    "a name twice": ('{"model": "a", "model": "b"}', "'model' stands twice in one object"),
+    "a name twice": ('{"model": "a", "model": "b"}', "'model' occurs twice in one object"),
     "a part twice": (
         '{"components": {"a": {"class": "x"}, "a": {"class": "y"}}}',
-        "'a' stands twice in one object",
+        "'a' occurs twice in one object",
     ),
     "NaN": ('{"stop_time": NaN}', "NaN is not a finite number"),
     "infinity": ('{"stop_time": -Infinity}', "-Infinity is not a finite number"),
@@ -659,10 +659,10 @@ HOSTILE: dict[str, tuple[Any, str]] = {
     "a private modifier": (with_mass(_node=1), "has no '_node'"),
     "a dunder modifier": (with_mass(__init__=1), "has no '__init__'"),
     "a method as modifier": (with_mass(connect=1), "has no 'connect'"),
-    "a dunder name": ({"parameters": {"__class__": 1}}, "'__class__' is no name"),
+    "a dunder name": ({"parameters": {"__class__": 1}}, "'__class__' is not a name"),
     "a dunder part": (
         {"components": {"__init__": {"class": f"{TL}.Mass"}}},
-        "'__init__' is no name",
+        "'__init__' is not a name",
     ),
     "a method as part": (
         {"components": {"connect": {"class": f"{TL}.Mass"}}},

@@ -26,10 +26,10 @@ def test_values_are_converted(given, wanted, converted):
 @pytest.mark.parametrize(
     ("given", "wanted", "sentence"),
     [
-        ("Nm", "N.m", "x: 'Nm' is no unit; did you mean 'N.m'?"),
+        ("Nm", "N.m", "x: 'Nm' is not a unit; did you mean 'N.m'?"),
         ("m", "s", "x is given in 'm', which cannot become 's'"),
         ("m", "", "x is given in 'm', which cannot become '1'"),
-        ("metre per second", "m/s", "x: 'metre per second' is no unit"),
+        ("metre per second", "m/s", "x: 'metre per second' is not a unit"),
     ],
 )
 def test_what_cannot_be_converted(given, wanted, sentence):

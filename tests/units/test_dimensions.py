@@ -115,12 +115,12 @@ def test_broken_powers_are_written() -> None:
 )
 def test_what_is_no_unit(unit: str, meant: str | None) -> None:
     hint = f"did you mean '{meant}'?" if meant else "known are '1', 'm', "
-    with pytest.raises(ac.UnitError, match=re.escape(f"'{unit}' is no unit; {hint}")):
+    with pytest.raises(ac.UnitError, match=re.escape(f"'{unit}' is not a unit; {hint}")):
         read(unit)
 
 
 def test_a_unit_of_no_physics() -> None:
-    with pytest.raises(ac.UnitError, match="'pixel' is no unit"):
+    with pytest.raises(ac.UnitError, match="'pixel' is not a unit"):
         read("pixel")
 
 
@@ -130,8 +130,8 @@ def test_a_misspelt_unit_names_its_place() -> None:
         net = ac.Module(lambda key: lambda x: x, unit="N", takes=("meter per second",))
 
     message = refused(model(part=Wrong()))
-    assert "Wrong 'part'.M: 'Nm' is no unit; did you mean 'N.m'?" in message
-    assert "Wrong 'part'.net: 'meter per second' is no unit" in message
+    assert "Wrong 'part'.M: 'Nm' is not a unit; did you mean 'N.m'?" in message
+    assert "Wrong 'part'.net: 'meter per second' is not a unit" in message
 
 
 # -- equations -----------------------------------------------------------------------------------------
