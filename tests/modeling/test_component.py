@@ -119,6 +119,17 @@ def test_signals_connect_element_by_element_in_any_shape():
     assert len(model._node.connections) == 4
 
 
+def test_a_node_knows_its_place():
+    model = Model()
+    model.box = Model()
+    model.box.mass = Mass(m=1.0)
+    mass, other = model.box.mass._node, Model()
+    assert mass.route_from(model._node) == ("box", "mass")
+    assert mass.route_from(mass) == ()
+    assert mass.route_from(other._node) is None
+    assert [n.label for n in mass.ancestors()] == ["Model 'box'", "Model"]
+
+
 def test_connecting_three_makes_a_node_of_three():
     model = Model()
     model.a, model.b, model.c = Mass(m=1.0), Mass(m=1.0), Mass(m=1.0)
@@ -300,6 +311,7 @@ class Meeting(ac.Component):
         (lambda m: (m.mass.flange_a, m.mass.flange_a), ("mass.flange_a", "to itself")),
         (lambda m: (m.mass.flange_a,), ("at least two connectors, got 1",)),
         (lambda m: (m.mass.flange_a, m.mass), ("'mass'", "is not a connector")),
+        (lambda m: ("mass.flange_a", "spring.flange_a"), ("'mass.flange_a' is not a connector",)),
         (lambda m: (m.mass.flange_a, m.mass.s), ("mass.s is not a connector",)),
         (lambda m: (m.mass.flange_a, m.device.u), ("unlike connectors", "device.u", "signal")),
         (lambda m: ((m.device.u,), ()), ("device.u, ...] has 1", "an empty vector has 0")),
