@@ -7,7 +7,9 @@ names is first asked for: building a model waits for no optimizer and no plots.
 import lazy_loader as _lazy
 
 from acausal._jax import configure as _configure
+from acausal._moved import install as _find_moved_modules
 
 _configure()
+_find_moved_modules()
 __version__ = "0.1.0"
 __getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

@@ -340,7 +340,7 @@ GALLERY: dict[str, Wrong] = {
         ac.ConnectionError,
         (
             "m.flange_a (Flange) and c.port (HeatPort)",
-            "only connectors of one domain can be joined",
+            "only connectors of one domain can be connected",
         ),
     ),
     "unlike connectors of one name": (
@@ -394,7 +394,7 @@ GALLERY: dict[str, Wrong] = {
             s=blocks.Sum(nin=3),
         ),
         ac.ConnectionError,
-        ("p.y[1] and its fellows are 2 signals, s.u[1] and its 3",),
+        ("vectors differ in length: p.y has 2, s.u has 3",),
     ),
     "a vector and a signal": (
         lambda: joined(
@@ -404,7 +404,7 @@ GALLERY: dict[str, Wrong] = {
             g=blocks.Gain(k=1),
         ),
         ac.ConnectionError,
-        ("p.y[1] is an element of a vector of 2, g.u is single", "connect one element"),
+        ("p.y is a vector of 2, g.u is single", "connect one element"),
     ),
     "a support that an option leaves out": (
         lambda: joined(
@@ -440,7 +440,7 @@ GALLERY: dict[str, Wrong] = {
     "no name": (
         lambda: setattr(Model(), "left mass", tl.Mass(m=1)),
         ac.DeclarationError,
-        ("'left mass' is no name for a part", "letters, digits and underscores"),
+        ("'left mass' is not a name for a part", "letters, digits and underscores"),
     ),
     "one part of two models": (
         part_of_two,
@@ -610,12 +610,12 @@ GALLERY: dict[str, Wrong] = {
     "a unit without its dot": (
         lambda: compiled(bump=Bump("Nm-3")),
         ac.UnitError,
-        ("Bump 'bump'.k: 'Nm-3' is no unit; did you mean 'N.m-3'?",),
+        ("Bump 'bump'.k: 'Nm-3' is not a unit; did you mean 'N.m-3'?",),
     ),
     "an unknown unit": (
         lambda: compiled(bump=Bump("Nwton")),
         ac.UnitError,
-        ("Bump 'bump'.k: 'Nwton' is no unit",),
+        ("Bump 'bump'.k: 'Nwton' is not a unit",),
     ),
     "a mass that is a length": (
         mass_of_a_length,
@@ -863,7 +863,7 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
     ),
     "a missing comma": (
         '{"model": "x"\n "components": {}}',
-        ("line 2, column 2: no JSON (Expecting ',' delimiter)",),
+        ("line 2, column 2: not JSON (Expecting ',' delimiter)",),
     ),
     "a number that is none": (
         '{"parameters": {"a": NaN}}',

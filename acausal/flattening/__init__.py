@@ -1,12 +1,11 @@
 """Flatten: a component tree becomes equation templates and the integers that fill their slots.
 
 In: a `Component`. Out: a frozen `FlatModel`.
-It knows declarations; neither JAX nor what is reduced later.
+It knows declarations; neither JAX nor any later stage.
 """
 
-from acausal.flattening.attributes import tiled as tiled
 from acausal.flattening.equation_group import Binding as Binding, EquationGroup as EquationGroup
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
-from acausal.flattening.layout import Layout as Layout
+from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template

@@ -1,112 +1,125 @@
-"""Attributes of a laid out model: starts of variables, values of parameters, modules."""
+"""Attributes of variables: start, fixed, nominal and state, as declared and as modified."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, cast
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError
+from acausal.flattening.bindings import bind, is_bound, shifted
 from acausal.flattening.equation_group import Binding
-from acausal.flattening.layout import Form, Layout, members_of_forms
-from acausal.flattening.template import Integers
-from acausal.modeling import (
-    STATE_SELECT,
-    Component,
-    Declaration,
-    ModuleReference,
-    Parameter,
-    Reference,
-    Start,
-    Variable,
-    element_names,
-    references,
-)
+from acausal.flattening.layout import Flags, Form, Layout, Numbers, tiled
+from acausal.modeling import STATE_SELECT, Component, Start, Variable
 
-ALONE = sp.Symbol("p0", real=True)
-"""The parameter in the expression that is nothing but a parameter."""
+T = TypeVar("T", bound=np.generic)
 
 
-def tiled(layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: Any) -> np.ndarray:
-    """Spread per-form local values over all instances."""
-    flat = np.empty(int(base[-1]), dtype=dtype)
-    for members, values in zip(members_of_forms(layout), local, strict=True):
-        if len(values):
-            flat[base[members][:, None] + np.arange(len(values))] = np.asarray(values, dtype=dtype)
-    return flat
+@dataclass(frozen=True)
+class VariableAttributes:
+    """Attributes of all variables, as `FlatModel` holds them."""
+
+    start: Numbers
+    fixed: Flags
+    nominal: Numbers
+    state: Numbers
+    start_given: Flags
+    start_bindings: tuple[Binding, ...]
 
 
-def variable_attributes(layout: Layout) -> tuple[Any, ...]:
-    """Start, fixed, nominal and state attributes of all variables, and starts that are expressions."""
-    base = layout.variable_base
+def variable_attributes(layout: Layout) -> VariableAttributes:
+    """Start, fixed, nominal and state attributes of all variables: declared ones, then those of modifiers.
 
-    def declared(attribute: str, dtype: Any) -> np.ndarray:
-        local = [
-            [form.prototype._attribute(d, attribute) for _, d in form.variables]
-            for form in layout.forms
-        ]
-        return tiled(
-            layout,
-            base,
-            [[0.0 if isinstance(v, sp.Expr | tuple) else v for v in row] for row in local],
-            dtype,
-        )
-
-    start, fixed, nominal = (
-        declared("start", float),
-        declared("fixed", bool),
-        declared("nominal", float),
-    )
-    rank = [[_rank(form.prototype, d) for _, d in form.variables] for form in layout.forms]
-    state = tiled(layout, base, rank, float)
-    given = np.zeros(len(start), dtype=bool)
-    starts: list[Binding] = []
-    start_of_form: dict[Any, tuple[int, Binding]] = {}
+    Raises:
+        DeclarationError: for a start that has too few elements, or refers to something outside of the model.
+    """
+    declared = _declared_attributes(layout)
+    bindings: list[Binding] = []
     named = [
         [(i, path, d) for i, (path, d) in enumerate(f.variables) if isinstance(d.start, str)]
         for f in layout.forms
     ]
+    start_of_form: dict[tuple[int, int], tuple[int, Binding]] = {}
     for number, component in enumerate(layout.components):
-        for index, path, d in named[layout.form_of[number]]:
-            if component._modifiers.get(d.name, Start()).value is not None:
+        form_number = int(layout.form_of[number])
+        for index, path, d in named[form_number]:  # the start is a parameter
+            modifiers = component._node.modifiers
+            if modifiers.get(d.name, Start()).value is not None:
                 continue
-            variable = int(base[number]) + index
-            given[variable] = d.start in component._modifiers
-            form = layout.form_of[number], index
-            if form not in start_of_form:
-                value = _start_element(getattr(component, d.start), path, d.name)
-                start_of_form[form] = number, _binding(layout, variable, value, layout.variable)
-            starts.append(_moved(layout, *start_of_form[form], number, variable))
-        if not component._modifiers:
+            variable = int(layout.variable_base[number]) + index
+            declared.start_given[variable] = d.start in modifiers
+            key = form_number, index
+            if key not in start_of_form:
+                value = _element(getattr(component, cast(str, d.start)), path, d.name)
+                start_of_form[key] = number, bind(layout, variable, value, layout.variable)
+            bindings.append(shifted(layout, *start_of_form[key], number, variable))
+        if component._node.modifiers:
+            bindings += _modified_starts(layout, number, declared)
+    return replace(declared, start_bindings=tuple(bindings))
+
+
+def _declared_attributes(layout: Layout) -> VariableAttributes:
+    """The attributes as the classes declare them; starts that are expressions are not among them."""
+    base = layout.variable_base
+
+    def spread(attribute: str, dtype: type[T]) -> np.ndarray[Any, np.dtype[T]]:
+        local = [
+            [_attribute(form.prototype, d, attribute) for _, d in form.variables]
+            for form in layout.forms
+        ]
+        numbers = [[0.0 if isinstance(v, sp.Expr | tuple) else v for v in row] for row in local]
+        return tiled(layout, base, numbers, dtype)
+
+    rank = [[_state_rank(form.prototype, d) for _, d in form.variables] for form in layout.forms]
+    start = spread("start", np.float64)
+    return VariableAttributes(
+        start=start,
+        fixed=spread("fixed", np.bool_),
+        nominal=spread("nominal", np.float64),
+        state=tiled(layout, base, rank, np.float64),
+        start_given=np.zeros(len(start), dtype=np.bool_),
+        start_bindings=(),
+    )
+
+
+def _modified_starts(layout: Layout, number: int, found: VariableAttributes) -> Iterator[Binding]:
+    """Write the attributes that a component's modifiers give; starts that are expressions are returned."""
+    form, base = layout.form(number), int(layout.variable_base[number])
+    for name, modifier in layout.components[number]._node.modifiers.items():
+        if not isinstance(modifier, Start):
             continue
-        form = layout.form(number)
-        for name, modifier in component._modifiers.items():
-            if not isinstance(modifier, Start):
-                continue
-            for index in _indices(form, name):
-                variable = int(base[number]) + index
-                if modifier.fixed is not None:
-                    fixed[variable] = modifier.fixed
-                if modifier.nominal is not None:
-                    nominal[variable] = modifier.nominal
-                if modifier.state is not None:
-                    state[variable] = STATE_SELECT.index(modifier.state) + 0.5
-                if modifier.value is not None:
-                    given[variable] = True
-                    value = _start_element(modifier.value, form.variables[index][0], name)
-                    if _is_bound(value):
-                        starts.append(_binding(layout, variable, value, layout.variable))
-                    else:
-                        start[variable] = float(value)
-    return start, fixed, nominal, state, given, tuple(starts)
+        for index in _indices(form, name):
+            variable = base + index
+            if modifier.fixed is not None:
+                found.fixed[variable] = modifier.fixed
+            if modifier.nominal is not None:
+                found.nominal[variable] = modifier.nominal
+            if modifier.state is not None:
+                found.state[variable] = STATE_SELECT.index(modifier.state) + 0.5
+            if modifier.value is not None:
+                found.start_given[variable] = True
+                value = _element(modifier.value, form.variables[index][0], name)
+                if is_bound(value):
+                    yield bind(layout, variable, value, layout.variable)
+                else:
+                    found.start[variable] = float(value)
 
 
-def _rank(prototype: Component, variable: Variable) -> float:
-    """How much a variable is wanted as a state; half a rank more where its option was set by hand."""
-    by_hand = variable.state in prototype._options
-    return STATE_SELECT.index(prototype._attribute(variable, "state")) + 0.5 * by_hand
+def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
+    """A declared attribute of a variable; it may be the name of another attribute of the component."""
+    value = getattr(variable, attribute)
+    if isinstance(value, str) and value not in STATE_SELECT:
+        return getattr(component, value)
+    return value
+
+
+def _state_rank(prototype: Component, variable: Variable) -> float:
+    """Rank of the variable's `StateSelect`; half a rank more where the option that it names was set."""
+    by_hand = variable.state in prototype._node.options
+    return STATE_SELECT.index(_attribute(prototype, variable, "state")) + 0.5 * by_hand
 
 
 def _indices(form: Form, name: str) -> Iterator[int]:
@@ -117,7 +130,7 @@ def _indices(form: Form, name: str) -> Iterator[int]:
         yield from (i for path, i in form.variable_index.items() if path.startswith(f"{name}["))
 
 
-def _start_element(value: Any, path: str, name: str) -> Any:
+def _element(value: Any, path: str, name: str) -> Any:
     if path == name or not isinstance(value, list | tuple | np.ndarray):
         return value
     element: Any = value
@@ -127,165 +140,3 @@ def _start_element(value: Any, path: str, name: str) -> Any:
     except (IndexError, TypeError):
         raise DeclarationError(f"the start of '{name}' has no element for {path}") from None
     return element
-
-
-def parameter_values(layout: Layout) -> tuple[np.ndarray, tuple[Binding, ...], np.ndarray]:
-    """Values of all parameters, the bound ones, and which are folded to zero."""
-    base = layout.parameter_base
-    local = [[_default(form, path, d) for path, d in form.parameters] for form in layout.forms]
-    value = tiled(layout, base, local, float)
-    folded = value == 0.0
-    bindings: list[Binding] = []
-    for number, component in enumerate(layout.components):
-        form = layout.form(number)
-        for name, given in component._modifiers.items():
-            if isinstance(given, Start) or name in form.module_index:
-                continue
-            declared = cast(Declaration, component._declaration(name))
-            shape = component._shape(name, declared)
-            values = np.asarray(given, dtype=object)
-            if values.shape not in ((), shape):
-                raise DeclarationError(
-                    f"{component._label()}.{name} needs {_sizes(shape)} values, got {_sizes(values.shape)}"
-                )
-            elements = np.broadcast_to(values, shape or ()).flat
-            for path, element in zip(element_names(name, shape), elements, strict=True):
-                if path not in form.parameter_index:
-                    continue  # the options left no use for it
-                index = int(base[number]) + form.parameter_index[path]
-                folded[index] = False
-                if _is_bound(element):
-                    value[index] = np.nan
-                    bindings.append(_binding(layout, index, element, layout.parameter))
-                else:
-                    value[index] = float(element)
-    bindings += _default_bindings(layout, value, {b.target for b in bindings})
-    _fold_through(bindings, value, folded)
-    bound = {b.target for b in bindings}
-    missing = [int(i) for i in np.flatnonzero(np.isnan(value)) if int(i) not in bound]
-    if missing:
-        names = [layout.parameter(i) for i in missing[:12]]
-        local_name = names[0].rpartition(".")[2]
-        raise DeclarationError(
-            f"parameter without a value: {', '.join(repr(n) for n in names)}; "
-            f"give it where the component is made ({local_name}=...)"
-        )
-    return value, tuple(bindings), folded
-
-
-def _fold_through(bindings: list[Binding], value: np.ndarray, folded: np.ndarray) -> None:
-    """Fold what folded parameters make zero to zero as well."""
-    left = bindings
-    while zero := [b.target for b in left if folded[list(b.arguments)].all() and _is_zero(b)]:
-        value[zero], folded[zero] = 0.0, True
-        left = [b for b in left if not folded[b.target]]
-
-
-def _is_zero(binding: Binding) -> bool:
-    """Whether the expression is zero where all its arguments are."""
-    zeros = dict.fromkeys(binding.symbols, sp.S.Zero)
-    return bool(zeros) and binding.expression.xreplace(zeros) == 0
-
-
-def _sizes(shape: tuple[int, ...] | None) -> str:
-    return " by ".join(str(n) for n in shape or (1,))
-
-
-def _default(form: Form, path: str, declaration: Parameter) -> float:
-    default = declaration.default
-    if default is None or callable(default) or isinstance(default, str):
-        return np.nan
-    if declaration.shape is not None and declaration.name in form.prototype._modifiers:
-        return np.nan  # all instances of the form have such an array of their own
-    if declaration.shape is not None:
-        index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
-        default = np.broadcast_to(
-            np.asarray(default, dtype=float),
-            form.prototype._shape(declaration.name, declaration) or (),
-        )[index]
-    return float(default)
-
-
-def _default_bindings(layout: Layout, value: np.ndarray, bound: set[int]) -> list[Binding]:
-    """Defaults that are functions of the component: ``Parameter(lambda self: 2 * self.m)``.
-
-    A component's form decides what the function says; it is asked once.
-    """
-    bindings: list[Binding] = []
-    for form, members in zip(layout.forms, members_of_forms(layout), strict=True):
-        for i, (_, declaration) in enumerate(form.parameters):
-            if not callable(declaration.default):
-                continue
-            indices = layout.parameter_base[members] + i
-            left = [
-                (m, k)
-                for m, k in zip(members.tolist(), indices.tolist(), strict=True)
-                if np.isnan(value[k]) and k not in bound
-            ]
-            if not left:
-                continue
-            first, index = left[0]
-            default: Any = declaration.default(layout.components[first])
-            if _is_bound(default):
-                binding = _binding(layout, index, default, layout.parameter)
-                bindings += [_moved(layout, first, binding, m, k) for m, k in left]
-            else:
-                value[[k for _, k in left]] = float(default)
-    return bindings
-
-
-def _is_bound(value: Any) -> bool:
-    """Whether a value depends on parameters."""
-    return isinstance(value, Reference) or (isinstance(value, sp.Expr) and not value.is_number)
-
-
-def _moved(layout: Layout, owner: int, binding: Binding, member: int, target: int) -> Binding:
-    """What a component binds to its own parameters, for another component of the same form."""
-    by = int(layout.parameter_base[member] - layout.parameter_base[owner])
-    arguments = tuple(a + by for a in binding.arguments)
-    return Binding(target, binding.expression, binding.symbols, arguments)
-
-
-def _binding(
-    layout: Layout, target: int, expression: sp.Expr, name: Callable[[int], str]
-) -> Binding:
-    """A value given by parameters; ``name`` tells the target's name for a message."""
-    symbols: list[sp.Symbol] = []
-    arguments: list[int] = []
-    names: dict[sp.Symbol, sp.Symbol] = {}
-    alone = isinstance(expression, Reference)
-    for reference in (expression,) if alone else references(expression):
-        number = layout.position.get(id(reference.owner))
-        if number is None:
-            raise DeclarationError(
-                f"'{name(target)}' refers to '{reference.path}' of {reference.owner._label()}, which is not "
-                "part of the model; assign that component to an attribute, or give a number"
-            )
-        names[reference] = ALONE if alone else sp.Symbol(f"p{len(symbols)}", real=True)
-        symbols.append(names[reference])
-        index = layout.form(number).parameter_index[reference.path]
-        arguments.append(int(layout.parameter_base[number]) + index)
-    named: Any = ALONE if alone else expression.xreplace(names)
-    return Binding(target, named, tuple(symbols), tuple(arguments))
-
-
-def module_values(layout: Layout) -> tuple[Any, ...]:
-    """Value or factory of every module; an int refers to another module."""
-    values: list[Any] = []
-    for number, component in enumerate(layout.components):
-        for name, declaration in layout.form(number).modules:
-            value = component._modifiers.get(name, declaration.default)
-            if value is None:
-                raise DeclarationError(
-                    f"{component._label()} has no module '{name}'; give {name}=..."
-                )
-            if isinstance(value, str):
-                value = getattr(component, value)
-            if isinstance(value, ModuleReference):  # a module of an enclosing component
-                owner = layout.position[id(value.symbol.owner)]
-                value = (
-                    int(layout.module_base[owner])
-                    + layout.form(owner).module_index[value.symbol.path]
-                )
-            values.append(value)
-    return tuple(values)

@@ -1,14 +1,14 @@
-"""Connection sets: who meets in one node, and the equations that follow.
+"""Connection sets: the connectors that are connected to each other, and the equations that follow.
 
-A connector seen from the component that owns it (its *inside*) and from that component's surroundings (its
-*outside*) lies in two different nodes, as in Modelica; a `Side` is a connector in one of these two roles.
+As in Modelica, a connector of a composite belongs to two connection sets: one of the connections around the composite,
+one of the connections within it. A *side* is a connector in one of these two roles. Its number is ``2 * v`` for the
+outer side and ``2 * v + 1`` for the inner side, where ``v`` is the connector's first variable.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -16,57 +16,73 @@ from scipy.sparse.csgraph import connected_components
 
 from acausal.errors import ConnectionError
 from acausal.flattening.equation_group import EquationGroup
+from acausal.flattening.layout import Layout
 from acausal.flattening.sums import Statement, balance
 from acausal.flattening.template import Integers, Template, slot
-from acausal.modeling import Component, Connector, Flow, Input, Output, endpoint_label
-
-if TYPE_CHECKING:
-    from acausal.flattening.layout import Layout
+from acausal.modeling import (
+    Component,
+    Connector,
+    Endpoint,
+    Flow,
+    Input,
+    Output,
+    endpoint_label,
+    owner_and_name,
+)
 
 
 @dataclass(frozen=True)
-class _Node:
-    """One connection set: first variables of its connectors, and which are seen from within their owner."""
+class _ConnectionSet:
+    """Connectors, or signals, that are connected to each other.
+
+    Attributes:
+        variables: the first variable of each.
+        inner: for each, whether it is its inner side that belongs to the set.
+        kind: the class of the connectors; None for signals.
+    """
 
     variables: tuple[int, ...]
-    within: tuple[bool, ...]
+    inner: tuple[bool, ...]
     kind: type[Connector] | None
 
 
 @dataclass(frozen=True)
 class ConnectionSets:
-    """All nodes of a model, ordered by their first member, and the joined sides they were made of."""
+    """All connection sets of a model, ordered by their first member, and the connected pairs of sides."""
 
-    nodes: tuple[_Node, ...]
-    edges: Integers
+    sets: tuple[_ConnectionSet, ...]
+    pairs: Integers
 
 
 def connection_sets(layout: Layout) -> ConnectionSets:
-    """Collect what `Component.connect` joined, across all levels of the hierarchy.
+    """Collect what `Component.connect` connected, across all levels of the hierarchy.
+
+    scipy finds the sets: for 100,000 mass-spring-dampers in 0.34 s, `networkx.connected_components` in 1.7 s and its
+    ``UnionFind`` in 1.4 s; and networkx would take 0.07 s to import before every first compilation.
 
     Raises:
         ConnectionError: where a connected component is not part of the model.
     """
-    edges, kinds = _edges(layout)
-    if not len(edges):
-        return ConnectionSets((), edges)
-    sides, index = np.unique(edges, return_inverse=True)
-    pairs = index.reshape(edges.shape)
-    graph = coo_array(
-        (np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(sides), len(sides))
-    )
+    pairs, kinds = _pairs(layout)
+    if not len(pairs):
+        return ConnectionSets((), pairs)
+    sides, index = np.unique(pairs, return_inverse=True)
+    first, second = index.reshape(pairs.shape).T
+    graph = coo_array((np.ones(len(first)), (first, second)), shape=(len(sides), len(sides)))
     _, label = connected_components(graph, directed=False)
     order = np.argsort(label, kind="stable")
     members = np.split(sides[order], np.flatnonzero(np.diff(label[order])) + 1)
     members.sort(key=lambda m: int(m[0]))
-    nodes = tuple(
-        _Node(tuple(int(s) >> 1 for s in m), tuple(bool(s & 1) for s in m), kinds[int(m[0]) >> 1])
+    sets = tuple(
+        _ConnectionSet(
+            tuple(int(s) >> 1 for s in m), tuple(bool(s & 1) for s in m), kinds[int(m[0]) >> 1]
+        )
         for m in members
     )
-    return ConnectionSets(nodes, edges)
+    return ConnectionSets(sets, pairs)
 
 
-def connection_groups(layout: Layout, sets: ConnectionSets) -> tuple[EquationGroup, ...]:
+def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[EquationGroup, ...]:
     """Equations of all connections: equal potentials, flows that sum to zero, unconnected flows zero.
 
     Raises:
@@ -74,83 +90,88 @@ def connection_groups(layout: Layout, sets: ConnectionSets) -> tuple[EquationGro
     """
     equal: list[tuple[int, int]] = []
     sums: dict[tuple[bool, ...], list[tuple[int, ...]]] = {}
-    for node in sets.nodes:
-        first, *others = node.variables
-        if node.kind is None:
-            _check_sources(layout, node)
+    for members in connected.sets:
+        if members.kind is None:
+            _check_sources(layout, members)
+            first, *others = members.variables
             equal += [(first, other) for other in others]
             continue
-        for offset, declaration in enumerate(node.kind.declarations.values()):
-            members = tuple(v + offset for v in node.variables)
+        for offset, declaration in enumerate(members.kind.declarations.values()):
+            first, *others = variables = tuple(v + offset for v in members.variables)
             if isinstance(declaration, Flow):
-                sums.setdefault(node.within, []).append(members)
+                sums.setdefault(members.inner, []).append(variables)
             else:
-                equal += [(members[0], other) for other in members[1:]]
-    zero = _unconnected_flows(layout, sets.edges)
+                equal += [(first, other) for other in others]
+    zero = _unconnected_flows(layout, connected.pairs)
     groups = [_group(_equality(), np.asarray(equal, dtype=np.int64).reshape(-1, 2))]
-    groups += [_group(_balance(within), np.asarray(rows)) for within, rows in sums.items()]
+    groups += [_group(_balance(inner), np.asarray(rows)) for inner, rows in sums.items()]
     groups.append(_group(balance((1,), "unconnected: no flow"), zero[:, None]))
     return tuple(g for g in groups if len(g))
 
 
-def model_inputs(layout: Layout, sets: ConnectionSets) -> Integers:
+def model_inputs(layout: Layout, connected: ConnectionSets) -> Integers:
     """Input signals that no connection feeds: the inputs of the model, in order of declaration."""
     inputs = _declared(layout, Input)
-    fed = {v for node in sets.nodes if node.kind is None for v in _fed(layout, node)}
+    fed = {v for signals in connected.sets if signals.kind is None for v in _fed(layout, signals)}
     return np.asarray([v for v in inputs if v not in fed], dtype=np.int64)
 
 
-def _fed(layout: Layout, node: _Node) -> list[int]:
-    """The signals of a node that it determines; where nothing feeds the node, its first stays open."""
-    sinks = [
-        v for v, w in zip(node.variables, node.within, strict=True) if not _is_source(layout, v, w)
+def _sources(layout: Layout, signals: _ConnectionSet) -> list[bool]:
+    """For each signal, whether it is a source: an output seen from outside, an input seen from within."""
+    return [
+        isinstance(layout.variable_declaration(v), Output) is not inner
+        for v, inner in zip(signals.variables, signals.inner, strict=True)
     ]
-    return sinks if len(sinks) < len(node.variables) else sinks[1:]
 
 
-def _is_source(layout: Layout, variable: int, within: bool) -> bool:
-    return isinstance(layout.variable_declaration(variable), Output) is not within
+def _fed(layout: Layout, signals: _ConnectionSet) -> list[int]:
+    """The signals that the set determines; where it has no source, its first stays open."""
+    sources = _sources(layout, signals)
+    sinks = [v for v, source in zip(signals.variables, sources, strict=True) if not source]
+    return sinks if any(sources) else sinks[1:]
 
 
-def _check_sources(layout: Layout, node: _Node) -> None:
-    sources = [
-        v for v, w in zip(node.variables, node.within, strict=True) if _is_source(layout, v, w)
-    ]
-    if len(sources) > 1:
-        names = " and ".join(f"'{layout.variable(v)}'" for v in sources[:12])
+def _check_sources(layout: Layout, signals: _ConnectionSet) -> None:
+    sources = _sources(layout, signals)
+    if sum(sources) > 1:
+        fed_by = [v for v, source in zip(signals.variables, sources, strict=True) if source]
+        names = " and ".join(f"'{layout.variable(v)}'" for v in fed_by[:12])
         raise ConnectionError(f"{names} feed one signal; a signal has one source")
 
 
-def _edges(layout: Layout) -> tuple[Integers, dict[int, type[Connector] | None]]:
-    """Pairs of joined sides (twice the first variable, plus one if seen from within) and kinds by variable."""
-    edges: list[tuple[int, int]] = []
+def _pairs(layout: Layout) -> tuple[Integers, dict[int, type[Connector] | None]]:
+    """Pairs of connected sides, and the class of each connector by its first variable (None for a signal)."""
+    pairs: list[tuple[int, int]] = []
     kinds: dict[int, type[Connector] | None] = {}
     for component in layout.components:
-        for ends in component._connections:
+        for ends in component._node.connections:
             sides: list[int] = []
             for end in ends:
-                owner, variable, kind = _locate(layout, component, end)
+                is_own, variable, kind = _locate(layout, component, end)
                 kinds[variable] = kind
-                sides.append(2 * variable + (owner is component))
-            edges.append((sides[0], sides[1]))
-    return np.asarray(edges, dtype=np.int64).reshape(-1, 2), kinds
+                sides.append(2 * variable + is_own)
+            pairs.append((sides[0], sides[1]))
+    return np.asarray(pairs, dtype=np.int64).reshape(-1, 2), kinds
 
 
 def _locate(
-    layout: Layout, scope: Component, end: Any
-) -> tuple[Component, int, type[Connector] | None]:
-    owner: Any = end._owner if isinstance(end, Connector) else end.owner
+    layout: Layout, composite: Component, end: Endpoint
+) -> tuple[bool, int, type[Connector] | None]:
+    """Whether an end that a composite connects is its own, the end's first variable, and its class."""
+    owner, name = owner_and_name(end)
     number = layout.position.get(id(owner))
-    if number is None:
+    if owner is None or number is None:
+        of = "" if owner is None else f" of {owner.label}"
         raise ConnectionError(
-            f"{scope._label()} connects {endpoint_label(end)} of {owner._label()}, which is not part of the model; "
+            f"{composite._node.label} connects {endpoint_label(end)}{of}, which is not part of the model; "
             "assign that component to an attribute"
         )
     form, base = layout.form(number), int(layout.variable_base[number])
+    is_own = owner is composite._node
     if isinstance(end, Connector):
-        kind, first = form.connectors[end._name]
-        return owner, base + first, kind
-    return owner, base + form.variable_index[end.path], None
+        kind, first = form.connectors[name]
+        return is_own, base + first, kind
+    return is_own, base + form.variable_index[name], None
 
 
 def _declared(layout: Layout, role: type) -> list[int]:
@@ -164,10 +185,10 @@ def _declared(layout: Layout, role: type) -> list[int]:
     return np.sort(np.concatenate(found)).tolist() if found else []
 
 
-def _unconnected_flows(layout: Layout, edges: Integers) -> Integers:
+def _unconnected_flows(layout: Layout, pairs: Integers) -> Integers:
     connected = np.zeros(int(layout.variable_base[-1]) + 1, dtype=bool)
-    outer = edges.ravel()
-    connected[outer[outer % 2 == 0] >> 1] = True
+    sides = pairs.ravel()
+    connected[sides[sides % 2 == 0] >> 1] = True
     flows: list[Integers] = []
     for number, form in enumerate(layout.forms):
         base = layout.variable_base[np.flatnonzero(layout.form_of == number)]
@@ -190,6 +211,6 @@ def _equality() -> Template:
     return Template(a - b, (a, b), (0, 0), (), (), "connected: equal potentials")
 
 
-def _balance(within: tuple[bool, ...]) -> Statement:
-    """Flows out of a node: a connector seen from within counts negatively."""
-    return balance(tuple(-1 if w else 1 for w in within), "connected: flows sum to zero")
+def _balance(inner: tuple[bool, ...]) -> Statement:
+    """The sum of the flows into the connected components: at an inner side the flow counts negatively."""
+    return balance(tuple(-1 if i else 1 for i in inner), "connected: flows sum to zero")

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from acausal.flattening.attributes import module_values, parameter_values, variable_attributes
+from acausal.flattening.attributes import variable_attributes
 from acausal.flattening.connections import connection_groups, connection_sets, model_inputs
 from acausal.flattening.equation_group import Binding, EquationGroup
 from acausal.flattening.instances import instantiate
-from acausal.flattening.layout import Layout, lay_out
+from acausal.flattening.layout import Flags, Layout, Numbers, lay_out
 from acausal.flattening.template import Integers
+from acausal.flattening.values import module_values, parameter_values
 from acausal.modeling import Component
 
 
@@ -21,16 +21,16 @@ class FlatModel:
     """A model without hierarchy: numbered variables, and equations as instances of templates.
 
     Attributes:
-        name: of the model: its class, or what its file says.
+        name: of the model: its class, or the title in its file.
         layout: names of everything.
         groups: all equations, those of connections among them; ``initial``: equations at the initial time.
         inputs: indices of the variables that are the model's inputs.
         start, fixed, nominal, state: (n_variables,) attributes; ``state`` counts from 0 "never" to 4 "always",
-            plus 0.5 where the model's author, not the library, asked for it.
-        start_given: (n_variables,) whether somebody gave the start as a modifier.
+            plus 0.5 where the model's author, not the library, set it.
+        start_given: (n_variables,) whether a modifier gave the start.
         starts: start values that are expressions of parameters.
         value: (n_parameters,) values (nan where bound); ``bindings``: the bound ones.
-        folded: (n_parameters,) parameters left at a default of zero, or bound to nothing but such.
+        folded: (n_parameters,) whether a parameter is left at a default of zero, or bound to such parameters only.
         module_values: value or factory of every module; an int refers to another module.
     """
 
@@ -39,16 +39,16 @@ class FlatModel:
     groups: tuple[EquationGroup, ...]
     initial: tuple[EquationGroup, ...]
     inputs: Integers
-    start: np.ndarray
-    fixed: np.ndarray
-    nominal: np.ndarray
-    state: np.ndarray
-    start_given: np.ndarray
+    start: Numbers
+    fixed: Flags
+    nominal: Numbers
+    state: Numbers
+    start_given: Flags
     starts: tuple[Binding, ...]
-    value: np.ndarray
+    value: Numbers
     bindings: tuple[Binding, ...]
-    folded: np.ndarray
-    module_values: tuple[Any, ...]
+    folded: Flags
+    module_values: tuple[Callable[..., Any] | int, ...]
 
     @property
     def n_variables(self) -> int:
@@ -65,28 +65,27 @@ def flatten(model: Component) -> FlatModel:
     """Number the variables of a component tree and instantiate its equations.
 
     Raises:
-        DeclarationError: for a parameter without a value, or an equation that uses what is not in the model.
+        DeclarationError: for a parameter without a value, or an equation that refers to something outside of the model.
         ConnectionError: for connections that cannot be made.
     """
     layout = lay_out(model)
     equations, initial = instantiate(layout)
     sets = connection_sets(layout)
-    start, fixed, nominal, state, given, starts = variable_attributes(layout)
-    value, bindings, folded = parameter_values(layout)
+    attributes, parameters = variable_attributes(layout), parameter_values(layout)
     return FlatModel(
-        name=model._label(),
+        name=model._node.label,
         layout=layout,
         groups=(*equations, *connection_groups(layout, sets)),
         initial=initial,
         inputs=model_inputs(layout, sets),
-        start=start,
-        fixed=fixed,
-        nominal=nominal,
-        state=state,
-        start_given=given,
-        starts=starts,
-        value=value,
-        bindings=bindings,
-        folded=folded,
+        start=attributes.start,
+        fixed=attributes.fixed,
+        nominal=attributes.nominal,
+        state=attributes.state,
+        start_given=attributes.start_given,
+        starts=attributes.start_bindings,
+        value=parameters.value,
+        bindings=parameters.bindings,
+        folded=parameters.folded,
         module_values=module_values(layout),
     )

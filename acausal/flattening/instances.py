@@ -1,4 +1,4 @@
-"""Instantiate: the equations of a component tree as templates, and what fills their slots."""
+"""Instances: the equations of a component tree as templates, and the indices that fill their slots."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import sympy as sp
 
 from acausal.errors import DeclarationError
 from acausal.flattening.equation_group import EquationGroup
-from acausal.flattening.layout import Form, Layout, members_of_forms
+from acausal.flattening.layout import Layout, members_of_forms
 from acausal.flattening.template import Integers, Template, slot
 from acausal.modeling import (
     COMPUTABLE,
@@ -27,46 +27,52 @@ from acausal.modeling import (
     time,
 )
 
+Place = tuple[tuple[str, ...], int]
+"""Where a slot is filled from, seen from the component that states the equation: the names of the parts on the way to
+the owner (none for the component itself), and the local index there."""
+
 
 @dataclass(frozen=True)
-class _Slots:
-    """Where a template's slots are found, seen from the component that states the equation.
+class _Places:
+    """Where the slots of a template are filled from."""
 
-    Each entry is the chain of part names to the owner (empty: the component itself) and the local index there.
-    """
-
-    variables: tuple[tuple[tuple[str, ...], int], ...]
-    parameters: tuple[tuple[tuple[str, ...], int], ...]
-    modules: tuple[tuple[tuple[str, ...], int], ...]
+    variables: tuple[Place, ...]
+    parameters: tuple[Place, ...]
+    modules: tuple[Place, ...]
 
 
 def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[EquationGroup, ...]]:
-    """All equations, and all initial equations, as groups of instances of templates."""
+    """All equations, and all initial equations, as groups of instances of templates.
+
+    Raises:
+        DeclarationError: for an equation that cannot be read, or refers to something outside of the model.
+    """
     equations: list[EquationGroup] = []
     initial: list[EquationGroup] = []
     members = members_of_forms(layout)
     for number, form in enumerate(layout.forms):
-        for found, stated in (
+        for groups, stated in (
             (equations, lambda p=form.prototype: _equations(p)),
             (initial, form.prototype.initial_equations),
         ):
-            for equation in _stated(form.prototype, stated):
-                template, slots = _template(layout, form, equation)
-                found.append(_fill(layout, template, slots, members[number]))
+            for equation in _read(form.prototype, stated):
+                template, places = _template(layout, form.prototype, equation)
+                groups.append(_fill(layout, template, places, members[number]))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
     return tuple(equations[i] for i in order), tuple(initial)
 
 
 def _equations(component: Component) -> Iterable[Eq]:
-    """What a component states, what its modifiers add, and what holds of parameters found at the initial time."""
+    """A component's equations, those that its modifiers add, and ``der(p) = 0`` for its initial parameters."""
     yield from component.equations()
-    yield from component._bindings
-    for name, declared in component._declarations():
+    yield from component._node.bindings
+    for name, declared in component._node.declarations():
         if isinstance(declared, InitialParameter):
             yield Eq(der(getattr(component, name)), 0)
 
 
-def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list[Eq]:
+def _read(component: Component, equations: Callable[[], Iterable[Eq]]) -> list[Eq]:
+    """The equations of a user's method; an error in it becomes a sentence with the line."""
     try:
         return list(equations())
     except (TypeError, ValueError) as error:
@@ -75,19 +81,59 @@ def _stated(component: Component, equations: Callable[[], Iterable[Eq]]) -> list
         own = [f for f in frames if "site-packages" not in f.filename and f.filename != __file__]
         line = f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
         raise DeclarationError(
-            f"{component._label()}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from the "
-            "method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
+            f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
+            "the method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
         ) from None
 
 
-def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slots]:
-    owner = form.prototype
+def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template, _Places]:
+    """The template of one equation of a component."""
     if not isinstance(equation, Eq):
         raise DeclarationError(
-            f"{owner._label()}: equations() yields {equation!r}; yield ac.Eq(left, right)"
+            f"{owner._node.label}: equations() yields {equation!r}; yield ac.Eq(left, right)"
         )
     where = f"{type(owner).__name__}: {equation}"
-    residual: Any = _without_der(equation.lhs - equation.rhs, where)
+    residual: Any = _without_der(equation.lhs - equation.rhs)
+    _check_residual(residual, where)
+    names: dict[sp.Basic, sp.Basic] = {}
+    names_of_parts: dict[sp.Basic, sp.Basic] = {}
+    orders: dict[sp.Symbol, int] = {}
+    variables: dict[sp.Symbol, Place] = {}
+    parameters: dict[sp.Symbol, Place] = {}
+    modules: dict[sp.Symbol, Place] = {}
+    for symbol in _symbols(residual):
+        if symbol == time:
+            continue
+        reference, order = _undifferentiated(symbol)
+        if not isinstance(reference, Reference):
+            raise DeclarationError(f"{where}: '{reference}' is not declared")
+        route = _route(owner, reference, where)
+        local = layout.form(layout.position[id(reference.owner)])
+        path = ".".join((*route, reference.path))
+        named = names[symbol] = slot(path, order)
+        if route:
+            names_of_parts[reference] = slot(path)
+        match reference.declaration:
+            case Variable():
+                orders[named] = order
+                variables[named] = route, local.variable_index[reference.path]
+            case Module():
+                modules[named] = route, local.module_index[reference.path]
+            case _:
+                parameters[named] = route, local.parameter_index[reference.path]
+    template = Template(
+        residual=residual.xreplace(names),
+        variables=tuple(variables),
+        orders=tuple(orders.values()),
+        parameters=tuple(parameters),
+        modules=tuple(modules),
+        origin=f"{type(owner).__name__}: {_with_names(equation, names_of_parts)}",
+    )
+    places = (tuple(p.values()) for p in (variables, parameters, modules))
+    return template, _Places(*places)
+
+
+def _check_residual(residual: sp.Expr, where: str) -> None:
     if residual.has(sp.nan, sp.oo, -sp.oo, sp.zoo, sp.I):
         raise DeclarationError(f"{where}: all numbers in an equation must be real and finite")
     for call in residual.atoms(sp.Function):
@@ -95,49 +141,10 @@ def _template(layout: Layout, form: Form, equation: Eq) -> tuple[Template, _Slot
             raise DeclarationError(
                 f"{where}: '{call.func}' cannot be computed; use the functions that acausal exports"
             )
-    names: dict[sp.Symbol, sp.Symbol] = {}
-    variables: dict[sp.Symbol, tuple[int, tuple[tuple[str, ...], int]]] = {}
-    parameters: dict[sp.Symbol, tuple[tuple[str, ...], int]] = {}
-    modules: dict[sp.Symbol, tuple[tuple[str, ...], int]] = {}
-    of_parts: dict[Any, Any] = {}
-    for symbol in _symbols(residual):
-        if symbol == time:
-            continue
-        reference, order = (
-            (symbol.reference, symbol.order) if isinstance(symbol, _Derived) else (symbol, 0)
-        )
-        if not isinstance(reference, Reference):
-            raise DeclarationError(f"{where}: '{reference}' is not declared")
-        chain = _chain(owner, reference, where)
-        local = layout.form(layout.position[id(reference.owner)])
-        path = ".".join((*chain, reference.path))
-        named = slot(path, order)
-        names[symbol] = named
-        if chain:
-            of_parts[reference] = slot(path)
-        match reference.declaration:
-            case Variable():
-                variables[named] = order, (chain, local.variable_index[reference.path])
-            case Module():
-                modules[named] = chain, local.module_index[reference.path]
-            case _:
-                parameters[named] = chain, local.parameter_index[reference.path]
-    template = Template(
-        residual=residual.xreplace(names),
-        variables=tuple(variables),
-        orders=tuple(order for order, _ in variables.values()),
-        parameters=tuple(parameters),
-        modules=tuple(modules),
-        origin=f"{type(owner).__name__}: {_with_names(equation, of_parts)}",
-    )
-    slots = _Slots(
-        tuple(w for _, w in variables.values()), tuple(parameters.values()), tuple(modules.values())
-    )
-    return template, slots
 
 
-def _with_names(equation: Eq, names: dict[Any, Any]) -> Eq:
-    """The equation with dotted names for what belongs to parts."""
+def _with_names(equation: Eq, names: dict[sp.Basic, sp.Basic]) -> Eq:
+    """The equation with dotted names for the variables and parameters of parts."""
     if not names:
         return equation
     return Eq(equation.lhs.xreplace(names), equation.rhs.xreplace(names))
@@ -155,14 +162,14 @@ class _Derived(sp.Symbol):
         return self
 
 
-def _without_der(expression: Any, where: str) -> Any:
-    """Replace every ``der`` by derivative symbols, differentiating what stands inside."""
-    replaced = {d: _total(_without_der(d.args[0], where)) for d in expression.atoms(der)}
+def _without_der(expression: Any) -> Any:
+    """Replace every ``der`` by derivative symbols, differentiating the expression inside."""
+    replaced = {d: _total_derivative(_without_der(d.args[0])) for d in expression.atoms(der)}
     return expression.xreplace(replaced) if replaced else expression
 
 
-def _total(expression: sp.Expr) -> sp.Expr:
-    """Total time derivative of an expression of references."""
+def _total_derivative(expression: sp.Expr) -> sp.Expr:
+    """The derivative of an expression of references by time, chain rule included."""
     terms = [expression.diff(time)]
     for symbol in _symbols(expression):
         if isinstance(symbol, _Derived):
@@ -173,56 +180,58 @@ def _total(expression: sp.Expr) -> sp.Expr:
 
 
 def _symbols(expression: sp.Expr) -> list[sp.Symbol]:
-    """Free symbols in order of appearance."""
+    """Free symbols in order of creation."""
     seen: dict[sp.Symbol, None] = {}
     for node in sp.preorder_traversal(expression):
         if isinstance(node, sp.Symbol):
             seen.setdefault(node)
-    return sorted(seen, key=lambda s: _age(s))
+    return sorted(seen, key=_creation_order)
 
 
-def _age(symbol: sp.Symbol) -> tuple[int, int]:
-    """Order of creation: sympy's own order of arguments would depend on names."""
-    reference = symbol.reference if isinstance(symbol, _Derived) else symbol
+def _creation_order(symbol: sp.Symbol) -> tuple[int, int]:
+    """References in the order in which they were made: sympy's own order of arguments depends on names."""
+    reference, order = _undifferentiated(symbol)
     serial = int(reference.name.rpartition("#")[2]) if isinstance(reference, Reference) else -1
-    return serial, symbol.order if isinstance(symbol, _Derived) else 0
+    return serial, order
 
 
-def _chain(owner: Component, reference: Reference, where: str) -> tuple[str, ...]:
-    names: list[str] = []
-    component: Component | None = reference.owner
-    while component is not None and component is not owner:
-        names.append(component._name)
-        component = component._parent
-    if component is None:
+def _undifferentiated(symbol: sp.Symbol) -> tuple[sp.Symbol, int]:
+    """The symbol that was differentiated, and how often."""
+    return (symbol.reference, symbol.order) if isinstance(symbol, _Derived) else (symbol, 0)
+
+
+def _route(owner: Component, reference: Reference, where: str) -> tuple[str, ...]:
+    names = reference.owner.route_from(owner._node)
+    if names is None:
         raise DeclarationError(
-            f"{where}: '{reference.path}' belongs to {reference.owner._label()}, which is not part of "
-            f"{owner._label()}; assign it to an attribute, or connect instead"
+            f"{where}: '{reference.path}' belongs to {reference.owner.label}, which is not part of "
+            f"{owner._node.label}; assign it to an attribute, or connect instead"
         )
-    return tuple(reversed(names))
+    return names
 
 
-def _fill(layout: Layout, template: Template, slots: _Slots, members: Integers) -> EquationGroup:
-    def indices(entries: tuple[tuple[tuple[str, ...], int], ...], base: Integers) -> Integers:
-        columns = [base[_owners(layout, members, chain)] + local for chain, local in entries]
+def _fill(layout: Layout, template: Template, places: _Places, members: Integers) -> EquationGroup:
+    def indices(entries: tuple[Place, ...], base: Integers) -> Integers:
+        columns = [base[_owners(layout, members, route)] + local for route, local in entries]
         return np.stack(columns, axis=1) if columns else np.empty((len(members), 0), dtype=np.int64)
 
     return EquationGroup(
         template=template,
-        variables=indices(slots.variables, layout.variable_base),
-        parameters=indices(slots.parameters, layout.parameter_base),
-        modules=indices(slots.modules, layout.module_base),
+        variables=indices(places.variables, layout.variable_base),
+        parameters=indices(places.parameters, layout.parameter_base),
+        modules=indices(places.modules, layout.module_base),
         components=members,
     )
 
 
-def _owners(layout: Layout, members: Integers, chain: tuple[str, ...]) -> Integers:
-    if not chain:
+def _owners(layout: Layout, members: Integers, route: tuple[str, ...]) -> Integers:
+    """For each component, the part of it that a route leads to."""
+    if not route:
         return members
     owners: list[int] = []
     for member in members:
         component = layout.components[member]
-        for name in chain:
-            component = component._children[name]
-        owners.append(layout.position[id(component)])
+        for name in route:
+            component = component._node.children[name]
+        owners.append(layout.position[id(component._node)])
     return np.asarray(owners, dtype=np.int64)

@@ -1,12 +1,12 @@
-"""Lay out: where the variables, parameters and modules of a component tree lie in a flat numbering."""
+"""Layout: the numbers of all components, variables, parameters and modules of a component tree."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -23,15 +23,19 @@ from acausal.modeling import (
     element_names,
 )
 
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
+Flags = np.ndarray[Any, np.dtype[np.bool_]]
+T = TypeVar("T", bound=np.generic)
+
 
 @dataclass(frozen=True)
 class Form:
-    """What all instances of one class with the same structural choices share: their local names.
+    """The local names that all instances of one class with the same structural choices share.
 
     Attributes:
         variables, parameters, modules: local path and declaration, in order of declaration.
         connectors: local name -> (class, index of its first variable).
-        prototype: the first instance met; its equations stand for all.
+        prototype: one of the instances; its equations are those of all.
     """
 
     prototype: Component
@@ -58,9 +62,13 @@ class Form:
 
 @dataclass(frozen=True)
 class Layout:
-    """Where every component's variables, parameters and modules lie in the flat numbering.
+    """The components of a model and the numbers of everything that they declare.
 
-    ``variable_base[i]`` is the index of component i's first variable; the arrays have one more entry, the total.
+    Attributes:
+        components, paths: every component, parents before children, and its dotted path.
+        forms: the distinct forms; ``form_of[i]`` is the index of component i's.
+        variable_base: ``variable_base[i]`` is the index of component i's first variable; the last entry is the total.
+        parameter_base, module_base: likewise.
     """
 
     components: tuple[Component, ...]
@@ -73,8 +81,8 @@ class Layout:
 
     @cached_property
     def position(self) -> dict[int, int]:
-        """``id(component)`` -> its number."""
-        return {id(c): i for i, c in enumerate(self.components)}
+        """``id`` of a component's node -> the component's number."""
+        return {id(c._node): i for i, c in enumerate(self.components)}
 
     @cached_property
     def number(self) -> dict[str, int]:
@@ -133,15 +141,12 @@ def lay_out(model: Component) -> Layout:
         component, path = stack.pop()
         components.append(component)
         paths.append(path)
-        if component._pending:
-            part = next(iter(component._pending))
-            raise DeclarationError(
-                f"{component._label()} has no '{part}': {nearest(part, [*component._declared, *component._children])}"
-            )
+        node = component._node
+        for part in node.early_modifiers:  # of parts that were never made
+            names = [*node.class_declarations, *node.children]
+            raise DeclarationError(f"{node.label} has no '{part}': {nearest(part, names)}")
         prefix = f"{path}." if path else ""
-        stack.extend(
-            (child, prefix + name) for name, child in reversed(component._children.items())
-        )
+        stack.extend((child, prefix + name) for name, child in reversed(node.children.items()))
 
     forms: list[Form] = []
     known: dict[Hashable, int] = {}
@@ -149,7 +154,7 @@ def lay_out(model: Component) -> Layout:
     number: dict[int, int] = {}
     for i in range(len(components) - 1, -1, -1):  # children before parents
         component = components[i]
-        children = tuple((n, number[id(c)]) for n, c in component._children.items())
+        children = tuple((n, number[id(c)]) for n, c in component._node.children.items())
         key = _structure(component), children
         if key not in known:
             known[key] = len(forms)
@@ -177,27 +182,41 @@ def members_of_forms(layout: Layout) -> list[Integers]:
     return [order[a:b] for a, b in itertools.pairwise(bounds)]
 
 
+def tiled(
+    layout: Layout, base: Integers, local: Iterable[Sequence[Any]], dtype: type[T]
+) -> np.ndarray[Any, np.dtype[T]]:
+    """Spread values from the forms to all their instances.
+
+    Arguments:
+        base: for each component, the index of its first value in the result; one more entry, the total.
+        local: for each form, its values.
+    """
+    flat = np.empty(int(base[-1]), dtype=dtype)
+    for members, values in zip(members_of_forms(layout), local, strict=True):
+        if len(values):
+            flat[base[members][:, None] + np.arange(len(values))] = np.asarray(values, dtype=dtype)
+    return flat
+
+
 def _structure(component: Component) -> Hashable:
-    """What decides a component's declarations and equations, besides its parts."""
-    cls = type(component)
-    for name, value in component._constants.items():
+    """Everything, besides its parts, that decides a component's declarations and equations."""
+    node = component._node
+    for name, value in node.constants.items():
         if _holds_parts(value):
             raise DeclarationError(
-                f"{component._label()}.{name} holds components that are not part of the model; "
+                f"{node.label}.{name} holds components that are not part of the model; "
                 "assign them as attributes, or as one list that is complete"
             )
-    options = tuple((k, _frozen(v)) for k, v in sorted(component._options.items()))
-    constants = tuple((k, _frozen(v)) for k, v in sorted(component._constants.items()))
-    dynamic = tuple((k, type(v), *_attributes(v)) for k, v in component._dynamic.items())
-    sizes = tuple(
-        (k, np.shape(v)) for k, v in component._modifiers.items() if isinstance(v, np.ndarray)
-    )
-    bindings = tuple(id(equation) for equation in component._bindings)
-    return cls, options, constants, dynamic, sizes, bindings
+    options = tuple((k, _frozen(v)) for k, v in sorted(node.options.items()))
+    constants = tuple((k, _frozen(v)) for k, v in sorted(node.constants.items()))
+    own = tuple((k, type(v), *_attributes(v)) for k, v in node.own_declarations.items())
+    sizes = tuple((k, np.shape(v)) for k, v in node.modifiers.items() if isinstance(v, np.ndarray))
+    bindings = tuple(id(equation) for equation in node.bindings)
+    return type(component), options, constants, own, sizes, bindings
 
 
 def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:
-    """What a declaration says, whichever instance made it."""
+    """The attributes of a declaration, which decide the form whichever instance made it."""
     if isinstance(declared, Connector):
         return (declared._when,)
     return tuple((k, _frozen(v)) for k, v in sorted(vars(declared).items()))
@@ -208,7 +227,7 @@ def _holds_parts(value: Any) -> bool:
         return _holds_parts(list(value.values()))
     if isinstance(value, list | tuple | set | frozenset):
         return any(
-            (isinstance(v, Component) and v._parent is None) or _holds_parts(v) for v in value
+            (isinstance(v, Component) and v._node.parent is None) or _holds_parts(v) for v in value
         )
     return False
 
@@ -230,7 +249,7 @@ def _form(component: Component) -> Form:
     parameters: list[tuple[str, Parameter]] = []
     modules: list[tuple[str, Module]] = []
     connectors: dict[str, tuple[type[Connector], int]] = {}
-    for name, declared in component._declarations():
+    for name, declared in component._node.declarations():
         match declared:
             case Connector():
                 connectors[name] = (type(declared), len(variables))
@@ -247,11 +266,11 @@ def _form(component: Component) -> Form:
                 pass
             case _:
                 raise DeclarationError(
-                    f"{component._label()}.{name}: a bare Declaration declares nothing"
+                    f"{component._node.label}.{name}: a bare Declaration declares nothing"
                 )
     return Form(component, tuple(variables), tuple(parameters), tuple(modules), connectors)
 
 
 def element_paths(component: Component, name: str, declaration: Declaration) -> list[str]:
     """Local paths of a declaration: one, or one for every element of a vector or matrix."""
-    return element_names(name, component._shape(name, declaration))
+    return element_names(name, component._node.shape(name, declaration))

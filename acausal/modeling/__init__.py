@@ -1,38 +1,10 @@
 """What a user declares: components, connectors, parameters, variables and equations.
 
 In: classes that a user writes. Out: a tree of `Component` with sympy equations over references.
-It knows neither JAX nor files, and nothing of what is made of a model later.
+It knows neither JAX nor files, nor any later stage.
 """
 
-from acausal.modeling.component import Component as Component, endpoint_label as endpoint_label
-from acausal.modeling.connector import Connector as Connector
-from acausal.modeling.declarations import (
-    STATE_SELECT as STATE_SELECT,
-    Declaration as Declaration,
-    Eq as Eq,
-    Flow as Flow,
-    InitialParameter as InitialParameter,
-    Input as Input,
-    Module as Module,
-    ModuleCall as ModuleCall,
-    ModuleReference as ModuleReference,
-    Option as Option,
-    Output as Output,
-    Parameter as Parameter,
-    Potential as Potential,
-    Reference as Reference,
-    Start as Start,
-    Variable as Variable,
-    der as der,
-    element_names as element_names,
-    primes as primes,
-    references as references,
-    time as time,
-)
-from acausal.modeling.functions import (
-    COMPUTABLE as COMPUTABLE,
-    Abs as Abs,
-    Prescribed as Prescribed,
+from sympy import (
     acos as acos,
     asin as asin,
     atan as atan,
@@ -40,17 +12,57 @@ from acausal.modeling.functions import (
     cos as cos,
     cosh as cosh,
     exp as exp,
-    floor as floor,
     log as log,
-    maximum as maximum,
-    minimum as minimum,
     pi as pi,
-    prescribed as prescribed,
-    sign as sign,
     sin as sin,
     sinh as sinh,
     sqrt as sqrt,
     tan as tan,
     tanh as tanh,
+)
+
+from acausal.modeling.component import Component as Component
+from acausal.modeling.connector import Connector as Connector
+from acausal.modeling.declarations import (
+    STATE_SELECT as STATE_SELECT,
+    Declaration as Declaration,
+    Flow as Flow,
+    InitialParameter as InitialParameter,
+    Input as Input,
+    Module as Module,
+    Option as Option,
+    Output as Output,
+    Parameter as Parameter,
+    Potential as Potential,
+    Start as Start,
+    Variable as Variable,
+    element_names as element_names,
+)
+from acausal.modeling.endpoints import (
+    Endpoint as Endpoint,
+    endpoint_label as endpoint_label,
+    owner_and_name as owner_and_name,
+)
+from acausal.modeling.functions import (
+    COMPUTABLE as COMPUTABLE,
+    Abs as Abs,
+    Prescribed as Prescribed,
+    floor as floor,
+    maximum as maximum,
+    minimum as minimum,
+    prescribed as prescribed,
+    sign as sign,
     where as where,
+)
+from acausal.modeling.node import Node as Node
+from acausal.modeling.symbols import (
+    Eq as Eq,
+    ModuleCall as ModuleCall,
+    ModuleReference as ModuleReference,
+    Owner as Owner,
+    Reference as Reference,
+    der as der,
+    primes as primes,
+    references as references,
+    time as time,
 )

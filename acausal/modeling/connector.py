@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
+from typing import Any, ClassVar, Self, cast
 
 from acausal.errors import DeclarationError
 from acausal.modeling.declarations import (
     Declaration,
-    Eq,
     Flow,
     Input,
     Output,
     Potential,
     Variable,
     element_names,
-    elements,
 )
-
-if TYPE_CHECKING:
-    from acausal.modeling.component import Component
+from acausal.modeling.symbols import Eq, Owner, elements
 
 
 class Connector:
@@ -51,7 +47,7 @@ class Connector:
     def __init__(self, *, when: str | None = None) -> None:
         self._when = when
         self._name = ""
-        self._owner: Component | None = None
+        self._owner: Owner | None = None
         self._references: dict[str, Any] = {}
         if not self.declarations:
             raise DeclarationError(f"connector class {type(self).__name__} declares no variables")
@@ -83,7 +79,7 @@ class Connector:
     def __get__(self, instance: Any, owner: type) -> Self:
         return self if instance is None else cast(Self, instance._read(self))
 
-    def _bind(self, owner: Component, name: str) -> Self:
+    def _bind(self, owner: Owner, name: str) -> Self:
         bound = type(self)(when=self._when)
         bound._owner, bound._name = owner, name
         return bound
@@ -121,8 +117,9 @@ class Connector:
         return ()
 
     def __repr__(self) -> str:
-        where = f"{self._owner._path()}." if self._owner is not None and self._owner._path() else ""
-        return f"{where}{self._name} ({type(self).__name__})"
+        path = "" if self._owner is None else self._owner.path
+        name = f"{path}.{self._name}" if path else self._name
+        return f"{name} ({type(self).__name__})"
 
 
 def _role(declaration: Variable) -> type:

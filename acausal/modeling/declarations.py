@@ -1,133 +1,21 @@
-"""What a component is declared with: parameters, variables, signals, and equations over them.
+"""What a component is declared with: parameters, variables, signals, options and modules.
 
-A declaration is a class attribute. Read on an instance it becomes a *reference*, a sympy symbol that
-knows its owner, so that one expression may mix names of several components.
+A declaration is a class attribute. Read on an instance it becomes a reference (`acausal.modeling.symbols`).
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import count
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import Any, Literal, overload
 
 import numpy as np
-import sympy as sp
 
 from acausal.errors import DeclarationError
-
-if TYPE_CHECKING:
-    from acausal.modeling.component import Component
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")
 Shape = int | str | tuple[int | str, ...] | None
-
-time = sp.Symbol("time", real=True)
-"""The independent variable, in seconds."""
-
-
-class Reference(sp.Symbol):
-    """A symbol that knows which component owns it and by which local name."""
-
-    owner: Component
-    path: str
-    declaration: Declaration
-
-    _serial = count()
-
-    def __new__(cls, owner: Component, path: str, declaration: Declaration) -> Reference:
-        """A new symbol, unlike any other."""
-        symbol = super().__new__(cls, f"{path}#{next(cls._serial)}", real=True)
-        symbol.owner, symbol.path, symbol.declaration = owner, path, declaration
-        return symbol
-
-    def _sympystr(self, printer: Any) -> str:
-        return self.path
-
-    def _latex(self, printer: Any) -> str:
-        return printer._print(sp.Symbol(self.path))
-
-
-class der(sp.Function):  # noqa: N801 (Modelica's name)
-    """Time derivative of a variable, or of an expression of variables."""
-
-    nargs = 1
-
-    def _eval_is_real(self) -> bool:
-        return True
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Refused: total derivatives are taken when equations become templates."""
-        raise DeclarationError(
-            "der(...) inside der(...) of an expression: give the inner one a variable"
-        )
-
-
-class ModuleCall(sp.Function):
-    """A callable parameter applied: ``ModuleCall(module, orders, *args)``.
-
-    ``orders`` counts, per argument, how often the function is differentiated; it is how sympy carries
-    a network through index reduction and linearization.
-    """
-
-    def fdiff(self, argindex: int = 1) -> Any:
-        """The partial derivative by an argument (counted from 3), again a call."""
-        module, orders, *args = self._parts
-        raised = [n + (i == argindex - 3) for i, n in enumerate(orders)]
-        return ModuleCall(module, sp.Tuple(*raised), *args)
-
-    @property
-    def _parts(self) -> tuple[Any, ...]:
-        return self.args
-
-    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        slopes = [self.fdiff(i) * a.diff(s) for i, a in enumerate(self._parts[2:], start=3)]
-        return sp.Add(*slopes)
-
-    def _eval_is_real(self) -> bool:
-        return True
-
-    def _sympystr(self, printer: Any) -> str:
-        module, orders, *args = self._parts
-        name = printer._print(module) + primes(orders)
-        return f"{name}({', '.join(printer._print(a) for a in args)})"
-
-
-def primes(orders: Iterable[Any]) -> str:
-    """How derivatives of a module are marked: a prime for each, ``'2`` for one by the second argument."""
-    marks = ("'" if i == 1 else f"'{i}" for i in count(1))
-    return "".join(mark * int(n) for mark, n in zip(marks, orders, strict=False))
-
-
-@dataclass(frozen=True)
-class Eq:
-    """An equation ``lhs = rhs`` between expressions."""
-
-    lhs: sp.Expr
-    rhs: sp.Expr
-
-    def __init__(self, lhs: Any, rhs: Any) -> None:
-        object.__setattr__(self, "lhs", _expression(lhs, "an equation's left side"))
-        object.__setattr__(self, "rhs", _expression(rhs, "an equation's right side"))
-
-    def __str__(self) -> str:
-        return f"{self.lhs} = {self.rhs}"
-
-
-def _expression(value: Any, where: str) -> sp.Expr:
-    if isinstance(value, sp.Expr):
-        return value
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise DeclarationError(
-            f"{where} is {type(value).__name__} {value!r}; an expression or a number is needed"
-        ) from None
-    if not math.isfinite(number):
-        raise DeclarationError(f"{where} is {number}; a finite number is needed")
-    return sp.Integer(int(number)) if number.is_integer() else sp.Float(number)
 
 
 @dataclass(frozen=True)
@@ -154,7 +42,7 @@ class Start:
 class Declaration:
     """Base of everything that a component declares as a class attribute.
 
-    ``unit`` is in Modelica's spelling, ``"N.m/rad"``; ``"1"`` is that of a pure number, ``""`` fits everything.
+    ``unit`` is in Modelica's spelling, ``"N.m/rad"``; a pure number has ``"1"``, and ``""`` fits everything.
     ``when`` names an option: the declaration exists only where that option is true (a leading ``not ``
     inverts it). ``shape`` makes a vector or a matrix; its sizes are integers, names of attributes,
     or ``":"`` for parameters that take the size of their value.
@@ -184,8 +72,8 @@ class Declaration:
 class Parameter(Declaration):
     """A constant of a component: a number, or an expression of the enclosing component's parameters.
 
-    Without ``default`` the value must be given where the component is made. A parameter whose default
-    is zero and which nobody sets is folded out of the equations.
+    Without ``default`` the value must be given where the component is made. A parameter that is left at a default of
+    zero is folded out of the equations. To keep it adjustable, set it explicitly (0.0 will do).
     """
 
     def __init__(
@@ -227,9 +115,9 @@ class Variable(Declaration):
 
 
 class InitialParameter(Variable):
-    """A parameter whose value the conditions at the initial time determine (Modelica's ``fixed=false``).
+    """A parameter that the initial conditions determine (Modelica's ``fixed=false``).
 
-    It is a variable that does not change; ``start`` is the guess. A library's parameter becomes one by
+    It is a variable with a derivative of zero; ``start`` is the guess. A library's parameter becomes one by
     ``ac.Start(guess, fixed=False)`` as its value.
     """
 
@@ -272,11 +160,11 @@ class Option(Declaration):
 class Module(Declaration):
     """A callable parameter: a neural network, a table, any equinox module from scalars to a scalar.
 
-    The value is the module itself or a function ``key -> module`` that makes it, so that every call of
-    ``system.parameters(key)`` starts from fresh weights. The default may also be the name of the component's
-    method that is such a function. In equations it is called: ``self.net(self.v)``.
+    The value is the module itself, or a function ``key -> module``, so that every call of
+    ``system.parameters(key)`` has new weights. The default may also be the name of a method of the component
+    that is such a function. In equations it is called: ``self.net(self.v)``.
 
-    ``unit`` is that of its result, ``takes`` those of its arguments; left open they fit everything.
+    ``unit`` is the unit of its result, ``takes`` has those of its arguments; an empty one fits everything.
     """
 
     def __init__(
@@ -291,41 +179,8 @@ class Module(Declaration):
         self.default, self.takes = default, takes
 
 
-@dataclass(frozen=True)
-class ModuleReference:
-    """A `Module` read on an instance: callable with expressions."""
-
-    symbol: Reference
-
-    def __call__(self, *args: Any) -> Any:
-        """The module applied to expressions."""
-        expressions = [_expression(a, f"an argument of {self.symbol.path}") for a in args]
-        return ModuleCall(self.symbol, sp.Tuple(*[0] * len(args)), *expressions)
-
-
-def references(expression: sp.Expr) -> Iterator[Reference]:
-    """The references in an expression, each once, in order of appearance."""
-    seen: dict[Reference, None] = {}
-    for node in sp.preorder_traversal(expression):
-        if isinstance(node, Reference):
-            seen.setdefault(node)
-    return iter(seen)
-
-
 def element_names(name: str, shape: tuple[int, ...] | None) -> list[str]:
     """Names of a variable's elements as in Modelica, ``y[1]``, ``A[1,2]``; of a scalar its own name."""
     if shape is None:
         return [name]
     return [f"{name}[{','.join(str(i + 1) for i in index)}]" for index in np.ndindex(*shape)]
-
-
-def elements(
-    owner: Component, name: str, declaration: Declaration, shape: tuple[int, ...] | None
-) -> Any:
-    """A reference, or nested tuples of references."""
-    references = iter([Reference(owner, path, declaration) for path in element_names(name, shape)])
-
-    def nested(sizes: tuple[int, ...]) -> Any:
-        return tuple(nested(sizes[1:]) for _ in range(sizes[0])) if sizes else next(references)
-
-    return nested(shape or ())

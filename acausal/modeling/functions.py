@@ -1,54 +1,14 @@
-"""Functions for equations, under the names that a user of mathematics expects."""
+"""Functions for equations that sympy lacks, or whose derivatives it writes otherwise."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import sympy as sp
-from sympy import (
-    acos,
-    asin,
-    atan,
-    atan2,
-    cos,
-    cosh,
-    exp,
-    log,
-    pi,
-    sin,
-    sinh,
-    sqrt,
-    tan,
-    tanh,
-)
 
-from acausal.modeling.declarations import ModuleCall, time
+from acausal.modeling.symbols import ModuleCall, time
 
 maximum, minimum = sp.Max, sp.Min
-
-__all__ = [
-    "Abs",
-    "acos",
-    "asin",
-    "atan",
-    "atan2",
-    "cos",
-    "cosh",
-    "exp",
-    "floor",
-    "log",
-    "maximum",
-    "minimum",
-    "pi",
-    "prescribed",
-    "sign",
-    "sin",
-    "sinh",
-    "sqrt",
-    "tan",
-    "tanh",
-    "where",
-]
 
 
 def where(condition: Any, value: Any, otherwise: Any) -> sp.Expr:

@@ -1,26 +1,106 @@
-"""What may be given as a modifier: values of parameters and starts of variables, checked."""
+"""Modifiers: values, options, modules and starts are checked, and recorded in the component's node."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import fields
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, nearest
+from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import (
+    Declaration,
     DependentParameter,
     InitialParameter,
+    Module,
+    Option,
     Parameter,
-    Reference,
     Start,
+    Variable,
 )
+from acausal.modeling.node import Node
+from acausal.modeling.symbols import Eq, ModuleReference, Reference
+
+
+def record_modifier(
+    node: Node[Any], name: str, declared: Declaration | Connector, value: Any
+) -> None:
+    """Check a modifier, and record it in the node.
+
+    Raises:
+        DeclarationError: for a value of the wrong kind or range, or outside an option's choices.
+    """
+    where = f"{node.label}.{name}"
+    match declared:
+        case Connector():
+            if not isinstance(value, Mapping):
+                raise DeclarationError(f"{where} is a connector; modify its variables by a mapping")
+            for key, start in cast(Mapping[str, Any], value).items():
+                if key not in declared.declarations:
+                    raise DeclarationError(
+                        f"{where} has no '{key}': {nearest(key, declared.declarations)}"
+                    )
+                _merge_start(node, f"{name}.{key}", start_of(f"{where}.{key}", start))
+        case Option():
+            if declared.choices is not None and value not in declared.choices:
+                choices = ", ".join(map(repr, declared.choices))
+                raise DeclarationError(f"{where}={value!r} is none of {choices}")
+            if isinstance(declared.default, bool) and not isinstance(value, bool):
+                raise DeclarationError(f"{where}={value!r}: True or False is needed")
+            node.options[name] = value
+        case Variable():
+            _merge_start(node, name, start_of(where, value))
+        case Module():
+            if not callable(value) and not isinstance(value, ModuleReference):
+                raise DeclarationError(
+                    f"{where} needs a module or a function key -> module, got {value!r}"
+                )
+            node.modifiers[name] = value
+        case Parameter() if is_open(value):
+            _make_unknown(node, name, declared, value)
+        case Parameter():
+            node.modifiers[name] = value_of(where, declared, value)
+            if declared.shape is not None:  # its size may have changed
+                vars(node.component).pop(name, None)
+                if name in node.own_declarations:
+                    node.read(declared)
+        case _:
+            raise DeclarationError(f"{where} cannot be modified")
+
+
+def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start | sp.Expr) -> None:
+    """Turn a parameter into an unknown: one that initialization determines, or one that follows from such."""
+    kept = {"unit": declared.unit, "doc": declared.doc}
+    attributes = vars(node.component)
+    attributes.pop(name, None)
+    if isinstance(value, Start):
+        guess = declared.default if value.value is None else value.value
+        attributes[name] = node.declare(name, InitialParameter(0.0, **kept))
+        _merge_start(node, name, start_of(f"{node.label}.{name}", Start(guess, fixed=False)))
+    else:
+        attributes[name] = node.declare(name, DependentParameter(**kept))
+        owner = next(r.owner for r in value.free_symbols if isinstance(r, Reference))
+        owner.bindings.append(Eq(attributes[name], value))
+        node.modifiers[name] = value
+
+
+def _merge_start(node: Node[Any], name: str, start: Start) -> None:
+    """Record a variable's attributes; what an earlier modifier gave and this one leaves open stays."""
+    earlier = node.modifiers.get(name, Start())
+    node.modifiers[name] = Start(
+        **{
+            f.name: v if (v := getattr(start, f.name)) is not None else getattr(earlier, f.name)
+            for f in fields(Start)
+        }
+    )
 
 
 def start_of(where: str, value: Any) -> Start:
-    """A start as given: a `Start`, or a mapping of its attributes."""
+    """The start that a modifier gives: a `Start`, or a mapping of its attributes."""
     if isinstance(value, Start):
         for element in np.ravel(np.asarray(value.value, dtype=object)):
             _check_start(where, element)
@@ -58,7 +138,7 @@ def _is_finite(value: Any) -> bool:
 
 
 def is_open(value: Any) -> bool:
-    """Whether a parameter is given as found at the initial time, or by an expression of such ones."""
+    """Whether initialization determines a parameter: by `Start(..., fixed=False)`, or by an expression of such ones."""
     if isinstance(value, Start):
         return value.fixed is False
     return isinstance(value, sp.Expr) and any(
@@ -69,14 +149,14 @@ def is_open(value: Any) -> bool:
 
 
 def value_of(where: str, declaration: Parameter, value: Any) -> Any:
-    """A parameter's value as given: a finite number in range, an expression of parameters, or an array of these."""
+    """The value that a modifier gives: a finite number in range, an expression of parameters, or an array of these."""
     if declaration.shape is not None:
         return values_of(where, declaration, value)
     return _number(where, declaration, value)
 
 
 def values_of(where: str, declaration: Parameter, value: Any) -> np.ndarray:
-    """A vector or matrix of values; its size is checked when the sizes are settled."""
+    """A vector or matrix of values; its size is checked when the model is flattened."""
     values = np.asarray(value, dtype=object)
     checked = [_number(f"{where}[{i}]", declaration, v) for i, v in enumerate(values.flat, start=1)]
     result = np.empty(values.size, dtype=object)

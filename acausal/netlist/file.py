@@ -1,4 +1,4 @@
-"""JSON netlists as files: read within limits, written whole. What the text means is `netlist_reader`'s business."""
+"""JSON netlists as files: read within limits, and written. The reader gives the text its meaning."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MODEL_KEYS = (
     "initial_equations",
 )
 EXPERIMENT_KEYS = ("start_time", "stop_time", "compare", "unparsed", "description")
-"""Keys of a document that are kept but mean nothing to the model."""
+"""Keys of a document that are kept, but are not part of the model."""
 
 
 class NetlistError(ModelError):
@@ -33,7 +33,7 @@ def read(path: Path) -> dict[str, Any]:
     """The document of a file.
 
     Raises:
-        NetlistError: if it cannot be read, is no JSON, is too large or too deep, or holds a name twice in one object
+        NetlistError: if it cannot be read, is not JSON, is too large or too deep, or holds a name twice in one object
             or a number that is not finite.
     """
     where = path.name
@@ -55,7 +55,7 @@ def read(path: Path) -> dict[str, Any]:
         raise NetlistError(f"{where}: nested more than {MAX_NESTING} deep") from None
     except json.JSONDecodeError as error:
         place = f"{where}, line {error.lineno}, column {error.colno}"
-        raise NetlistError(f"{place}: no JSON ({error.msg})") from None
+        raise NetlistError(f"{place}: not JSON ({error.msg})") from None
     except ValueError as error:
         raise NetlistError(f"{where}: {error}") from None
     if _deeper(document, MAX_NESTING):
@@ -127,7 +127,7 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         seen: set[str] = set()
         for name, _ in pairs:
             if name in seen:
-                raise ValueError(f"'{shortened(name)}' stands twice in one object")
+                raise ValueError(f"'{shortened(name)}' occurs twice in one object")
             seen.add(name)
     return found
 

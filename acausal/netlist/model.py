@@ -1,4 +1,4 @@
-"""What a netlist becomes: a component that remembers its file, and what names and modifiers mean in it."""
+"""The component that a netlist is read into, which remembers its file; and how names are looked up in it."""
 
 from __future__ import annotations
 
@@ -17,27 +17,26 @@ START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSe
 """Attributes of a variable in a file -> field of `Start`."""
 
 INDEX = r"\[(\d{1,6}(?:,\s*\d{1,6})*)\]"
-STEP = re.compile(rf"([A-Za-z]\w*)|{INDEX}", re.ASCII)
+NAME_OR_INDEX = re.compile(rf"([A-Za-z]\w*)|{INDEX}", re.ASCII)
 PATH = re.compile(rf"[A-Za-z]\w*({INDEX})?(\.[A-Za-z]\w*({INDEX})?)*", re.ASCII)
 
 
 @dataclass
 class FileRecord:
-    """What a file says about a model beyond its parts and connections.
+    """What a file contains beyond a model's parts and connections, so that it can be written again.
 
     Attributes:
-        title: name of the model.
         experiment: keys of the file that are not part of the model.
         initial: initial equations, as text and as equation.
-        bindings: variables that are given a value.
-        texts: (part, modifier) -> what stands there and the state it led to; part "" are the model's parameters.
+        bindings: equations for variables that the file gives a value.
+        texts: (part, modifier) -> the modifier in the file, and the state of the part that it led to; part "" holds
+            the model's parameters.
         wires: pairs that are connected, and how many connections each pair made.
-        made: by part, the arguments that it was made with.
-        named: the names that classes of parts and connectors have in the file.
-        placed: connectors that stand among the components.
+        arguments: by part, the arguments that it was made with.
+        class_names: by part or connector, the name of its class in the file.
+        placed: connectors that the file lists among the components.
     """
 
-    title: str = ""
     experiment: dict[str, Any] = field(default_factory=dict[str, Any])
     initial: list[tuple[str, Eq]] = field(default_factory=list[tuple[str, Eq]])
     bindings: list[Eq] = field(default_factory=list[Eq])
@@ -45,8 +44,8 @@ class FileRecord:
         default_factory=dict[tuple[str, str], tuple[Any, Any]]
     )
     wires: list[tuple[list[str], int]] = field(default_factory=list[tuple[list[str], int]])
-    made: dict[str, dict[str, Any]] = field(default_factory=dict[str, dict[str, Any]])
-    named: dict[str, str] = field(default_factory=dict[str, str])
+    arguments: dict[str, dict[str, Any]] = field(default_factory=dict[str, dict[str, Any]])
+    class_names: dict[str, str] = field(default_factory=dict[str, str])
     placed: list[str] = field(default_factory=list[str])
 
 
@@ -65,37 +64,34 @@ class Netlist(Component):
         return self._file.experiment
 
     def equations(self) -> Iterator[Eq]:
-        """Variables that the file gives a value."""
+        """Equations for variables that the file gives a value."""
         yield from self._file.bindings
 
     def initial_equations(self) -> Iterator[Eq]:
         """The initial equations of the file."""
         yield from (equation for _, equation in self._file.initial)
 
-    def _label(self) -> str:
-        return super()._label() if self._path() else self._file.title or "Netlist"
-
     def remember(self, part: str, key: str, raw: Any) -> None:
-        """Note what the file says about a modifier of a part ("" for the model itself)."""
+        """Keep a modifier of a part ("" for the model itself) as the file has it, and the state that it led to."""
         owner = attribute(self, part) if part else self
         self._file.texts[part, key] = raw, state(owner, key)
 
-    def tell_apart(self) -> None:
-        """Make the equations of the file part of what tells this model from others with the same parts."""
+    def distinguish(self) -> None:
+        """Make the equations of the file a constant, so that models with the same parts get forms of their own."""
         initial = tuple(text for text, _ in self._file.initial)
-        self._constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
+        self._node.constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
 
-    def settle(self) -> None:
-        """Take the present state as what the file led to, after an enclosing file has modified this model."""
+    def remember_state(self) -> None:
+        """Take the present state for the one that the file led to, after an enclosing file has modified this model."""
         for (part, key), (raw, _) in list(self._file.texts.items()):
             self.remember(part, key, raw)
-        for child in self._children.values():
+        for child in self._node.children.values():
             if isinstance(child, Netlist):
-                child.settle()
+                child.remember_state()
 
 
 def attribute(model: Component, path: str) -> Any:
-    """What a dotted name with indices (counted from 1) means in a model, or None.
+    """The object of a dotted name with indices (counted from 1) in a model, or None.
 
     Raises:
         DeclarationError: for a connector or variable that exists only with an option.
@@ -103,53 +99,52 @@ def attribute(model: Component, path: str) -> Any:
     if not PATH.fullmatch(path):
         return None
     value: Any = model
-    for step in STEP.finditer(path):
-        if step[2] is not None:
-            for index in step[2].split(","):
+    for found in NAME_OR_INDEX.finditer(path):
+        if found[2] is not None:
+            for index in found[2].split(","):
                 if not isinstance(value, Sequence) or not 1 <= int(index) <= len(
                     cast(Sequence[Any], value)
                 ):
                     return None
                 value = value[int(index) - 1]
         else:
-            value = _step(value, step[1])
+            value = _member(value, found[1])
     return value
 
 
-def _step(value: Any, name: str) -> Any:
+def _member(value: Any, name: str) -> Any:
     """A member by its name; of a list of parts the list of their members, as in ``sine.y``."""
     match value:
         case Component():
-            return _member(value, name)
+            return _attribute(value, name)
         case Connector():
             return getattr(value, name) if name in value.declarations else None
         case list():
-            members = [_step(v, name) for v in cast(list[Any], value)]
+            members = [_member(v, name) for v in cast(list[Any], value)]
             return members if members and all(m is not None for m in members) else None
         case _:
             return None
 
 
 def state(part: Any, key: str) -> tuple[Any, ...]:
-    """What modifiers of that name have made of a part: unchanged as long as it holds the same objects."""
+    """What a part holds because of modifiers of that name; the same objects as long as nobody changes it."""
     if not isinstance(part, Component):
         return ()
-    if key in part._children:
-        child = part._children[key]
-        return tuple(
-            v
-            for name in (*child._declared, *child._dynamic, *child._children)
-            for v in state(child, name)
-        )
-    own = [part._modifiers.get(key), part._options.get(key), part._constants.get(key)]
-    inner = [v for name, v in part._modifiers.items() if name.startswith(f"{key}.")]
+    node = part._node
+    if key in node.children:
+        child = node.children[key]
+        below = child._node
+        names = (*below.class_declarations, *below.own_declarations, *below.children)
+        return tuple(v for name in names for v in state(child, name))
+    own = [node.modifiers.get(key), node.options.get(key), node.constants.get(key)]
+    inner = [v for name, v in node.modifiers.items() if name.startswith(f"{key}.")]
     return (*own, *inner)
 
 
-def _member(component: Component, name: str) -> Any:
+def _attribute(component: Component, name: str) -> Any:
     """A part, connector, declaration or plain value of a component, nothing that could be called."""
     if (
-        name not in component._children
+        name not in component._node.children
         and name not in component._declared
         and name not in component.__dict__
     ):
@@ -169,10 +164,7 @@ def is_left_out(model: Component, path: str) -> bool:
         return False
     name = name.partition("[")[0]
     declared = owner._declared.get(name)
-    if declared is None:
-        return False
-    when = declared._when if isinstance(declared, Connector) else declared.when
-    return when is not None and not owner._exists(when)
+    return declared is not None and not owner._node.has(declared)
 
 
 def hint(model: Component, text: str) -> str:
@@ -180,8 +172,8 @@ def hint(model: Component, text: str) -> str:
     head, _, tail = text.rpartition(".")
     owner = attribute(model, head) if head else model
     if isinstance(owner, Component):
-        return nearest(tail, [*(n for n, _ in owner._declarations()), *owner._children])
-    return nearest(text.partition(".")[0], model._children)
+        return nearest(tail, [*(n for n, _ in owner._node.declarations()), *owner._node.children])
+    return nearest(text.partition(".")[0], model._node.children)
 
 
 def arguments_of(cls: Any) -> dict[str, Any]:

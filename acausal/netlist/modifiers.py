@@ -37,15 +37,15 @@ def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Non
     Raises:
         NetlistError: in one sentence, with the place.
     """
-    if key in part._children:
+    if key in part._node.children:
         if not isinstance(raw, Mapping):
             raise NetlistError(
                 f"{where} is a component; its modifiers are an object, not {kind(raw)}"
             )
         for name, inner in raw.items():
-            modify(scope, part._children[key], name, inner, f"{where}.{shortened(name)}")
+            modify(scope, part._node.children[key], name, inner, f"{where}.{shortened(name)}")
         return
-    declared = part._declaration(key)
+    declared = part._node.declaration(key)
     match declared:
         case Connector():
             value = _connector(scope, raw, where)
@@ -61,9 +61,9 @@ def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Non
             scope.start(raw, where)  # checked, but there is nothing to start
             return
         case _:
-            known = [*(n for n, _ in part._declarations()), *part._children]
+            known = [*(n for n, _ in part._node.declarations()), *part._node.children]
             hint = nearest(key, known)
-            raise NetlistError(f"{where}: {part._label()} has no '{shortened(key)}'; {hint}")
+            raise NetlistError(f"{where}: {part._node.label} has no '{shortened(key)}'; {hint}")
     if value is not None:
         within(where, lambda: part.modify(**{key: value}))
 
@@ -101,7 +101,7 @@ def _variable(scope: Scope, part: Component, key: str, raw: Any, where: str) -> 
 
 
 def _bind(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:
-    if isinstance(part._declaration(key), Input):
+    if isinstance(part._node.declaration(key), Input):
         raise NetlistError(f"{where} is an input; connect a source to it")
     value, variable = scope.value(raw, where), getattr(part, key)
     pairs = [(variable, value)]

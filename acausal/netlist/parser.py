@@ -108,7 +108,7 @@ class _Reader:
         return found
 
     def wrong(self, reason: str) -> ExpressionError:
-        """The error that says so."""
+        """The error, with the text and the reason."""
         return ExpressionError(f"'{shortened(self.text)}': {reason}")
 
     # -- logic ---------------------------------------------------------------------------------------
@@ -169,7 +169,7 @@ class _Reader:
         right = self._sum()
         if isinstance(left, str | bool) and isinstance(right, type(left)):
             if relation not in (sp.Eq, sp.Ne):
-                raise self.wrong("texts and truth values are equal or not, neither is less")
+                raise self.wrong("texts and truth values can only be compared by == and <>")
             return (left == right) is (relation is sp.Eq)
         return self._plain(relation(self._number(left), self._number(right)))
 
@@ -184,7 +184,7 @@ class _Reader:
 
     @staticmethod
     def _plain(value: Any) -> Any:
-        """True and false of sympy as Python's."""
+        """Sympy's true and false as Python's."""
         return bool(value) if value in (sp.true, sp.false) else value
 
     # -- arithmetic ----------------------------------------------------------------------------------
@@ -276,7 +276,7 @@ class _Reader:
 
     def _number(self, value: Any) -> Any:
         if not isinstance(value, int | float | sp.Expr) or isinstance(value, bool):
-            raise self.wrong(f"{shortened(repr(value))} is no number to reckon with")
+            raise self.wrong(f"{shortened(repr(value))} is not a number to calculate with")
         return value
 
     def _finite(self, value: Any) -> Any:
@@ -329,7 +329,7 @@ class _Reader:
         return "", self.expression()
 
     def _record(self, name: str, given: list[tuple[str, Any]]) -> Any:
-        """A record, perhaps with some of its fields changed; or what a library's function gives."""
+        """A record, perhaps with some of its fields changed; or the result of a library's function."""
         try:
             record = self.lookup(name + "()")
         except KeyError:
@@ -394,7 +394,7 @@ class _Reader:
             raise self.wrong(f"'{shortened(self._peek())}' is not expected there")
 
     def _peek(self) -> str:
-        """The next operator or keyword; of other tokens the text, which is none of these."""
+        """The text of the next token; empty at the end."""
         return self.tokens[self.position][1] if self.position < len(self.tokens) else ""
 
     def _next(self) -> str:

@@ -1,7 +1,7 @@
 """Read: a netlist document becomes a component tree.
 
-Parameters and parts are made in the order in which they need each other, then modifiers, connections and initial
-equations follow as they stand.
+Parameters and parts are made in the order in which they depend on each other; modifiers, connections and initial
+equations follow in the order of the file.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
     """
     _check_keys(document, where)
     model = Netlist()
-    model._file.title = document.get("model", "")
+    model._node.title = document.get("model", "")
     model._file.experiment = {k: document[k] for k in EXPERIMENT_KEYS if k in document}
     scope = Scope(model, libraries)
     for name, entry in as_object(document, "connectors", where).items():
@@ -56,7 +56,7 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
         _connect(model, pair, f"{where}: connections[{number}]")
     for number, text in enumerate(as_list(document, "initial_equations", where)):
         _initial(scope, text, f"{where}: initial_equations[{number}]")
-    model.tell_apart()
+    model.distinguish()
     return model
 
 
@@ -64,7 +64,7 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
 
 
 def _declare(scope: Scope, document: Mapping[str, Any], where: str) -> None:
-    """Make the parameters and the parts, each after those that it needs."""
+    """Make the parameters and the parts, each after those that it depends on."""
     model = scope.model
     parameters = as_object(document, "parameters", where)
     parts = _grouped(as_object(document, "components", where), where)
@@ -79,12 +79,13 @@ def _declare(scope: Scope, document: Mapping[str, Any], where: str) -> None:
         alone = parts[name][0][0] == name
         place = f"{where}: components.{shortened(name)}"
         _assign(model, name, made[0] if alone else made, place)
-    # ... but keep them as the file has them
+    # Keep them in the order of the file.
     model._file.texts = {("", name): model._file.texts["", name] for name in parameters}
     keys = [key for entries in parts.values() for key, _ in entries]
-    model._children = {key: model._children[key] for key in keys if key in model._children}
-    names = dict.fromkeys((*parameters, *model._dynamic))
-    model._dynamic = {name: model._dynamic[name] for name in names if name in model._dynamic}
+    node = model._node
+    node.children = {key: node.children[key] for key in keys if key in node.children}
+    own = node.own_declarations
+    node.own_declarations = {n: own[n] for n in dict.fromkeys((*parameters, *own)) if n in own}
 
 
 def _order(
@@ -180,7 +181,7 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
                 f"{where}: unknown key '{shortened(name)}'; {nearest(name, ('class', 'with'))}"
             )
     cls = scope.find(entry.get("class"), f"{where}.class")
-    scope.model._file.named[key] = entry["class"]
+    scope.model._file.class_names[key] = entry["class"]
     if not issubclass(cls, Component):
         scope.model._file.placed.append(key)
         return cls()
@@ -189,7 +190,7 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
         for name, raw in given.items()
         if is_structural(cls, name)
     }
-    scope.model._file.made[key] = arguments
+    scope.model._file.arguments[key] = arguments
     return within(where, lambda: _make(cls, arguments))
 
 
@@ -204,12 +205,12 @@ def _argument(scope: Scope, declared: Any, raw: Any, where: str) -> Any:
 
 
 def _make(cls: Any, arguments: Mapping[str, Any]) -> Any:
-    """An instance; whatever a constructor does not like becomes a sentence."""
+    """An instance; an exception of its constructor becomes one sentence."""
     try:
         return cls(**arguments)
     except DeclarationError:
         raise
-    except Exception as error:  # a library's own code met values it was not written for
+    except Exception as error:  # a library's own code, with values that it was not written for
         reason = shortened(" ".join(str(error).split()), 120)
         raise DeclarationError(
             f"{cls.__name__} cannot be made with these modifiers ({reason})"
@@ -224,9 +225,9 @@ def _connector(scope: Scope, name: str, entry: Any, where: str) -> None:
                 f"{where}: unknown key '{shortened(key)}'; {nearest(key, ('class', 'unit'))}"
             )
     cls = scope.find(attributes.get("class"), f"{where}.class")
-    scope.model._file.named[name] = attributes["class"]
+    scope.model._file.class_names[name] = attributes["class"]
     if issubclass(cls, Component):
-        raise NetlistError(f"{where}: {cls.__name__} is a component, no connector")
+        raise NetlistError(f"{where}: {cls.__name__} is a component, not a connector")
     if "unit" not in attributes:
         _assign(scope.model, name, cls(), where)
     elif issubclass(cls, Connector) or not isinstance(attributes["unit"], str):
@@ -248,21 +249,22 @@ def _modify(scope: Scope, name: str, entry: Mapping[str, Any], where: str) -> No
             modify(scope, part, key, raw, place)
         scope.model.remember(name, key, raw)
     if isinstance(part, Netlist):
-        part.settle()
+        part.remember_state()
 
 
 def _connect(model: Netlist, pair: Any, where: str) -> None:
     ends = cast(list[Any], pair)
     if not (isinstance(pair, list) and len(ends) == 2 and all(isinstance(p, str) for p in ends)):
         raise NetlistError(f"{where}: a connection is a pair of names")
-    count = len(model._connections)
-    if not any(is_left_out(model, text) for text in ends):  # else it falls away, as in Modelica
+    count = len(model._node.connections)
+    # A connection to a connector that an option leaves out is dropped, as in Modelica.
+    if not any(is_left_out(model, text) for text in ends):
         found = [attribute(model, text) for text in ends]
         for text, end in zip(ends, found, strict=True):
             if end is None:
                 raise NetlistError(f"{where}: there is no '{shortened(text)}'; {hint(model, text)}")
         within(where, lambda: model.connect(*found))
-    model._file.wires.append((list(ends), len(model._connections) - count))
+    model._file.wires.append((list(ends), len(model._node.connections) - count))
 
 
 def _initial(scope: Scope, text: Any, where: str) -> None:
@@ -332,6 +334,4 @@ def _assign(model: Netlist, name: str, value: Any, where: str) -> None:
 
 
 def _no_name(name: str) -> str:
-    return (
-        f"'{shortened(name)}' is no name; letters, digits and underscores, beginning with a letter"
-    )
+    return f"'{shortened(name)}' is not a name; letters, digits and underscores, beginning with a letter"

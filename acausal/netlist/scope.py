@@ -1,4 +1,4 @@
-"""What names and values in a netlist mean: expressions, classes, options and starts, seen from one model."""
+"""The values of a netlist, read within one model: expressions, classes, options and starts."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ class Scope:
         self.model, self.libraries = model, libraries
 
     def lookup(self, name: str) -> Any:
-        """What a name in an expression means.
+        """The value of a name in an expression.
 
         Raises:
-            KeyError: if it means nothing.
+            KeyError: if there is none.
         """
         value = attribute(self.model, name)
         if value is not None:
@@ -70,13 +70,13 @@ class Scope:
             case Mapping() if "=" in raw:
                 return self.value(raw["="], where)
             case _:
-                raise NetlistError(f"{where}: {kind(raw)} is no value")
+                raise NetlistError(f"{where}: {kind(raw)} is not a value")
 
     def option(self, option: Option, raw: Any, where: str) -> Any:
-        """A structural choice; one of its choices may stand there as it is."""
+        """The value of an option; one of its choices may be given without quotes."""
         if isinstance(raw, str) and raw in (option.choices or ()):
             return raw
-        return _settled(option, self.value(raw, where), where)
+        return _option_value(option, self.value(raw, where), where)
 
     def argument(self, raw: Any, where: str) -> Any:
         """An argument of a class: a class by its name, a value, or a list of them."""
@@ -110,26 +110,26 @@ class Scope:
         return within(where, lambda: Start(**values))
 
 
-def _settled(option: Option, value: Any, where: str) -> Any:
-    """The value of a structural choice: expressions of parameters are reckoned here and now."""
+def _option_value(option: Option, value: Any, where: str) -> Any:
+    """The value of an option: expressions of parameters are evaluated when the file is read."""
     if isinstance(value, list):
-        return [_settled(option, v, where) for v in cast(list[Any], value)]
+        return [_option_value(option, v, where) for v in cast(list[Any], value)]
     if isinstance(value, sp.Expr):
-        value = _reckoned(value, where, ())
+        value = _evaluated(value, where, ())
     whole = isinstance(option.default, int) and not isinstance(option.default, bool)
     return int(value) if whole and isinstance(value, float) and value.is_integer() else value
 
 
-def _reckoned(expression: sp.Expr, where: str, via: tuple[sp.Basic, ...]) -> float:
+def _evaluated(expression: sp.Expr, where: str, via: tuple[sp.Basic, ...]) -> float:
     values: dict[Any, Any] = {}
     for symbol in sorted(expression.free_symbols, key=str):
         if not isinstance(symbol, Reference) or not isinstance(symbol.declaration, Parameter):
             raise NetlistError(
                 f"{where}: '{symbol}' changes with time; a structural choice is fixed"
             )
-        given = symbol.owner._modifiers.get(symbol.path, symbol.declaration.default)
+        given = symbol.owner.modifiers.get(symbol.path, symbol.declaration.default)
         if isinstance(given, sp.Expr) and symbol not in via:
-            given = _reckoned(given, where, (*via, symbol))
+            given = _evaluated(given, where, (*via, symbol))
         if not isinstance(given, int | float):
             raise NetlistError(f"{where}: '{symbol}' has no number; a structural choice is fixed")
         values[symbol] = given

@@ -1,4 +1,4 @@
-"""What expressions in files know by name: constants, functions and conversions of units, as in Modelica."""
+"""Names that expressions in files can use: constants, functions and conversions of units, as in Modelica."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import sympy as sp
 from acausal.modeling import der, floor
 
 MAX_VALUES = 20
-"""Of which a minimum or maximum is taken."""
+"""The most values that a minimum or maximum may have."""
 
 CONSTANTS: dict[str, float] = {
     "pi": math.pi,
@@ -36,10 +36,10 @@ CONSTANTS: dict[str, float] = {
     "eps": 2.220446049250313e-16,
     "small": 1e-60,
 }
-"""Of `Modelica.Constants`; ``inf`` and ``small`` are what can be reckoned with."""
+"""Of `Modelica.Constants`; ``inf`` and ``small`` are large and small enough to stay finite in expressions."""
 
 BARE_CONSTANTS = ("pi", "e", "D2R", "R2D", "g_n", "mu_0", "T_zero", "inf", "eps", "small")
-"""Those that are known without ``Modelica.Constants.``, as after an import."""
+"""Constants that can be written without ``Modelica.Constants.``, as after an import."""
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "log10": lambda x: sp.log(x) / sp.log(10),
@@ -73,7 +73,7 @@ PREFIXES = re.compile(r"(Modelica\.)?(Math|(Units\.|SIunits\.)?Conversions|Cv)\.
 
 
 def _extreme(kind: Any, values: tuple[Any, ...]) -> Any:
-    """Of few values: sympy compares each with each."""
+    """A minimum or maximum of few values: sympy compares each pair."""
     if not 0 < sum(max(1, len(kind.make_args(v))) for v in values) <= MAX_VALUES:
         raise TypeError
     return kind(*values)

@@ -1,7 +1,7 @@
 """Write: a component tree becomes a netlist document.
 
-What came from a file and is unchanged is written as it stood there. Of a part whose class is in a library its name is
-written and how it differs from a fresh one; any other part is written as a subsystem.
+Whatever was read from a file and not changed is written as the file had it. A part whose class is in a library is
+written as the name of the class and the modifiers that differ from a new instance; any other part as a subsystem.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from acausal.modeling import (
     Option,
     Output,
     Parameter,
-    Reference,
     Start,
     Variable,
+    owner_and_name,
     references,
 )
 from acausal.netlist.file import EXPERIMENT_KEYS, NetlistError, within
@@ -44,12 +44,12 @@ class Writer:
         self.libraries = libraries
 
     def model(
-        self, model: Component, said: Mapping[str, Any] = MappingProxyType({})
+        self, model: Component, stated: Mapping[str, Any] = MappingProxyType({})
     ) -> dict[str, Any]:
         """The document of a composite.
 
         Arguments:
-            said: modifiers of its parts that the enclosing model's file states already.
+            stated: modifiers of its parts that are already in the file of the enclosing model.
 
         Raises:
             NetlistError: in one sentence, for what a file cannot hold.
@@ -61,8 +61,8 @@ class Writer:
         connectors = self._connectors(model)
         placed = {n: {"class": connectors.pop(n)} for n in (read._file.placed if read else ())}
         parts = {
-            name: self._part(model, name, part, _inner(said, name))
-            for name, part in model._children.items()
+            name: self._part(model, name, part, _inner(stated, name))
+            for name, part in model._node.children.items()
         }
         sections = {
             "parameters": self._parameters(model),
@@ -71,14 +71,14 @@ class Writer:
             "connections": _connections(model),
             "initial_equations": [text for text, _ in read._file.initial] if read else [],
         }
-        document: dict[str, Any] = {"model": read._file.title if read else type(model).__name__}
-        if read and not read._file.title:
-            del document["model"]
+        document: dict[str, Any] = {}
+        if not read or model._node.title:
+            document["model"] = model._node.title or type(model).__name__
         document |= {key: experiment[key] for key in LEADING if key in experiment}
         document |= {key: section for key, section in sections.items() if section}
         return document | {key: experiment[key] for key in EXPERIMENT_KEYS if key in experiment}
 
-    # -- what a model declares -----------------------------------------------------------------------
+    # -- declarations of a model ---------------------------------------------------------------------
 
     def _parameters(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
@@ -87,22 +87,24 @@ class Writer:
             if not part:
                 kept = _same(before, state(model, name))
                 found[name] = raw if kept else self._parameter(model, name)
-        for name, declared in model._declarations():
+        for name, declared in model._node.declarations():
             if isinstance(declared, Parameter | InitialParameter) and name not in found:
                 found[name] = self._parameter(model, name)
         return found
 
     def _parameter(self, model: Component, name: str) -> Any:
-        declared = model._declaration(name)
+        declared = model._node.declaration(name)
         if isinstance(declared, InitialParameter):
-            guess = model._modifiers.get(name, Start()).value
+            guess = model._node.modifiers.get(name, Start()).value
             unit = {"unit": declared.unit} if declared.unit else {}
             start = self._json(model, declared.start if guess is None else guess, name)
             return {"start": start, "fixed": False, **unit}
         if not isinstance(declared, Parameter):
-            return self._json(model, model._constants[name], name)
-        value = model._modifiers.get(name, declared.default)
-        if not _is_within(model, value):  # given from outside: the enclosing model says so
+            return self._json(model, model._node.constants[name], name)
+        value = model._node.modifiers.get(name, declared.default)
+        if not _is_within(
+            model, value
+        ):  # given from outside: it is written with the enclosing model
             value = declared.default
         if callable(value) and not isinstance(value, sp.Expr):
             value = value(model)
@@ -120,8 +122,8 @@ class Writer:
 
     def _connectors(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        for name, declared in model._declarations():
-            where = f"{model._label()}.{name}"
+        for name, declared in model._node.declarations():
+            where = f"{model._node.label}.{name}"
             if isinstance(declared, Connector):
                 found[name] = self._class(type(declared), where, _known(model, name))
             elif isinstance(declared, Input | Output) and declared.shape is None:
@@ -140,29 +142,29 @@ class Writer:
     # -- parts ---------------------------------------------------------------------------------------
 
     def _part(
-        self, model: Component, name: str, part: Component, said: Mapping[str, Any]
+        self, model: Component, name: str, part: Component, stated: Mapping[str, Any]
     ) -> dict[str, Any]:
         texts: Mapping[tuple[str, str], tuple[Any, Any]]
         texts = model._file.texts if isinstance(model, Netlist) else {}
         cls = None if isinstance(part, Netlist) else self._public(type(part))
         if cls is not None:
             known = _known(model, name)
-            entry: dict[str, Any] = {"class": self._class(cls, part._label(), known)}
-            changed = self._modifiers(model, part, cls, said)
-        elif part._children:
+            entry: dict[str, Any] = {"class": self._class(cls, part._node.label, known)}
+            changed = self._modifiers(model, part, cls, stated)
+        elif part._node.children:
             kept = {
                 key: raw
                 for (owner, key), (raw, before) in texts.items()
                 if owner == name and _same(before, state(part, key))
             }
-            entry = self.model(part, {**said, **kept})
+            entry = self.model(part, {**stated, **kept})
             changed = {
-                key: self._json(model, value, f"{part._label()}.{key}")
-                for key, value in part._modifiers.items()
+                key: self._json(model, value, f"{part._node.label}.{key}")
+                for key, value in part._node.modifiers.items()
                 if not _is_within(part, value)
             }
         else:
-            self._class(type(part), part._label())
+            self._class(type(part), part._node.label)
             raise AssertionError
         given: dict[str, Any] = {}
         for key in dict.fromkeys((*(k for owner, k in texts if owner == name), *changed)):
@@ -174,32 +176,32 @@ class Writer:
         return {**entry, "with": given} if given else entry
 
     def _modifiers(
-        self, model: Component, part: Component, cls: Any, said: Mapping[str, Any]
+        self, model: Component, part: Component, cls: Any, stated: Mapping[str, Any]
     ) -> dict[str, Any]:
-        """What a part of a library must be given to become what it is."""
-        made = model._file.made.get(part._name) if isinstance(model, Netlist) else None
+        """The modifiers that a new instance of the class needs to equal a part."""
+        made = model._file.arguments.get(part._node.name) if isinstance(model, Netlist) else None
         arguments = made or self._arguments(part, cls)
         try:
             fresh = cls(**arguments)
-        except Exception:  # whatever a constructor does not like
+        except Exception:  # an exception of the library's own code
             raise _unwritable(part) from None
         found = {
-            key: self._json(model, value, f"{part._label()}.{key}", cls._declared.get(key))
+            key: self._json(model, value, f"{part._node.label}.{key}", cls._declared.get(key))
             for key, value in arguments.items()
             if not isinstance(cls._declared.get(key), Option) or value != cls._declared[key].default
         }
-        return found | self._differences(model, part, fresh, (part, fresh), said)
+        return found | self._differences(model, part, fresh, (part, fresh), stated)
 
     def _arguments(self, part: Component, cls: Any) -> dict[str, Any]:
-        """Options, vectors, and arguments of the class that it keeps as attributes of the same name."""
-        found = dict(part._options)
-        for name, value in part._modifiers.items():
+        """Arguments to make a part with: its options, vectors, and constants named as arguments of the class."""
+        found = dict(part._node.options)
+        for name, value in part._node.modifiers.items():
             declared = cls._declared.get(name)
             if isinstance(declared, Parameter) and declared.shape is not None:
                 found[name] = value
         for name, default in arguments_of(cls).items():
-            if name in part._constants and part._constants[name] != default:
-                found[name] = part._constants[name]
+            if name in part._node.constants and part._node.constants[name] != default:
+                found[name] = part._node.constants[name]
         return found
 
     def _differences(
@@ -208,38 +210,39 @@ class Writer:
         part: Component,
         fresh: Component,
         roots: tuple[Component, Component],
-        said: Mapping[str, Any],
+        stated: Mapping[str, Any],
     ) -> dict[str, Any]:
-        """Modifiers that make a fresh part, and the parts within, equal to this one."""
-        alike = [(n, type(c)) for n, c in part._children.items()] == [
-            (n, type(c)) for n, c in fresh._children.items()
+        """Modifiers that make a new part, and the parts within, equal to this one."""
+        alike = [(n, type(c)) for n, c in part._node.children.items()] == [
+            (n, type(c)) for n, c in fresh._node.children.items()
         ]
         constants = [
-            _comparable(root, c._constants) for root, c in zip(roots, (part, fresh), strict=True)
+            _comparable(root, c._node.constants)
+            for root, c in zip(roots, (part, fresh), strict=True)
         ]
         if (
             not alike
-            or len(part._connections) != len(fresh._connections)
+            or len(part._node.connections) != len(fresh._node.connections)
             or constants[0] != constants[1]
         ):
             raise _unwritable(part)
         found: dict[str, Any] = {}
-        given = {**part._options, **part._modifiers}
-        before = {**fresh._options, **fresh._modifiers}
+        given = {**part._node.options, **part._node.modifiers}
+        before = {**fresh._node.options, **fresh._node.modifiers}
         for key, value in given.items():
-            if key in said or key.partition(".")[0] in said:
+            if key in stated or key.partition(".")[0] in stated:
                 continue
             if key in before and _comparable(roots[0], value) == _comparable(roots[1], before[key]):
                 continue
-            text = self._json(model, value, f"{part._label()}.{key}", part._declared.get(key))
+            text = self._json(model, value, f"{part._node.label}.{key}", part._declared.get(key))
             connector, _, variable = key.partition(".")
             if variable:
                 found.setdefault(connector, {})[variable] = text
             else:
                 found[key] = text
-        for name, child in part._children.items():
+        for name, child in part._node.children.items():
             inner = self._differences(
-                model, child, fresh._children[name], roots, _inner(said, name)
+                model, child, fresh._node.children[name], roots, _inner(stated, name)
             )
             if inner:
                 found[name] = inner
@@ -250,7 +253,7 @@ class Writer:
         return cls if any(library.name_of(cls) for library in self.libraries) else None
 
     def _class(self, cls: type, where: str, known: str | None = None) -> str:
-        """The name of a class: the one that the file has for it, if it still means that class."""
+        """The name of a class; the one in the file, if it is still a name of that class."""
         for library in self.libraries:
             if known is not None and library.find(known) is cls:
                 return known
@@ -303,34 +306,34 @@ class Writer:
         } | state
 
 
-def _inner(said: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    inner = said.get(name, {})
+def _inner(stated: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    inner = stated.get(name, {})
     return cast(Mapping[str, Any], inner) if isinstance(inner, Mapping) else {}
 
 
 def _known(model: Component, name: str) -> str | None:
-    return model._file.named.get(name) if isinstance(model, Netlist) else None
+    return model._file.class_names.get(name) if isinstance(model, Netlist) else None
 
 
 def _check_statements(model: Component) -> None:
     for stated in (model.equations, model.initial_equations):
         if next(iter(stated()), None) is not None:
             raise NetlistError(
-                f"{model._label()} states equations of its own, which a file cannot hold; "
+                f"{model._node.label} states equations of its own, which a file cannot hold; "
                 "put its class into a library, or the equations into a part of a library"
             )
 
 
 def _connections(model: Component) -> list[list[str]]:
-    """What the file connected, then what was connected since."""
+    """The connections of the file, then those that were made since."""
     found: list[list[str]] = []
     count = 0
     if isinstance(model, Netlist):
         found = [list(pair) for pair, _ in model._file.wires]
         count = sum(made for _, made in model._file.wires)
-    where = model._label()
+    where = model._node.label
     return found + [
-        [_path(model, end, where) for end in pair] for pair in model._connections[count:]
+        [_path(model, end, where) for end in pair] for pair in model._node.connections[count:]
     ]
 
 
@@ -340,16 +343,11 @@ def _path(model: Component, end: Any, where: str) -> str:
     Raises:
         NetlistError: if it lies outside of the model.
     """
-    owner, local = (end.owner, end.path) if isinstance(end, Reference) else (end._owner, end._name)
-    names = [local]
-    while owner is not model:
-        if owner is None:
-            raise NetlistError(
-                f"{where} refers to '{local}', which is not part of {model._label()}"
-            )
-        names.append(owner._name)
-        owner = owner._parent
-    return ".".join(reversed(names))
+    owner, local = owner_and_name(end)
+    route = None if owner is None else owner.route_from(model._node)
+    if route is None:
+        raise NetlistError(f"{where} refers to '{local}', which is not part of {model._node.label}")
+    return ".".join((*route, local))
 
 
 def _is_within(model: Component, value: Any) -> bool:
@@ -358,12 +356,11 @@ def _is_within(model: Component, value: Any) -> bool:
         return all(_is_within(model, v) for v in cast(Sequence[Any], value))
     if not isinstance(value, sp.Expr):
         return True
-    owners = [reference.owner for reference in references(value)]
-    return all(owner is model or model in owner._ancestors() for owner in owners)
+    return all(r.owner.route_from(model._node) is not None for r in references(value))
 
 
 def _comparable(root: Component, value: Any) -> Any:
-    """A value with names instead of references, so that those of like parts are equal."""
+    """A value with names instead of references, so that the values of equal parts are equal."""
     match value:
         case sp.Expr() if _is_within(root, value):
             names = {r: sp.Symbol(_path(root, r, "")) for r in references(value)}
@@ -382,6 +379,6 @@ def _same(before: Sequence[Any], now: Sequence[Any]) -> bool:
 
 def _unwritable(part: Component) -> ModelError:
     return NetlistError(
-        f"{part._label()} was made with arguments that a file cannot hold; give modifiers instead, or take its "
+        f"{part._node.label} was made with arguments that a file cannot hold; give modifiers instead, or take its "
         "class out of the library, so that it is written as a subsystem"
     )

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import networkx as nx
 
-from acausal.modeling import Component, Connector, Module, Reference
+from acausal.modeling import Component, Connector, Module, owner_and_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +52,7 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     for number, wire in enumerate(wires):
         color = SIGNAL if wire.kind is None else COLORS[kinds.index(wire.kind) % len(COLORS)]
         _draw_wire(ax, wire, positions, positions[f"#{number}"], color)
-    for name, part in model._children.items():
+    for name, part in model._node.children.items():
         _draw_box(ax, positions[name], name, type(part).__name__, learned=_learns(part))
     _frame(ax, list(positions.values()))
     return ax
@@ -62,7 +62,7 @@ def _wires(model: Component) -> list[_Wire]:
     """Connections made in the model itself, joined to nodes."""
     graph: nx.Graph[tuple[str, str]] = nx.Graph()
     kind: dict[tuple[str, str], type[Connector] | None] = {}
-    for a, b in model._connections:
+    for a, b in model._node.connections:
         ends = [_end(model, a), _end(model, b)]
         graph.add_edge(*ends)
         for end, given in zip(ends, (a, b), strict=True):
@@ -74,24 +74,21 @@ def _wires(model: Component) -> list[_Wire]:
 
 def _end(model: Component, end: Any) -> tuple[str, str]:
     """The part of the model that an endpoint belongs to ("" for the model itself), and the endpoint's name."""
-    owner: Component = end.owner if isinstance(end, Reference) else end._owner
-    path = [end.path if isinstance(end, Reference) else end._name]
-    while owner is not model and owner._parent is not None and owner._parent is not model:
-        path.append(owner._name)
-        owner = owner._parent
-    part = "" if owner is model else owner._name
-    return part, ".".join(reversed(path))
+    owner, name = owner_and_name(end)
+    route = None if owner is None else owner.route_from(model._node)
+    part, *rest = route or ("",)
+    return part, ".".join((*rest, name))
 
 
 def _layers(model: Component, wires: list[_Wire]) -> dict[str, tuple[float, float]]:
     """Positions: x by the number of wires from the first part, y spread within a layer."""
     graph: nx.Graph[str] = nx.Graph()
-    graph.add_nodes_from(model._children)
+    graph.add_nodes_from(model._node.children)
     for number, wire in enumerate(wires):
         graph.add_edges_from((f"#{number}", part) for part, _ in wire.ends if part)
     positions: dict[str, tuple[float, float]] = {}
     offset = 0.0
-    for start in model._children:
+    for start in model._node.children:
         if start in positions:
             continue
         layers = [list(layer) for layer in nx.bfs_layers(graph, start)]
@@ -114,8 +111,8 @@ def _height(graph: nx.Graph[str], node: str, placed: dict[str, tuple[float, floa
 
 
 def _learns(part: Component) -> bool:
-    return any(isinstance(d, Module) for _, d in part._declarations()) or any(
-        _learns(child) for child in part._children.values()
+    return any(isinstance(d, Module) for _, d in part._node.declarations()) or any(
+        _learns(child) for child in part._node.children.values()
     )
 
 

@@ -1,4 +1,4 @@
-"""Units: values converted by pint, and equations checked for dimensions.
+"""Units: values converted from one unit to another, and equations checked for dimensions.
 
 In: units as text, a `FlatModel`. Out: converted values, or a `UnitError` that names the equation.
 It knows flat models; neither JAX nor structure.

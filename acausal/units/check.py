@@ -1,7 +1,7 @@
-"""Check: the units of a flat model, before anything is derived from it.
+"""Check: the units of a flat model.
 
-Each template is looked at once, however many instances it has, with the units of what fills its slots. Values and
-starts that are given by expressions are looked at likewise, and signals that are joined.
+Each template is checked once, however many instances it has, with the units of the variables and parameters that fill
+its slots. Values and starts given by expressions are checked, too, and connected signals.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ MAX_LISTED = 12
 
 
 def check_dimensions(flat: FlatModel) -> None:
-    """Refuse a model that adds, compares or equates what has unlike dimensions.
+    """Refuse a model that adds, compares or equates quantities of unlike dimensions.
 
-    What has no unit agrees with everything.
+    A variable or parameter without a unit agrees with everything.
 
     Raises:
-        UnitError: for text that is no unit; for equations, values and connections of unlike dimensions. It names
-            the components, the equations as they are written, and what is unlike in them, at most a dozen.
+        UnitError: for text that is not a unit; for equations, values and connections of unlike dimensions. It names
+            the components, the equations as they are written, and the unlike terms in them, at most a dozen.
     """
     _refuse(list(_misspelt(flat.layout)))
     measures = _measure(flat.layout)
@@ -52,7 +52,7 @@ def _refuse(wrong: Sequence[str]) -> None:
         raise UnitError(f"{len(wrong)} units are wrong: {listed}{more}")
 
 
-# -- what everything measures --------------------------------------------------------------------------
+# -- dimensions of variables, parameters and modules --------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -61,8 +61,8 @@ class _Measures:
 
     Attributes:
         known: those that occur; the first is None, unknown.
-        variables, parameters: for each, the index of its dimension there.
-        modules: for each, what it takes and gives.
+        variables, parameters: for each, the index of its dimension in ``known``.
+        modules: for each, the dimensions of its arguments and its result.
     """
 
     known: tuple[Dimension | None, ...]
@@ -73,7 +73,7 @@ class _Measures:
 
 def _declarations(layout: Layout) -> Iterator[tuple[str, Declaration]]:
     for form in layout.forms:
-        where = form.prototype._label()
+        where = form.prototype._node.label
         for path, declaration in (*form.variables, *form.parameters, *form.modules):
             yield f"{where}.{path}", declaration
 
@@ -121,19 +121,18 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         finding = examine(group.template.residual, slots)
         if finding is not None:
             cls, _, equation = group.template.origin.partition(": ")
-            said = (
-                f"'{shortened(equation)}': {finding.reason}{_hint(group.template, slots, finding)}"
-            )
+            hint = _hint(group.template, slots, finding)
+            wrong = f"'{shortened(equation)}': {finding.reason}{hint}"
             names = [flat.layout.paths[i] for i in group.components]
-            found.setdefault((cls, said), []).extend(names)
-    for (cls, said), names in found.items():
+            found.setdefault((cls, wrong), []).extend(names)
+    for (cls, wrong), names in found.items():
         first = f"{cls} '{names[0]}'" if names[0] else cls
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
-        yield f"{first}{more}: {said}"
+        yield f"{first}{more}: {wrong}"
 
 
 def _slots(group: EquationGroup, measures: _Measures) -> Slots:
-    """The slots of a template with what they measure; all instances of a group have the same units."""
+    """The slots of a template with their dimensions; all instances of a group have the same units."""
     template = group.template
     slots: list[tuple[sp.Symbol, Dimension | Signature | None]] = []
     row = measures.variables[group.variables[0]]
@@ -148,7 +147,7 @@ def _slots(group: EquationGroup, measures: _Measures) -> Slots:
 
 
 def _hint(template: Statement, slots: Slots, finding: Finding) -> str:
-    """What may mend the equation: another unit of a parameter, or a derivative."""
+    """A likely mend of the equation: another unit of a parameter, or a derivative."""
     own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
     found: list[str] = []
     for (symbol, given), power in product(own, (1, -1)):
@@ -173,7 +172,7 @@ def _values(
     layout: Layout,
     measures: _Measures,
 ) -> Iterator[str]:
-    """Parameters or starts given by parameters; many instances may be given the same."""
+    """Parameters or starts given by expressions of parameters; equal ones are checked once."""
     right: set[tuple[Any, ...]] = set()
     for binding in bindings:
         arguments = measures.parameters[list(binding.arguments)].tolist()
@@ -192,7 +191,7 @@ def _values(
 
 
 def _joins(flat: FlatModel, measures: _Measures) -> Iterator[str]:
-    """Signals that meet in one node (connectors that do are of one kind, units and all)."""
+    """Signals that are connected (connected connectors are of one kind, with the same units)."""
     least = np.full(flat.n_variables, len(measures.known))
     greatest = np.zeros(flat.n_variables, dtype=np.int64)
     joined = [g.variables for g in flat.groups if g.components[0] < 0]

@@ -1,45 +1,24 @@
-"""Units: Modelica's spelling read by pint, and values converted from one unit to another."""
+"""Conversion: values from one unit to another."""
 
 from __future__ import annotations
 
 import re
-from functools import cache
 from typing import Any
 
 import numpy as np
 
-from acausal.errors import DataError
+from acausal.errors import DataError, UnitError
+from acausal.units.dimensions import dimension
+from acausal.units.pint_units import pint_unit, registry
+
+Numbers = np.ndarray[Any, np.dtype[np.float64]]
 
 
-@cache
-def registry() -> Any:
-    """The unit registry (pint is slow to import, so only where a unit is read)."""
-    import pint
-
-    known = pint.UnitRegistry(cache_folder=None)
-    known.define("@alias turn = rev")
-    known.define("@alias ohm = Ohm")
-    return known
+BETWEEN = re.compile(r"(?<=[\w)])\s+(?=[^\W\d_]|\()")
+"""A space between two symbols, as in ``"kg m"``: people write products so."""
 
 
-@cache
-def parse(text: str) -> Any:
-    """A pint unit from Modelica's spelling: ``"N.m/rad"``, ``"kg/m3"``, ``"m/s2"``, ``"1"``, ``""``.
-
-    Raises:
-        DataError: for text that is no unit.
-    """
-    import pint
-
-    spelled = re.sub(r"\.(?=[A-Za-z(])", "*", text.strip())
-    spelled = re.sub(r"(?<=[A-Za-z])(-?\d+)", r"**\1", spelled)
-    try:
-        return registry().parse_units(spelled if spelled not in ("", "1") else "dimensionless")
-    except (pint.PintError, ValueError, TypeError, AttributeError, SyntaxError) as e:
-        raise DataError(f"'{text}' is no unit: {e}") from None
-
-
-def convert(values: np.ndarray, given: str, wanted: str, what: str) -> np.ndarray:
+def convert(values: Numbers, given: str, wanted: str, what: str) -> Numbers:
     """Values in unit ``given`` as values in unit ``wanted``; ``what`` names them in an error.
 
     Raises:
@@ -47,10 +26,12 @@ def convert(values: np.ndarray, given: str, wanted: str, what: str) -> np.ndarra
     """
     if given == wanted:
         return values
+    source, target = (BETWEEN.sub(".", unit.strip()) or "1" for unit in (given, wanted))
     try:
-        source, target = parse(given), parse(wanted)
-    except DataError as e:
+        is_convertible = dimension(source) == dimension(target)
+    except UnitError as e:
         raise DataError(f"{what}: {e}") from None
-    if source.dimensionality != target.dimensionality:
+    if not is_convertible:
         raise DataError(f"{what} is given in '{given}', which cannot become '{wanted or '1'}'.")
-    return np.asarray(registry().Quantity(values, source).to(target).magnitude, float)
+    quantity = registry().Quantity(values, pint_unit(source))
+    return np.asarray(quantity.to(pint_unit(target)).magnitude, np.float64)

@@ -1,8 +1,8 @@
 """Homogeneity: the dimension of an expression, from those of its symbols.
 
-An unknown dimension (None) agrees with any other. A symbol without a unit has it, and so has a number: as a term
-it takes the dimension of its neighbours, and as the factor of one quantity, ``3*tanh(v)``, it may be a constant with a
-dimension. In formulas, such as ``m*v**2/2`` and ``2*pi*f``, small numbers (`is_small`) are what they look like.
+An unknown dimension (None) agrees with any other. Symbols without a unit have it, and so have numbers: a number that is
+a term takes the dimension of the other terms, and the factor of a single quantity, ``3*tanh(v)``, may be a constant
+with a dimension. In formulas, such as ``m*v**2/2`` and ``2*pi*f``, small numbers (`is_small`) are pure numbers.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from acausal.modeling import ModuleCall, Prescribed, time
 from acausal.units.dimensions import NUMBER, SECOND, Dimension, described
 
 MAX_CASES = 64
-"""Of one expression, looked at one by one."""
+"""Cases of one expression that are checked one by one; of more, the expression as a whole."""
 
 MAX_SMALL = 12
 """The largest numerator and denominator of a small number."""
@@ -32,7 +32,7 @@ MAX_SMALL = 12
 
 @dataclass(frozen=True)
 class Signature:
-    """What a callable parameter takes and gives; None where that is unknown."""
+    """Dimensions of a callable parameter's arguments and result; None where they are unknown."""
 
     arguments: tuple[Dimension | None, ...] = ()
     result: Dimension | None = None
@@ -44,7 +44,7 @@ Slots = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
 
 @dataclass(frozen=True)
 class Finding:
-    """Something that has another dimension than it should: what to say, and the quotient of the two."""
+    """A term of the wrong dimension: the sentence for it, and the quotient of its dimension and the right one."""
 
     reason: str
     excess: Dimension
@@ -52,10 +52,10 @@ class Finding:
 
 @lru_cache(maxsize=4096)
 def examine(expression: sp.Expr, slots: Slots) -> Finding | None:
-    """The first place where what is added, compared or put into a function does not fit; None if all does.
+    """The first term, comparison or argument of a function that has the wrong dimension; None if there is none.
 
-    Numbers in the branches of cases may have a dimension of their own. So what does not fit as a whole does
-    if every case does: ``v*where(off, G, 1) - i*where(off, 1, R)`` is ``G*v - i`` or ``v - R*i``.
+    Numbers in the branches of cases may have a dimension of their own. Therefore an expression with cases is right if
+    every case is: ``v*where(off, G, 1) - i*where(off, 1, R)`` is ``G*v - i`` or ``v - R*i``.
     """
     known = dict(slots)
     finding = _first_finding(expression, known)
@@ -73,9 +73,9 @@ def _first_finding(expression: Any, known: Mapping[Any, Any]) -> Finding | None:
 
 
 def _cases_of(expression: Any) -> Iterator[Any]:
-    """What stands in cases, and the expression in every case; the whole of it where these are many.
+    """The cases themselves, and the expression in every combination of them; where these are many, the expression.
 
-    Where the conditions are the same, so is the case.
+    Cases with the same conditions are combined only with each other.
     """
     pieces: dict[tuple[Any, ...], list[Any]] = {}
     for piece in sorted(expression.atoms(sp.Piecewise), key=sp.default_sort_key):
@@ -90,7 +90,7 @@ def _cases_of(expression: Any) -> Iterator[Any]:
 
 
 class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
-    """Carries a finding up from where it is made."""
+    """Carries a finding up through the recursion."""
 
     def __init__(self, reason: str, excess: Dimension) -> None:
         super().__init__(reason)
@@ -107,7 +107,7 @@ def is_small(number: Any) -> bool:
 
 
 class _Walk:
-    """One expression with known symbols; a part that occurs often is looked at once."""
+    """One expression with known symbols; a part that occurs often is visited once."""
 
     def __init__(self, known: Mapping[Any, Any]) -> None:
         self.known = known
@@ -139,7 +139,7 @@ class _Walk:
         return found
 
     def pure(self, part: Any, role: str) -> Dimension | None:
-        """A part that must be a pure number; of the time alone it may be one, as in ``sin(time)``."""
+        """A part that must be a pure number; an expression of the time alone may be one, as in ``sin(time)``."""
         found = None if part.free_symbols == {time} else self.of(part)
         if found is not None and found != NUMBER:
             raise _wrong(f"{role} {_quoted(part)}", found, NUMBER)
@@ -147,7 +147,7 @@ class _Walk:
 
 
 def _wrong(name: str, found: Dimension, wanted: Dimension) -> _Unlike:
-    """What to say of something, named, that has the wrong dimension."""
+    """The finding that something has the wrong dimension."""
     need = "a pure number" if wanted == NUMBER else f"in {described(wanted)}"
     return _Unlike(f"{name} is in {described(found)} but must be {need}", found / wanted)
 
@@ -177,7 +177,7 @@ def _compared(walk: _Walk, expression: Any) -> None:
 
 
 def _number(walk: _Walk, expression: Any) -> Dimension:
-    """Of a sign or an angle: a number, whatever the dimension that the arguments share."""
+    """A sign or an angle is a pure number, whatever the dimension that its arguments share."""
     walk.common(expression.args)
     return NUMBER
 

@@ -177,7 +177,7 @@ class _Source(OnePort):
 
     def modify(self, **modifiers: Any) -> None:
         super().modify(**modifiers)
-        if "signalSource" in self._children:
+        if "signalSource" in self._node.children:
             passed = {name: modifiers[name] for name in self.forwarded if name in modifiers}
             self.signalSource.modify(**passed)
 

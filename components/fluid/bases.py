@@ -82,7 +82,7 @@ class TwoPort(PartialMedium):
         """Change modifiers; a mass of zero counts as no mass, so that there is no state."""
         if modifiers.get("m") == 0:
             del modifiers["m"]
-            self._modifiers.pop("m", None)
+            self._node.modifiers.pop("m", None)
         super().modify(**modifiers)
 
     def equations(self) -> Iterator[ac.Eq]:

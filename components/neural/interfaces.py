@@ -88,18 +88,18 @@ class PartialNetwork(ac.Component):
     def modify(self, **modifiers: Any) -> None:
         """Change modifiers; raises an error for promises that contradict each other."""
         super().modify(**modifiers)
-        own = "net" in self._modifiers
-        given = [name for name in self.promises if self._options.get(name)]
+        own = "net" in self._node.modifiers
+        given = [name for name in self.promises if self._node.options.get(name)]
         if own and given:
-            promised = ", ".join(f"{name}={self._options[name]!r}" for name in given)
+            promised = ", ".join(f"{name}={self._node.options[name]!r}" for name in given)
             raise ac.DeclarationError(
-                f"{self._label()}: {promised} cannot be promised of a network of your own; wrap it in parts of "
+                f"{self._node.label}: {promised} cannot be promised of a network of your own; wrap it in parts of "
                 "ac.networks, such as Passive, or leave out net=..."
             )
         try:
             self._spec()
         except ac.DeclarationError as error:
-            raise ac.DeclarationError(f"{self._label()}: {error}") from None
+            raise ac.DeclarationError(f"{self._node.label}: {error}") from None
 
     def _fresh(self, key: Any) -> Any:
         """The network, with fresh weights."""

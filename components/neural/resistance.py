@@ -44,7 +44,7 @@ class Resistance(PartialNeural):
         if self.useHeatPort and not (self.passive and self.connector.power):
             missing = "passive=True" if self.connector.power else "a domain whose flow has a power"
             raise ac.DeclarationError(
-                f"{self._label()}: a heat port takes the power that is lost; useHeatPort=True needs {missing}"
+                f"{self._node.label}: a heat port takes the power that is lost; useHeatPort=True needs {missing}"
             )
 
     def _declare(self) -> None:

@@ -9,9 +9,7 @@ import sympy as sp
 
 import acausal as ac
 from acausal.codegen.lower import RULES, ModuleValue, collect, evaluate
-from acausal.modeling import functions
-from acausal.modeling.declarations import ModuleCall, time
-from acausal.modeling.functions import COMPUTABLE, Prescribed
+from acausal.modeling import COMPUTABLE, ModuleCall, Prescribed, functions, time
 
 x, y = sp.symbols("x y", real=True)
 

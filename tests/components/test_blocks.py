@@ -641,5 +641,5 @@ def test_feed_forward_is_added_before_the_limit(controllers):
 
 def test_parts_of_a_controller_can_be_modified():
     controller = blocks.LimPID(controllerType="PI", yMax=1, limiter={"u": ac.Start(0.5)})
-    assert controller.limiter._modifiers["u"] == ac.Start(0.5)
+    assert controller.limiter._node.modifiers["u"] == ac.Start(0.5)
     assert not hasattr(controller, "D")

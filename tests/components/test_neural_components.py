@@ -168,9 +168,9 @@ def test_the_difference_has_the_sign_of_the_domain(connector, difference):
 
 
 def test_units_come_from_the_connector():
-    declared: Any = neural.Resistance()._dynamic
+    declared: Any = neural.Resistance()._node.own_declarations
     assert [declared[n].unit for n in ("s_rel", "v_rel", "f")] == ["m", "m/s", "N"]
-    declared = neural.Resistance(HeatPort)._dynamic
+    declared = neural.Resistance(HeatPort)._node.own_declarations
     assert [declared[n].unit for n in ("dT", "Q_flow")] == ["K", "W"]
 
 

@@ -218,11 +218,17 @@ def test_losses_of_a_motor() -> None:
 
 def test_ports_bear_their_domains_names() -> None:
     gear = neural.LossyTransformer()
-    assert [*gear._dynamic][:4] == ["flange_a", "rate_a", "effort_a", "flange_b"]
+    assert [*gear._node.own_declarations][:4] == ["flange_a", "rate_a", "effort_a", "flange_b"]
     converter = neural.LossyTransformer(electrical.Pin, electrical.Pin, secondary=("T",))
-    assert [n for n in converter._dynamic if "_" not in n] == ["p1", "n1", "p2", "n2", "T"]
+    assert [n for n in converter._node.own_declarations if "_" not in n] == [
+        "p1",
+        "n1",
+        "p2",
+        "n2",
+        "T",
+    ]
     rack = neural.LossyTransformer(rotational.Flange, tl.Flange)
-    assert "flange_a" in rack._dynamic
+    assert "flange_a" in rack._node.own_declarations
     assert "flange_a.phi = flange_b.s*ratio" in [str(e) for e in rack.equations()]
 
 
@@ -454,8 +460,8 @@ def test_elements_make_the_round_trip(tmp_path: Path) -> None:
     ac.save(again, file)
     assert file.read_bytes() == first
     old, new = (flatten(m) for m in (model, again))
-    assert [str(e) for p in model._children.values() for e in p.equations()] == [
-        str(e) for p in again._children.values() for e in p.equations()
+    assert [str(e) for p in model._node.children.values() for e in p.equations()] == [
+        str(e) for p in again._node.children.values() for e in p.equations()
     ]
     assert old.n_variables == new.n_variables
     for name in ("damper", "resistor", "spring", "coil", "friction", "stack"):

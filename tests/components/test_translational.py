@@ -185,7 +185,7 @@ def test_starts_given_one_after_the_other_add_up():
     mass = tl.Mass(m=1, s=ac.Start(0.1, state="always"))
     mass.modify(s=ac.Start(fixed=True))
     mass.modify(s=ac.Start(0.2))
-    assert mass._modifiers["s"] == ac.Start(0.2, fixed=True, state="always")
+    assert mass._node.modifiers["s"] == ac.Start(0.2, fixed=True, state="always")
 
 
 def test_a_missing_parameter_is_named():

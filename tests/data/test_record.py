@@ -110,7 +110,7 @@ def test_a_unit_that_is_none():
     message = refused(
         lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "meterz"}).for_system(plain())
     )
-    assert message.startswith("'mass.v': 'meterz' is no unit")
+    assert message.startswith("'mass.v': 'meterz' is not a unit")
 
 
 def test_csv(tmp_path):

@@ -43,9 +43,9 @@ def nodes(component):
     """Connection sets, as sets of dotted connector names (``|`` marks a side seen from within)."""
     layout = flatten(component).layout
     found = []
-    for node in connection_sets(layout).nodes:
-        names = [layout.variable(v) for v in node.variables]
-        marks = ["|" * within for within in node.within]
+    for connected in connection_sets(layout).sets:
+        names = [layout.variable(v) for v in connected.variables]
+        marks = ["|" * inner for inner in connected.inner]
         found.append({n + m for n, m in zip(names, marks, strict=True)})
     return found
 

@@ -5,8 +5,7 @@ import sympy as sp
 
 import acausal as ac
 from acausal.flattening.template import Template, slot
-from acausal.modeling.declarations import ModuleCall, time
-from acausal.modeling.functions import Abs, floor, sign
+from acausal.modeling import Abs, ModuleCall, floor, sign, time
 
 x, y, z, p, q = (slot(n) for n in "xyzpq")
 

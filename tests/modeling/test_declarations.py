@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 import acausal as ac
-from acausal.modeling.declarations import Module, ModuleCall, Reference, der, references, time
+from acausal.modeling import Module, ModuleCall, Reference, der, references, time
 
 
 class Part(ac.Component):
@@ -27,7 +27,7 @@ def test_read_on_the_class_a_declaration_is_itself():
 def test_read_on_an_instance_it_is_a_real_symbol_that_knows_its_owner():
     part = Part()
     assert isinstance(part.x, Reference)
-    assert part.x.owner is part
+    assert part.x.owner is part._node
     assert part.x.path == "x"
     assert part.x.declaration is Part.x
     assert part.x.is_real

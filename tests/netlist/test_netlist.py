@@ -308,7 +308,7 @@ def test_expressions_reach_parameters_of_the_model_and_of_parts(file: Path) -> N
     found = values(model)
     assert found["filter.f"] == 100.0
     assert (found["a"], found["b"], found["gain.k"], found["unused"]) == (3.0, 6.0, 36.0, 9.80665)
-    assert list(model._children) == ["filter", "sine", "gain"]
+    assert list(model._node.children) == ["filter", "sine", "gain"]
     assert model.filter.n == 3
 
 
@@ -400,7 +400,7 @@ def test_vectors_and_matrices(file: Path) -> None:
     assert (model.table.table, model.other.table) == ([[0, 0], [1, 2.0]], [[0, 0], [1, 4.0]])
     assert found["gain.k"] == 4.0
     assert model.sum.nin == 2
-    assert len(model._connections) == 3
+    assert len(model._node.connections) == 3
     assert saved(model, file)["connections"] == [["ptp.y[2]", "gain.u"], ["ptp.y", "sum.u"]]
 
 
@@ -492,10 +492,10 @@ def test_connections_to_what_an_option_leaves_out_fall_away(file: Path) -> None:
         "connections": [["fixed.flange", "force.support"]],
     }
     model = read(file, document)
-    assert not model._connections
+    assert not model._node.connections
     assert saved(model, file)["connections"] == document["connections"]
     document["components"]["force"]["with"]["useSupport"] = True
-    assert len(read(file, document)._connections) == 1
+    assert len(read(file, document)._node.connections) == 1
 
 
 def test_subsystems(file: Path) -> None:
@@ -624,8 +624,8 @@ def nested(levels: int) -> dict[str, Any]:
 
 
 HOSTILE: dict[str, tuple[Any, str]] = {
-    "nothing": ("", "line 1, column 1: no JSON"),
-    "half a file": ('{"model": "x",', "line 1, column 15: no JSON"),
+    "nothing": ("", "line 1, column 1: not JSON"),
+    "half a file": ('{"model": "x",', "line 1, column 15: not JSON"),
     "no text": (b"\xff\xfe\x00", "not a text file in UTF-8"),
     "a list": ("[]", "a model is an object {...}, not a list"),
     "10 MB of brackets": ("[" * 5_000_000 + "]" * 5_000_000, "nested more than 100 deep"),
@@ -635,10 +635,10 @@ HOSTILE: dict[str, tuple[Any, str]] = {
         "nested more than 100 deep",
     ),
     "deep subsystems": (nested(200), "nested more than 100 deep"),
-    "a name twice": ('{"model": "a", "model": "b"}', "'model' stands twice in one object"),
+    "a name twice": ('{"model": "a", "model": "b"}', "'model' occurs twice in one object"),
     "a part twice": (
         '{"components": {"a": {"class": "x"}, "a": {"class": "y"}}}',
-        "'a' stands twice in one object",
+        "'a' occurs twice in one object",
     ),
     "NaN": ('{"stop_time": NaN}', "NaN is not a finite number"),
     "infinity": ('{"stop_time": -Infinity}', "-Infinity is not a finite number"),
@@ -654,15 +654,15 @@ HOSTILE: dict[str, tuple[Any, str]] = {
     "code": (with_mass(m="__import__('os').system('true')"), "''' is not allowed"),
     "an attribute": (with_mass(m="mass.__class__"), "'mass.__class__' is not known here"),
     "an attribute of nothing": (with_mass(m="().__class__"), "'.' is not allowed"),
-    "a private attribute": (with_mass(m="mass._modifiers"), "is not known here"),
+    "a private attribute": (with_mass(m="mass._node"), "is not known here"),
     "a method": (with_mass(m="mass.modify"), "'mass.modify' is not known here"),
-    "a private modifier": (with_mass(_modifiers=1), "has no '_modifiers'"),
+    "a private modifier": (with_mass(_node=1), "has no '_node'"),
     "a dunder modifier": (with_mass(__init__=1), "has no '__init__'"),
     "a method as modifier": (with_mass(connect=1), "has no 'connect'"),
-    "a dunder name": ({"parameters": {"__class__": 1}}, "'__class__' is no name"),
+    "a dunder name": ({"parameters": {"__class__": 1}}, "'__class__' is not a name"),
     "a dunder part": (
         {"components": {"__init__": {"class": f"{TL}.Mass"}}},
-        "'__init__' is no name",
+        "'__init__' is not a name",
     ),
     "a method as part": (
         {"components": {"connect": {"class": f"{TL}.Mass"}}},

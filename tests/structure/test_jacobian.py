@@ -7,7 +7,7 @@ import sympy as sp
 import acausal as ac
 from acausal.flattening.flat_model import flatten
 from acausal.flattening.template import Template, slot
-from acausal.modeling.declarations import ModuleCall, time
+from acausal.modeling import ModuleCall, time
 from acausal.structure.jacobian import (
     TIME,
     Point,

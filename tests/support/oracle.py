@@ -19,7 +19,7 @@ from acausal.codegen import Packed, Values, rates, read
 from acausal.codegen.lower import ModuleValue, evaluate
 from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.template import Integers
-from acausal.modeling.declarations import time
+from acausal.modeling import time
 
 Signal = Callable[[Any, Array, Array], Array]
 """Values from time, states and inputs."""

@@ -15,11 +15,9 @@ from hypothesis import given, strategies as st
 import acausal as ac
 from acausal import components
 from acausal.flattening.flat_model import FlatModel, flatten
-from acausal.modeling.component import Component
-from acausal.modeling.functions import COMPUTABLE
+from acausal.modeling import COMPUTABLE, Component
 from acausal.units import dimensions
 from acausal.units.check import check_dimensions
-from acausal.units.conversion import parse
 from acausal.units.dimensions import (
     BASE,
     DERIVED,
@@ -31,6 +29,7 @@ from acausal.units.dimensions import (
     dimension as read,
 )
 from acausal.units.infer import RULES, examine
+from acausal.units.pint_units import pint_unit
 from tests.support.parts import model
 
 # -- units -------------------------------------------------------------------------------------------
@@ -68,7 +67,7 @@ def test_a_unit_that_is_not_given_is_unknown() -> None:
 
 
 def of_pint(text: str) -> Dimension | None:
-    powers = parse(text).dimensionality
+    powers = pint_unit(text).dimensionality
     return Dimension(tuple(powers.get(name, 0) for name in BASE.values()))
 
 
@@ -116,12 +115,12 @@ def test_broken_powers_are_written() -> None:
 )
 def test_what_is_no_unit(unit: str, meant: str | None) -> None:
     hint = f"did you mean '{meant}'?" if meant else "known are '1', 'm', "
-    with pytest.raises(ac.UnitError, match=re.escape(f"'{unit}' is no unit; {hint}")):
+    with pytest.raises(ac.UnitError, match=re.escape(f"'{unit}' is not a unit; {hint}")):
         read(unit)
 
 
 def test_a_unit_of_no_physics() -> None:
-    with pytest.raises(ac.UnitError, match="'pixel' is no unit"):
+    with pytest.raises(ac.UnitError, match="'pixel' is not a unit"):
         read("pixel")
 
 
@@ -131,8 +130,8 @@ def test_a_misspelt_unit_names_its_place() -> None:
         net = ac.Module(lambda key: lambda x: x, unit="N", takes=("meter per second",))
 
     message = refused(model(part=Wrong()))
-    assert "Wrong 'part'.M: 'Nm' is no unit; did you mean 'N.m'?" in message
-    assert "Wrong 'part'.net: 'meter per second' is no unit" in message
+    assert "Wrong 'part'.M: 'Nm' is not a unit; did you mean 'N.m'?" in message
+    assert "Wrong 'part'.net: 'meter per second' is not a unit" in message
 
 
 # -- equations -----------------------------------------------------------------------------------------

@@ -1,0 +1,49 @@
+"""Values and starts that are expressions of parameters, as bindings to numbered parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import sympy as sp
+
+from acausal.errors import DeclarationError
+from acausal.flattening.equation_group import Binding
+from acausal.flattening.layout import Layout
+from acausal.modeling import Reference, references
+
+ALONE = sp.Symbol("p0", real=True)
+"""The parameter in the expression that is nothing but a parameter."""
+
+
+def is_bound(value: Any) -> bool:
+    """Whether a value depends on parameters."""
+    return isinstance(value, Reference) or (isinstance(value, sp.Expr) and not value.is_number)
+
+
+def shifted(layout: Layout, owner: int, binding: Binding, member: int, target: int) -> Binding:
+    """A binding of one component to its own parameters, for another component of the same form."""
+    by = int(layout.parameter_base[member] - layout.parameter_base[owner])
+    arguments = tuple(a + by for a in binding.arguments)
+    return Binding(target, binding.expression, binding.symbols, arguments)
+
+
+def bind(layout: Layout, target: int, expression: sp.Expr, name: Callable[[int], str]) -> Binding:
+    """A value given by parameters; ``name`` is the function that names the target in a message."""
+    symbols: list[sp.Symbol] = []
+    arguments: list[int] = []
+    names: dict[sp.Symbol, sp.Symbol] = {}
+    alone = isinstance(expression, Reference)
+    for reference in (expression,) if alone else references(expression):
+        number = layout.position.get(id(reference.owner))
+        if number is None:
+            raise DeclarationError(
+                f"'{name(target)}' refers to '{reference.path}' of {reference.owner.label}, which is not "
+                "part of the model; assign that component to an attribute, or give a number"
+            )
+        names[reference] = ALONE if alone else sp.Symbol(f"p{len(symbols)}", real=True)
+        symbols.append(names[reference])
+        index = layout.form(number).parameter_index[reference.path]
+        arguments.append(int(layout.parameter_base[number]) + index)
+    named: Any = ALONE if alone else expression.xreplace(names)
+    return Binding(target, named, tuple(symbols), tuple(arguments))

@@ -1,0 +1,156 @@
+"""Values of parameters and modules: given ones, defaults, and those that follow from others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import DeclarationError
+from acausal.flattening.bindings import bind, is_bound, shifted
+from acausal.flattening.equation_group import Binding
+from acausal.flattening.layout import Flags, Form, Layout, Numbers, members_of_forms, tiled
+from acausal.modeling import Declaration, ModuleReference, Parameter, Start, element_names
+
+
+@dataclass(frozen=True)
+class ParameterValues:
+    """Values of all parameters, as `FlatModel` holds them."""
+
+    value: Numbers
+    bindings: tuple[Binding, ...]
+    folded: Flags
+
+
+def parameter_values(layout: Layout) -> ParameterValues:
+    """Values of all parameters, which of them are bound to others, and which are folded to zero.
+
+    Raises:
+        DeclarationError: for a parameter without a value, or a vector of the wrong size.
+    """
+    base = layout.parameter_base
+    local = [[_default(form, path, d) for path, d in form.parameters] for form in layout.forms]
+    value = tiled(layout, base, local, np.float64)
+    folded = value == 0.0
+    bindings: list[Binding] = []
+    for number, component in enumerate(layout.components):
+        form = layout.form(number)
+        for name, given in component._node.modifiers.items():
+            if isinstance(given, Start) or name in form.module_index:
+                continue
+            declared = cast(Declaration, component._node.declaration(name))
+            shape = component._node.shape(name, declared)
+            values = np.asarray(given, dtype=object)
+            if values.shape not in ((), shape):
+                raise DeclarationError(
+                    f"{component._node.label}.{name} needs {_sizes(shape)} values, got {_sizes(values.shape)}"
+                )
+            elements = np.broadcast_to(values, shape or ()).flat
+            for path, element in zip(element_names(name, shape), elements, strict=True):
+                if path not in form.parameter_index:
+                    continue  # the options left no use for it
+                index = int(base[number]) + form.parameter_index[path]
+                folded[index] = False
+                if is_bound(element):
+                    value[index] = np.nan
+                    bindings.append(bind(layout, index, element, layout.parameter))
+                else:
+                    value[index] = float(element)
+    bindings += _default_bindings(layout, value, {b.target for b in bindings})
+    _fold_through(bindings, value, folded)
+    bound = {b.target for b in bindings}
+    missing = [int(i) for i in np.flatnonzero(np.isnan(value)) if int(i) not in bound]
+    if missing:
+        names = [layout.parameter(i) for i in missing[:12]]
+        local_name = names[0].rpartition(".")[2]
+        raise DeclarationError(
+            f"parameter without a value: {', '.join(repr(n) for n in names)}; "
+            f"give it where the component is made ({local_name}=...)"
+        )
+    return ParameterValues(value, tuple(bindings), folded)
+
+
+def _fold_through(bindings: list[Binding], value: Numbers, folded: Flags) -> None:
+    """Fold parameters that folded ones make zero, too."""
+    left = bindings
+    while zero := [b.target for b in left if folded[list(b.arguments)].all() and _is_zero(b)]:
+        value[zero], folded[zero] = 0.0, True
+        left = [b for b in left if not folded[b.target]]
+
+
+def _is_zero(binding: Binding) -> bool:
+    """Whether the expression is zero where all its arguments are."""
+    zeros = dict.fromkeys(binding.symbols, sp.S.Zero)
+    return bool(zeros) and binding.expression.xreplace(zeros) == 0
+
+
+def _sizes(shape: tuple[int, ...] | None) -> str:
+    return " by ".join(str(n) for n in shape or (1,))
+
+
+def _default(form: Form, path: str, declaration: Parameter) -> float:
+    default = declaration.default
+    if default is None or callable(default) or isinstance(default, str):
+        return np.nan
+    if declaration.shape is not None and declaration.name in form.prototype._node.modifiers:
+        return np.nan  # all instances of the form have such an array of their own
+    if declaration.shape is not None:
+        index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
+        default = np.broadcast_to(
+            np.asarray(default, dtype=float),
+            form.prototype._node.shape(declaration.name, declaration) or (),
+        )[index]
+    return float(default)
+
+
+def _default_bindings(layout: Layout, value: Numbers, bound: set[int]) -> list[Binding]:
+    """Defaults that are functions of the component: ``Parameter(lambda self: 2 * self.m)``.
+
+    Such a function is called once per form: instances of one form have the same result.
+    """
+    bindings: list[Binding] = []
+    for form, members in zip(layout.forms, members_of_forms(layout), strict=True):
+        for i, (_, declaration) in enumerate(form.parameters):
+            if not callable(declaration.default):
+                continue
+            indices = layout.parameter_base[members] + i
+            left = [
+                (m, k)
+                for m, k in zip(members.tolist(), indices.tolist(), strict=True)
+                if np.isnan(value[k]) and k not in bound
+            ]
+            if not left:
+                continue
+            first, index = left[0]
+            default: Any = declaration.default(layout.components[first])
+            if is_bound(default):
+                binding = bind(layout, index, default, layout.parameter)
+                bindings += [shifted(layout, first, binding, m, k) for m, k in left]
+            else:
+                value[[k for _, k in left]] = float(default)
+    return bindings
+
+
+def module_values(layout: Layout) -> tuple[Callable[..., Any] | int, ...]:
+    """Value or factory of every module; an int refers to another module."""
+    values: list[Callable[..., Any] | int] = []
+    for number, component in enumerate(layout.components):
+        for name, declaration in layout.form(number).modules:
+            value = component._node.modifiers.get(name, declaration.default)
+            if value is None:
+                raise DeclarationError(
+                    f"{component._node.label} has no module '{name}'; give {name}=..."
+                )
+            if isinstance(value, str):
+                value = getattr(component, value)
+            if isinstance(value, ModuleReference):  # a module of an enclosing component
+                owner = layout.position[id(value.symbol.owner)]
+                value = (
+                    int(layout.module_base[owner])
+                    + layout.form(owner).module_index[value.symbol.path]
+                )
+            values.append(value)
+    return tuple(values)

@@ -1,0 +1,164 @@
+"""The record of one component: its place in the tree, and what was declared, given and connected there.
+
+`Component` keeps everything that is not the author's in one attribute, ``_node``. The other rooms ask the node.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeVar, cast
+
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.modeling.connector import Connector
+from acausal.modeling.declarations import Declaration, Module, Option, Parameter
+from acausal.modeling.symbols import Eq, ModuleReference, Owner, Reference, elements
+
+Endpoint = Connector | Reference
+"""One end of a connection: a connector, or a causal signal."""
+
+C = TypeVar("C")
+
+
+@dataclass(eq=False, slots=True)
+class Node(Generic[C]):
+    """The record of one component.
+
+    Attributes:
+        component: the component itself.
+        class_declarations: declarations of its class, by name.
+        own_declarations: declarations that were assigned to the instance, by name.
+        parent: node of the component that it is a part of; None for the model.
+        name: its name there, such as ``"mass[2]"``.
+        title: what messages call a model without parent; its class where this is empty.
+        children: its parts, by name.
+        options: the options that were set.
+        modifiers: values of parameters and modules, and starts of variables, that were set.
+        constants: plain values that were assigned to attributes.
+        early_modifiers: modifiers of parts that do not exist yet.
+        connections: pairs of endpoints that it connects.
+        bindings: equations that hold because parameters depend on unknown initial parameters.
+    """
+
+    component: C
+    class_declarations: Mapping[str, Declaration | Connector]
+    own_declarations: dict[str, Declaration | Connector] = field(default_factory=dict)
+    parent: Node[C] | None = None
+    name: str = ""
+    title: str = ""
+    children: dict[str, C] = field(default_factory=dict)
+    options: dict[str, Any] = field(default_factory=dict)
+    modifiers: dict[str, Any] = field(default_factory=dict)
+    constants: dict[str, Any] = field(default_factory=dict)
+    early_modifiers: dict[str, Mapping[str, Any]] = field(default_factory=dict)
+    connections: list[tuple[Endpoint, Endpoint]] = field(default_factory=list)
+    bindings: list[Eq] = field(default_factory=list)
+
+    # -- place in the tree -----------------------------------------------------------------------
+
+    def ancestors(self) -> Iterator[Node[C]]:
+        """The parent, its parent, and so on up to the model."""
+        ancestor = self.parent
+        while ancestor is not None:
+            yield ancestor
+            ancestor = ancestor.parent
+
+    def route_from(self, ancestor: Owner) -> tuple[str, ...] | None:
+        """Names of the parts on the way down from an ancestor; None if the component is not below it."""
+        names: list[str] = []
+        node: Node[C] | None = self
+        while node is not None and node is not ancestor:
+            names.append(node.name)
+            node = node.parent
+        return None if node is None else tuple(reversed(names))
+
+    @property
+    def path(self) -> str:
+        """Dotted name in the model; empty for the model."""
+        names = [self.name, *(a.name for a in self.ancestors())]
+        return ".".join(reversed(names[:-1]))  # without the model's own name, which is empty
+
+    @property
+    def label(self) -> str:
+        """What messages call the component: its class and path."""
+        path, kind = self.path, type(self.component).__name__
+        return f"{kind} '{path}'" if path else self.title or kind
+
+    # -- declarations ----------------------------------------------------------------------------
+
+    def declaration(self, name: str) -> Declaration | Connector | None:
+        """The declaration of that name, whether it exists with the present options or not."""
+        return self.own_declarations.get(name) or self.class_declarations.get(name)
+
+    def declarations(self) -> Iterator[tuple[str, Declaration | Connector]]:
+        """Every declaration that exists with the present options."""
+        for name, declared in {**self.class_declarations, **self.own_declarations}.items():
+            if self.has(declared):
+                yield name, declared
+
+    def has(self, declared: Declaration | Connector) -> bool:
+        """Whether a declaration exists with the present options."""
+        when = _condition(declared)
+        if when is None:
+            return True
+        inverted, option = when.startswith("not "), when.removeprefix("not ")
+        return bool(getattr(self.component, option)) is not inverted
+
+    def declare(self, name: str, declared: Declaration | Connector) -> Any:
+        """Add a declaration to the instance; what it is when read is returned."""
+        self.own_declarations[name] = declared
+        if isinstance(declared, Connector):
+            return declared._bind(self, name)
+        declared.name = name
+        return self.read(declared)
+
+    def read(self, declared: Declaration | Connector) -> Any:
+        """What a declaration is on this component: an option's value, a connector, or references.
+
+        Raises:
+            DeclarationError: for what does not exist with the present options.
+        """
+        name = declared._name if isinstance(declared, Connector) else declared.name
+        if isinstance(declared, Option):
+            return self.options.get(name, declared.default)
+        if not self.has(declared):
+            when = cast(str, _condition(declared))
+            needed = f"{when.removeprefix('not ')}={not when.startswith('not ')}"
+            raise DeclarationError(f"{self.label}.{name} exists only with {needed}")
+        if isinstance(declared, Connector):
+            value: Any = declared._bind(self, name)
+        elif isinstance(declared, Module):
+            value = ModuleReference(Reference(self, name, declared))
+        else:
+            value = elements(self, name, declared, self.shape(name, declared))
+        vars(self.component)[name] = value
+        return value
+
+    def shape(self, name: str, declared: Declaration) -> tuple[int, ...] | None:
+        """Sizes of a vector or matrix; None for a scalar.
+
+        Raises:
+            DeclarationError: where a size follows from a value that was not given, or has other dimensions.
+        """
+        if declared.shape is None:
+            return None
+        if ":" in declared.shape:
+            value = self.modifiers.get(name, cast(Parameter, declared).default)
+            if value is None:
+                raise DeclarationError(f"{self.label} has no value for '{name}'; give {name}=[...]")
+            shape = np.shape(np.asarray(value, dtype=object))
+            if len(shape) != len(declared.shape):
+                raise DeclarationError(
+                    f"{self.label}.{name} needs {len(declared.shape)} dimension(s), got {len(shape)}"
+                )
+            return shape
+        return tuple(
+            int(getattr(self.component, n)) if isinstance(n, str) else n for n in declared.shape
+        )
+
+
+def _condition(declared: Declaration | Connector) -> str | None:
+    """The option with which a declaration exists, perhaps after ``not``; None if it always exists."""
+    return declared._when if isinstance(declared, Connector) else declared.when

@@ -1,0 +1,176 @@
+"""Symbols for what a component declares, and equations between expressions of them.
+
+A *reference* is a sympy symbol that knows its owner, so that one expression may mix names of several components.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import count
+from typing import Any, Protocol
+
+import sympy as sp
+
+from acausal.errors import DeclarationError
+from acausal.modeling.declarations import Declaration, element_names
+
+time = sp.Symbol("time", real=True)
+"""The independent variable, in seconds."""
+
+
+class Owner(Protocol):
+    """The node of a component (`acausal.modeling.node`), as far as its declarations know it."""
+
+    modifiers: dict[str, Any]
+    bindings: list[Eq]
+
+    @property
+    def path(self) -> str:
+        """Dotted name in the model."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """What messages call the component."""
+        ...
+
+    def route_from(self, ancestor: Owner) -> tuple[str, ...] | None:
+        """Names of the parts on the way down from an ancestor."""
+        ...
+
+
+class Reference(sp.Symbol):
+    """A symbol that knows which component owns it (by its node) and its local name there."""
+
+    owner: Owner
+    path: str
+    declaration: Declaration
+
+    _serial = count()
+
+    def __new__(cls, owner: Owner, path: str, declaration: Declaration) -> Reference:
+        """A new symbol, unlike any other."""
+        symbol = super().__new__(cls, f"{path}#{next(cls._serial)}", real=True)
+        symbol.owner, symbol.path, symbol.declaration = owner, path, declaration
+        return symbol
+
+    def _sympystr(self, printer: Any) -> str:
+        return self.path
+
+    def _latex(self, printer: Any) -> str:
+        return printer._print(sp.Symbol(self.path))
+
+
+class der(sp.Function):  # noqa: N801 (Modelica's name)
+    """Time derivative of a variable, or of an expression of variables."""
+
+    nargs = 1
+
+    def _eval_is_real(self) -> bool:
+        return True
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Refused: total derivatives are taken when equations become templates."""
+        raise DeclarationError(
+            "der(...) inside der(...) of an expression: give the inner one a variable"
+        )
+
+
+class ModuleCall(sp.Function):
+    """A callable parameter applied: ``ModuleCall(module, orders, *args)``.
+
+    ``orders`` counts, per argument, how often the function is differentiated; it is how sympy carries
+    a network through index reduction and linearization.
+    """
+
+    def fdiff(self, argindex: int = 1) -> Any:
+        """The partial derivative by an argument (counted from 3), again a call."""
+        module, orders, *args = self._parts
+        raised = [n + (i == argindex - 3) for i, n in enumerate(orders)]
+        return ModuleCall(module, sp.Tuple(*raised), *args)
+
+    @property
+    def _parts(self) -> tuple[Any, ...]:
+        return self.args
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        terms = [self.fdiff(i) * a.diff(s) for i, a in enumerate(self._parts[2:], start=3)]
+        return sp.Add(*terms)
+
+    def _eval_is_real(self) -> bool:
+        return True
+
+    def _sympystr(self, printer: Any) -> str:
+        module, orders, *args = self._parts
+        name = printer._print(module) + primes(orders)
+        return f"{name}({', '.join(printer._print(a) for a in args)})"
+
+
+def primes(orders: Iterable[Any]) -> str:
+    """How derivatives of a module are marked: a prime for each, ``'2`` for one by the second argument."""
+    marks = ("'" if i == 1 else f"'{i}" for i in count(1))
+    return "".join(mark * int(n) for mark, n in zip(marks, orders, strict=False))
+
+
+@dataclass(frozen=True)
+class ModuleReference:
+    """A `Module` read on an instance: callable with expressions."""
+
+    symbol: Reference
+
+    def __call__(self, *args: Any) -> Any:
+        """The module applied to expressions."""
+        expressions = [_expression(a, f"an argument of {self.symbol.path}") for a in args]
+        return ModuleCall(self.symbol, sp.Tuple(*[0] * len(args)), *expressions)
+
+
+@dataclass(frozen=True)
+class Eq:
+    """An equation ``lhs = rhs`` between expressions."""
+
+    lhs: sp.Expr
+    rhs: sp.Expr
+
+    def __init__(self, lhs: Any, rhs: Any) -> None:
+        object.__setattr__(self, "lhs", _expression(lhs, "an equation's left side"))
+        object.__setattr__(self, "rhs", _expression(rhs, "an equation's right side"))
+
+    def __str__(self) -> str:
+        return f"{self.lhs} = {self.rhs}"
+
+
+def _expression(value: Any, where: str) -> sp.Expr:
+    if isinstance(value, sp.Expr):
+        return value
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise DeclarationError(
+            f"{where} is {type(value).__name__} {value!r}; an expression or a number is needed"
+        ) from None
+    if not math.isfinite(number):
+        raise DeclarationError(f"{where} is {number}; a finite number is needed")
+    return sp.Integer(int(number)) if number.is_integer() else sp.Float(number)
+
+
+def references(expression: sp.Expr) -> Iterator[Reference]:
+    """The references in an expression, each once, in order of appearance."""
+    seen: dict[Reference, None] = {}
+    for node in sp.preorder_traversal(expression):
+        if isinstance(node, Reference):
+            seen.setdefault(node)
+    return iter(seen)
+
+
+def elements(
+    owner: Owner, name: str, declaration: Declaration, shape: tuple[int, ...] | None
+) -> Any:
+    """A reference, or nested tuples of references."""
+    references = iter([Reference(owner, path, declaration) for path in element_names(name, shape)])
+
+    def nested(sizes: tuple[int, ...]) -> Any:
+        return tuple(nested(sizes[1:]) for _ in range(sizes[0])) if sizes else next(references)
+
+    return nested(shape or ())
