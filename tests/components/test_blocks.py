@@ -16,8 +16,8 @@ from acausal.flattening.flat_model import flatten
 signal: Any = scipy_signal  # its types are partly unknown
 
 BASES = (
-    "MI2MO", "MIMO", "MIMOs", "MISO", "MO", "NeedsDiscreteStates", "PartialConversionBlock", "SI", "SI2SO",
-    "SIMO", "SISO", "SO", "SVcontrol", "SignalSource",
+    "MI2MO", "MIMO", "MIMOs", "MISO", "MO", "NeedsDiscreteStates", "PartialColumns", "PartialConversionBlock",
+    "PartialStart", "PartialState", "SI", "SI2SO", "SIMO", "SISO", "SO", "SVcontrol", "SignalSource",
 )  # fmt: skip
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default,

@@ -57,7 +57,7 @@ DEFAULTS = {
 }  # fmt: skip
 BASES = (
     "TwoPort", "SimpleFriction", "SinglePortLeft", "SinglePortBottom", "AbsoluteSensor",
-    "RelativeSensor", "FlowSensor",
+    "RelativeSensor", "FlowSensor", "PartialMedium", "PartialAdiabatic", "PartialSinglePort",
 )  # fmt: skip
 
 # rho, cp, cv, lambda, nu

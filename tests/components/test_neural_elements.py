@@ -465,5 +465,5 @@ def test_elements_make_the_round_trip(tmp_path: Path) -> None:
     ]
     assert old.n_variables == new.n_variables
     for name in ("damper", "resistor", "spring", "coil", "friction", "stack"):
-        recipes = [getattr(m, name)._recipe() for m in (model, again)]
-        assert recipes[0] == recipes[1]
+        specs = [getattr(m, name)._spec() for m in (model, again)]
+        assert specs[0] == specs[1]
