@@ -44,7 +44,7 @@ def simulate_fixed(
         direct: whether derivatives in forward mode must work, too.
 
     Raises:
-        DataError: for a time to save that is not a step's end.
+        DataError: for a time to save that is not the end of a step.
         SimulationError: if a value is not finite.
     """
     rows = slice(None) if saved is None else rows_of(ends, saved)
@@ -53,7 +53,7 @@ def simulate_fixed(
     steps = Steps(jnp.asarray(ends[:-1]), jnp.asarray(h), samples)
     start = run.start._replace(t=jnp.asarray(ends[0]))  # an array: other times need no compilation
     start, steps = cast((start, steps), dtype)
-    x = _states(run.system, start, steps, solvers.for_fixed_steps(solver, dtype), direct)
+    x = _scan_steps(run.system, start, steps, solvers.for_fixed_steps(solver, dtype), direct)
     if not traced(x):
         _check(run, ends, np.asarray(x))
     t = jnp.asarray(ends)[rows]
@@ -66,7 +66,7 @@ def simulate_fixed(
 
 
 @eqx.filter_jit
-def _states(
+def _scan_steps(
     system: System, start: Values, steps: Steps, solver: solvers.Solver, direct: bool
 ) -> Float[Array, "n_ends n_states"]:
     integrated = integrate(system, start, steps, solver, direct=direct)

@@ -42,7 +42,7 @@ def rows_of(
     off = np.abs(position - rows) > ON_GRID * len(ends)
     if off.any():
         raise DataError(
-            f"saveat has {times[off][0]:g} s, which is not a step's end; "
+            f"saveat has {times[off][0]:g} s, not the end of a step; "
             "save multiples of dt, or leave dt out for adaptive steps."
         )
     return rows
