@@ -15,7 +15,7 @@ from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, TrainingError, listing, reason
 from acausal.training.history import Rows
 
-KIND = "checkpoint of a training, version 3"
+KIND = "checkpoint of a training, version 2"
 
 LOG = "log {}: "
 """What columns of a training's log are called in a file, before their names."""

@@ -109,8 +109,8 @@ def _outputs(problem: Problem) -> str:
 
 def _loss(problem: Problem) -> str:
     """With its gradient, for which a function may have rules of its own."""
-    y = problem.record.y[:2]
-    return program(jax.value_and_grad(problem.loss), y, y, problem.record.sigma)
+    y, sigma = jnp.zeros((2, len(problem.targets))), jnp.zeros(len(problem.targets))
+    return program(jax.value_and_grad(problem.loss), y, y, sigma)
 
 
 def _regularizer(problem: Problem, regularizer: Callable[..., Any]) -> str:

@@ -318,18 +318,6 @@ def scaled(predicted: Any, measured: Any, sigma: Any) -> Any:
     return SCALE["a"] * ((predicted - measured) ** 2).mean()
 
 
-def test_an_older_checkpoint_is_refused(interrupted: Path, tmp_path: Path):
-    arrays, about = tensors.read_arrays(interrupted)
-    tensors.write_arrays(
-        tmp_path / NAME, arrays, {**about, "kind": "checkpoint of a training, version 2"}
-    )
-    with pytest.raises(ac.DataError) as error:
-        train(checkpoint=tmp_path, resume=True)
-    assert str(error.value) == (
-        f"'{tmp_path / NAME}' is no {checkpoints.KIND}, but: checkpoint of a training, version 2."
-    )
-
-
 @pytest.mark.parametrize(
     ("one", "other"),
     [
