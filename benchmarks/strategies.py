@@ -1,4 +1,4 @@
-"""Ways to train the quarter vehicle, side by side: ``python -m benchmarks.strategies``.
+"""Compare ways to train the quarter vehicle: ``python -m benchmarks.strategies``.
 
 Over the ride of 42 s with noise of 2 %: both networks, from random weights; and seven parameters of the model that is
 true, from values up to 30 % off. Seconds are those of updates, without compilation and evaluation.
@@ -109,8 +109,8 @@ def _table(
     for name, legs in ways.items():
         params, updates, seconds, left = start, 0, 0.0, float("nan")
         for leg in legs:
-            wishes: dict[str, Any] = {"evaluate_every": 10_000, "progress": False, **others, **leg}
-            fit = ac.fit(system, driven.measured, OUTPUTS, params=params, **wishes)
+            options: dict[str, Any] = {"evaluate_every": 10_000, "progress": False, **others, **leg}
+            fit = ac.fit(system, driven.measured, OUTPUTS, params=params, **options)
             updates += fit.history.epochs
             seconds += fit.history.epochs * fit.seconds_per_epoch
             params, left = fit.params, fit.loss

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from benchmarks import chain, gears, grid, ladder, measure, peers, sweep
+from benchmarks import chain, gears, grid, ladder, measure, optimizers, peers, sweep
 from benchmarks.command import growth_exponent
 from benchmarks.measure import Stopwatch
 from benchmarks.qvm import by_hand, c, framework, task
@@ -119,6 +119,28 @@ def test_a_sweep_finds_what_single_simulations_find():
     alone = [jax.jit(one)(jax.tree.map(lambda a, i=i: a[i], many)) for i in (0, 10)]
     assert together[jnp.asarray([0, 10])] == pytest.approx(np.asarray(alone), rel=1e-11)
     assert len(np.unique(together)) == 11
+
+
+@pytest.mark.parametrize("name", [*optimizers.QUASI_NEWTON, *optimizers.GAUSS_NEWTON])
+def test_all_optimizers_find_a_minimum(name):
+    method = {**optimizers.QUASI_NEWTON, **optimizers.GAUSS_NEWTON}[name]
+
+    def loss(x):
+        return 1.0 + jnp.sum(jnp.array([1.0, 10.0, 100.0]) * (x - 1) ** 2)
+
+    @jax.jit
+    def one(x, state):
+        told = {"value": loss(x), "grad": jax.grad(loss)(x), "value_fn": loss}
+        if name in optimizers.GAUSS_NEWTON:
+            told["curvature"] = jax.hessian(loss)(x)
+        moves, state = method.update(told["grad"], state, x, **told)
+        return x + moves, state
+
+    x = jnp.zeros(3)
+    state = method.init(x)
+    for _ in range(40):
+        x, state = one(x, state)
+    np.testing.assert_allclose(x, 1.0, atol=1e-4)
 
 
 @pytest.mark.slow

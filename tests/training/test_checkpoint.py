@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import warnings
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,7 @@ import pytest
 import acausal as ac
 from acausal.data import tensors
 from acausal.training import checkpoint as checkpoints
-from acausal.training.fingerprint import digest
+from acausal.training.fingerprint import digest, program
 from acausal.training.history import Log
 from tests.support.interrupted import EPOCHS, train
 from tests.support.oscillator import learned, plain, record
@@ -162,7 +162,8 @@ def test_nothing_to_resume():
         ({"modifiers": {"mass.m": 0.1}}, "'modifiers'"),
         ({"batch_size": 2}, "'sequence_length, batch_size or subsample'"),
         ({"params": learned().parameters(0) | {"mass.m": 1.0}}, "'params'"),
-        ({"loss": lambda p, q, sigma: ((p - q) ** 2).mean()}, "'loss', 'optimizer'"),
+        ({"loss": lambda p, q, sigma: ((p - q) ** 2).mean()}, "'loss'"),
+        ({"solver": "rk4"}, "'solver'"),
     ],
 )
 def test_a_checkpoint_of_another_training_is_refused(
@@ -312,11 +313,28 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
     assert written == [0.0, 75.0, 150.0, 175.0]
 
 
+def test_a_loss_whose_helper_has_changed_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """The loss itself is the same function."""
+    wishes: dict[str, Any] = {"loss": scaled, "checkpoint": tmp_path, "epochs": 1, "resume": True}
+    train(**wishes)
+    assert train(**wishes).history.epochs == 2
+    monkeypatch.setitem(SCALE, "a", 2.0)
+    with pytest.raises(ac.DataError, match=r"is of another training: 'loss' differ\."):
+        train(**wishes)
+
+
+SCALE = {"a": 1.0}
+
+
+def scaled(predicted: Any, measured: Any, sigma: Any) -> Any:
+    return SCALE["a"] * ((predicted - measured) ** 2).mean()
+
+
 @pytest.mark.parametrize(
     ("one", "other"),
     [
-        (optax.adam(1e-2), optax.adam(1e-3)),
-        (lambda x: x + 1, lambda x: x + 2),
         (np.zeros(3), np.zeros((3, 1))),
         (np.zeros(3), np.zeros(3, np.float32)),
         ({"a": 1}, {"b": 1}),
@@ -334,24 +352,58 @@ def test_digests_tell_things_apart(one: Any, other: Any):
     assert digest(one) == digest(one)
 
 
-def test_use_does_not_change_a_digest():
-    """optax's schedule makes a float of its integer."""
-    schedule = optax.cosine_decay_schedule(1e-2, 60)
-    before = digest(optax.adam(schedule))
-    schedule(3)
-    assert digest(optax.adam(schedule)) == before
+def test_a_digest_is_that_of_the_value():
     assert digest([1, np.float64(2.0)]) == digest([1.0, 2])
 
 
-def test_a_schedule_with_variables_that_were_never_set_has_a_digest():
-    """The functions of some of optax's schedules close over such."""
-    one, other = (optax.exponential_decay(rate, 300, 0.01) for rate in (1e-2, 2e-2))
-    assert digest(one) == digest(one)
-    assert digest(one) != digest(other)
+CONSTANT = np.arange(5000.0)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (lambda x: x + 1, lambda x: x + 2),
+        (lambda x: x + 1.0, lambda x: x + np.nextafter(1.0, 2.0)),
+        (lambda x: x[0] * CONSTANT, lambda x: x[0] * np.where(CONSTANT == 2000, 0, CONSTANT)),
+        (jax.jit(lambda x: x[:2] * np.array([1.0, 2.0])), jax.jit(lambda x: x[:2] * np.array([1.0, 3.0]))),
+        (partial(jax.numpy.sum, axis=0), partial(jax.numpy.sum, axis=0, keepdims=True)),
+    ],
+)  # fmt: skip
+def test_programs_tell_functions_apart(one: Any, other: Any):
+    x = jax.numpy.zeros(3)
+    assert program(one, x) != program(other, x)
+    assert program(one, x) == program(one, x + 1)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (lambda: optax.adam(1e-2), lambda: optax.adam(1e-3)),
+        (lambda: optax.adam(1e-2), lambda: optax.adabelief(1e-2)),
+        (lambda: optax.add_noise(0.1, 0.1, 0), lambda: optax.add_noise(0.1, 0.1, 1)),
+        (
+            lambda: optax.sgd(optax.exponential_decay(1e-2, 300, 0.01)),
+            lambda: optax.sgd(optax.exponential_decay(2e-2, 300, 0.01)),
+        ),
+    ],
+)
+def test_programs_tell_optimizers_apart(one: Any, other: Any):
+    def first_update(optimizer: Any) -> str:
+        return program(lambda x: optimizer.update(x, optimizer.init(x), x), jax.numpy.zeros(3))
+
+    assert first_update(one()) != first_update(other())
+    assert first_update(one()) == first_update(one())
+
+
+def test_use_does_not_change_the_program_of_an_optimizer():
+    """optax's schedule makes a float of its integer."""
+    schedule = optax.cosine_decay_schedule(1e-2, 60)
+    before = program(schedule, jax.numpy.zeros((), int))
+    schedule(3)
+    assert program(schedule, jax.numpy.zeros((), int)) == before
 
 
 def test_a_digest_of_something_that_holds_itself_ends():
-    def recursive(x: Any) -> Any:
-        return recursive(x)
-
+    recursive: list[Any] = [1]
+    recursive.append(recursive)
     assert digest(recursive) == digest(recursive)

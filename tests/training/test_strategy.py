@@ -79,7 +79,7 @@ class Bowl(eqx.Module):
         beyond = x > self.edge
         if self.value:
             spoilt = jnp.where(beyond, jnp.inf, 0.0)
-        else:  # zero, with an infinite slope
+        else:  # zero, with an infinite derivative
             spoilt = jnp.where(beyond, jnp.sqrt(jnp.where(beyond, x - x, 1.0)), 0.0)
         return ((x - 1) ** 2 + spoilt)[None]
 

@@ -1,28 +1,28 @@
-"""Descent: what optimizers have in common that compare losses of one and the same data."""
+"""Descent: what optimizers have in common that compare losses of the same data."""
 
 from __future__ import annotations
 
 import equinox as eqx
 import optax
-from jax import Array
+from jaxtyping import Array, Bool, Float
 
 
 class DescentMethod(optax.GradientTransformationExtraArgs):
-    """An optimizer that compares losses of one and the same data, and takes back itself what is worse.
+    """An optimizer that compares losses of the same data, and returns from a worse point by itself.
 
     Its state is a `Descent`.
     """
 
 
 class Descent(eqx.Module):
-    """Where a descent is.
+    """State of a descent.
 
     Attributes:
         point, value, gradient: the best point up to now, its loss (infinite before the first update) and gradient.
-        converged: whether nothing leads to a lower loss.
+        converged: whether no lower loss can be found.
     """
 
-    point: Array
-    value: Array
-    gradient: Array
-    converged: Array
+    point: Float[Array, " n"]
+    value: Float[Array, ""]
+    gradient: Float[Array, " n"]
+    converged: Bool[Array, ""]

@@ -1,4 +1,12 @@
-"""L-BFGS whose line search takes one evaluation an update, so that a training's program holds the model once."""
+"""L-BFGS whose line search takes one evaluation an update, so that a training's program holds the model once.
+
+``python -m benchmarks.optimizers`` trains the quarter vehicle with it and with others (optimistix 0.1.0, optax 0.2.8).
+After as many updates over the whole record, the loss of `optimistix.LBFGS` is 1.003 times ours (median of five seeds),
+in the same time; to find seven parameters it takes 1.2 to 1.7 times the updates. `optax.lbfgs` reaches the same losses
+in 4 to 15 times the seconds, since its line search evaluates the model again, and takes 3 times as long to compile.
+`optimistix.BFGS` reaches 0.99 times the loss in the same time, but holds a square matrix: of 3.3 MB for the 643 weights
+here; of 3000 weights its part of an update takes 6 times as long as ours.
+"""
 
 from __future__ import annotations
 
@@ -7,60 +15,61 @@ from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
-from jax import Array, lax
+from jax import lax
 from jax.flatten_util import ravel_pytree
+from jaxtyping import Array, Bool, Float, Int
 
 from acausal.training.optimizers.descent import Descent, DescentMethod
 
 DECREASE, CURVATURE = 1e-4, 0.9
-"""Wolfe's conditions: how much of the foreseen decrease, and how much less of the slope, ends a search."""
+"""Wolfe's conditions: the share of the decrease by the directional derivative that the loss must fall by, and the share
+of the directional derivative that may be left."""
 
 TRIALS = 20
-"""Points on a line after which the search starts anew from the gradient alone."""
+"""Points on a line after which the search restarts along the negative gradient."""
 
 STALLED = 1e-12
-"""Relative decrease of the loss below which the search is at its end."""
+"""Relative decrease of the loss below which the search has converged."""
 
 FIRST = 0.1
 """Length of the very first step."""
 
 
 class Search(Descent):
-    """Where L-BFGS is: the best point up to now, and the line from it along which it searches.
+    """State of L-BFGS: the best point up to now, and the line from it along which it searches.
 
     Attributes:
-        direction, slope: of the line, and of the loss along it.
-        step, low, high: the trial's place on the line, and between which two the minimum lies.
+        direction: of the line; ``derivative``: of the loss along it, at the best point.
+        step, low, high: the trial's place on the line, and the two places that enclose the minimum.
         trials: on this line.
-        moves, turns: the last changes of the point and of the gradient, newest last, shape (memory, P).
+        moves, changes: the last differences of points and of gradients, newest last.
         count: how many of them there are.
     """
 
-    direction: Array
-    slope: Array
-    step: Array
-    low: Array
-    high: Array
-    trials: Array
-    moves: Array
-    turns: Array
-    count: Array
+    direction: Float[Array, " n"]
+    derivative: Float[Array, ""]
+    step: Float[Array, ""]
+    low: Float[Array, ""]
+    high: Float[Array, ""]
+    trials: Int[Array, ""]
+    moves: Float[Array, "memory n"]
+    changes: Float[Array, "memory n"]
+    count: Int[Array, ""]
 
 
 @cache
 def lbfgs(memory: int = 60) -> DescentMethod:
-    """L-BFGS with a search for Wolfe's conditions by interpolation and bisection.
+    """L-BFGS with a line search for Wolfe's conditions by interpolation and bisection.
 
-    An update takes the gradient and the loss (`value=...`) at one point. A point
-    that serves becomes the new best, and the next one lies along a new direction; otherwise the next one
-    is another on the same line. So the parameters between two updates may be worse than the best up to now.
-    An infinite loss is taken for too long a step.
+    An update takes the gradient and the loss (`value=...`) at one point. A point that meets the conditions becomes the
+    best, and the next point lies along a new direction; otherwise the next point is another one on the same line. So
+    the parameters between two updates may be worse than the best up to now. An infinite loss counts as too long a step.
 
     J. Nocedal, S. Wright: Numerical Optimization, Springer 2006, algorithms 7.4 and 7.5; A. Lewis, M. Overton:
     Nonsmooth optimization via quasi-Newton methods, Mathematical Programming 141, 2013, algorithm 2.6.
 
     Arguments:
-        memory: changes of the gradient from which the curvature is estimated.
+        memory: changes of the gradient from which the Hessian is estimated.
     """
 
     def init(params: Any) -> Any:
@@ -75,35 +84,39 @@ def lbfgs(memory: int = 60) -> DescentMethod:
     def update(updates: Any, state: Any, params: Any = None, **told: Any) -> Any:
         point, unravel = ravel_pytree(params)
         gradient, _ = ravel_pytree(updates)
-        state = _judge(state, point, told["value"], gradient)
+        state = _after_trial(state, point, told["value"], gradient)
         return unravel(state.point + state.step * state.direction - point), state
 
     return DescentMethod(init, update)
 
 
-def _judge(state: Search, point: Array, value: Array, gradient: Array) -> Search:
-    """What a trial leads to: a new line from it, another trial, or the same line anew."""
+def _after_trial(
+    state: Search, point: Float[Array, " n"], value: Float[Array, ""], gradient: Float[Array, " n"]
+) -> Search:
+    """The state after a trial: a new line from it, another trial on the same line, or a restart."""
     first = ~jnp.isfinite(state.value)
-    low_enough = value <= state.value + DECREASE * state.step * state.slope
-    flat_enough = gradient @ state.direction >= CURVATURE * state.slope
-    serves = jnp.isfinite(value) & (first | (low_enough & flat_enough))
+    low_enough = value <= state.value + DECREASE * state.step * state.derivative
+    flat_enough = gradient @ state.direction >= CURVATURE * state.derivative
+    accepted = jnp.isfinite(value) & (first | (low_enough & flat_enough))
     tried = state.trials + 1
     helps = (value < state.value) & (tried >= TRIALS)
-    case = jnp.select([serves | helps, tried >= TRIALS], [0, 1], 2)
+    case = jnp.select([accepted | helps, tried >= TRIALS], [0, 1], 2)
     return lax.switch(
         case,
         (
-            lambda: _turn(_moved(state, point, value, gradient)),
-            lambda: _turn(_forgotten(state)),
-            lambda: _another(state, value, low_enough, tried),
+            lambda: _new_line(_accept(state, point, value, gradient)),
+            lambda: _new_line(_restart(state)),
+            lambda: _next_trial(state, value, low_enough, tried),
         ),
     )
 
 
-def _moved(state: Search, point: Array, value: Array, gradient: Array) -> Search:
+def _accept(
+    state: Search, point: Float[Array, " n"], value: Float[Array, ""], gradient: Float[Array, " n"]
+) -> Search:
     """The state at a new best point."""
-    move, turn = point - state.point, gradient - state.gradient
-    curved = move @ turn > 1e-10 * (turn @ turn)
+    move, change = point - state.point, gradient - state.gradient
+    curved = move @ change > 1e-10 * (change @ change)
     keep = curved & jnp.isfinite(state.value)
 
     stalled = jnp.isfinite(state.value) & (state.value - value <= STALLED * jnp.abs(state.value))
@@ -112,74 +125,83 @@ def _moved(state: Search, point: Array, value: Array, gradient: Array) -> Search
         return jnp.where(keep, jnp.concatenate([rows[1:], row[None]]), rows)
 
     return eqx.tree_at(
-        lambda s: (s.point, s.value, s.gradient, s.moves, s.turns, s.count, s.converged),
+        lambda s: (s.point, s.value, s.gradient, s.moves, s.changes, s.count, s.converged),
         state,
         (
             point,
             value,
             gradient,
             append(state.moves, move),
-            append(state.turns, turn),
+            append(state.changes, change),
             jnp.where(keep, jnp.minimum(state.count + 1, len(state.moves)), state.count),
             stalled,
         ),
     )
 
 
-def _forgotten(state: Search) -> Search:
-    """The same point without its past; where there was none, the search is at its end."""
+def _restart(state: Search) -> Search:
+    """The same point without the differences before it; where there were none, the search has converged."""
     return eqx.tree_at(
         lambda s: (s.count, s.converged), state, (jnp.zeros_like(state.count), state.count == 0)
     )
 
 
-def _another(state: Search, value: Array, low_enough: Array, tried: Array) -> Search:
-    """Another trial on the same line: longer, or between the two that enclose the minimum."""
+def _next_trial(
+    state: Search, value: Float[Array, ""], low_enough: Bool[Array, ""], tried: Int[Array, ""]
+) -> Search:
+    """Another trial on the same line: a longer step, or one between the two places that enclose the minimum."""
     low = jnp.where(low_enough, state.step, state.low)
     high = jnp.where(low_enough, state.high, state.step)
-    bow = value - state.value - state.step * state.slope
-    parabola = -0.5 * state.slope * state.step**2 / jnp.where(bow > 0, bow, 1.0)
+    excess = value - state.value - state.step * state.derivative
+    parabola = -0.5 * state.derivative * state.step**2 / jnp.where(excess > 0, excess, 1.0)
     from_start = jnp.clip(
-        jnp.where((bow > 0) & jnp.isfinite(bow), parabola, 0.0), 0.1 * high, 0.5 * high
+        jnp.where((excess > 0) & jnp.isfinite(excess), parabola, 0.0), 0.1 * high, 0.5 * high
     )
     inside = jnp.where(low == 0, from_start, 0.5 * (low + high))
     step = jnp.where(jnp.isfinite(high), inside, 2 * low)
     return eqx.tree_at(lambda s: (s.step, s.low, s.high, s.trials), state, (step, low, high, tried))
 
 
-def _turn(state: Search) -> Search:
-    """A new line from the best point."""
-    direction = -_times_inverse_curvature(state)
-    slope = direction @ state.gradient
-    known = state.count > 0
+def _new_line(state: Search) -> Search:
+    """A new line from the best point, along the quasi-Newton direction."""
+    direction = -_times_inverse_hessian(state)
+    derivative = direction @ state.gradient
+    scaled = state.count > 0
     length = jnp.sqrt(direction @ direction)
-    step = jnp.where(known, 1.0, FIRST / jnp.maximum(length, jnp.finfo(length.dtype).tiny))
+    step = jnp.where(scaled, 1.0, FIRST / jnp.maximum(length, jnp.finfo(length.dtype).tiny))
     zero = jnp.zeros_like(step)
     return eqx.tree_at(
-        lambda s: (s.direction, s.slope, s.step, s.low, s.high, s.trials),
+        lambda s: (s.direction, s.derivative, s.step, s.low, s.high, s.trials),
         state,
-        (direction, slope, step, zero, jnp.full_like(step, jnp.inf), jnp.zeros_like(state.trials)),
+        (
+            direction,
+            derivative,
+            step,
+            zero,
+            jnp.full_like(step, jnp.inf),
+            jnp.zeros_like(state.trials),
+        ),
     )
 
 
-def _times_inverse_curvature(state: Search) -> Array:
+def _times_inverse_hessian(state: Search) -> Float[Array, " n"]:
     """The gradient times the estimated inverse of the Hessian, by the two-loop recursion."""
     memory = len(state.moves)
     counts = jnp.arange(memory) >= memory - state.count
-    product = jnp.sum(state.moves * state.turns, axis=1)
+    product = jnp.sum(state.moves * state.changes, axis=1)
     inverse = jnp.where(counts, 1.0 / jnp.where(counts, product, 1.0), 0.0)
 
-    def back(q: Array, row: tuple[Array, Array, Array]) -> tuple[Array, Array]:
-        move, turn, rho = row
+    def backward(q: Array, row: tuple[Array, Array, Array]) -> tuple[Array, Array]:
+        move, change, rho = row
         alpha = rho * (move @ q)
-        return q - alpha * turn, alpha
+        return q - alpha * change, alpha
 
-    def forth(q: Array, row: tuple[Array, Array, Array, Array]) -> tuple[Array, None]:
-        move, turn, rho, alpha = row
-        return q + (alpha - rho * (turn @ q)) * move, None
+    def forward(q: Array, row: tuple[Array, Array, Array, Array]) -> tuple[Array, None]:
+        move, change, rho, alpha = row
+        return q + (alpha - rho * (change @ q)) * move, None
 
-    rows = (state.moves, state.turns, inverse)
-    q, alphas = lax.scan(back, state.gradient, rows, reverse=True)
-    last = state.turns[-1]
+    rows = (state.moves, state.changes, inverse)
+    q, alphas = lax.scan(backward, state.gradient, rows, reverse=True)
+    last = state.changes[-1]
     scale = jnp.where(state.count > 0, product[-1] / jnp.maximum(last @ last, 1e-300), 1.0)
-    return lax.scan(forth, scale * q, (*rows, alphas))[0]
+    return lax.scan(forward, scale * q, (*rows, alphas))[0]
