@@ -23,6 +23,9 @@ class PI(SISO, PartialState):
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(unit="s", min=0, doc="time constant")
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
+    y_start = ac.Parameter(0.0, doc="initial value of the output")
     x = ac.Variable(start="x_start", doc="state: the integral part")
 
     def equations(self) -> Iterator[ac.Eq]:

@@ -51,6 +51,9 @@ class Derivative(SISO, PartialState):
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(0.01, unit="s", min=0, doc="time constant, greater than zero")
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
+    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
+    y_start = ac.Parameter(0.0, doc="initial value of the output")
     x = ac.Variable(start="x_start", doc="state: the input, delayed")
 
     def equations(self) -> Iterator[ac.Eq]:

@@ -127,7 +127,7 @@ class PartialStart(ac.Component):
 
 
 class PartialState(ac.Component):
-    """What blocks with one state ``x`` share: ``initType``, ``x_start`` and ``y_start``.
+    """The initial equations of blocks with one state ``x``, by ``initType``.
 
     ``SteadyState``: ``der(x) = 0``; ``InitialState``: ``x = x_start``; ``InitialOutput``: ``y = y_start``;
     ``NoInit``: ``x_start`` is a guess.
@@ -135,9 +135,9 @@ class PartialState(ac.Component):
 
     __modelica__ = None
 
-    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
-    x_start = ac.Parameter(0.0, doc="initial or guess value of the state")
-    y_start = ac.Parameter(0.0, doc="initial value of the output")
+    initType: Any
+    x_start: Any
+    y_start: Any
     x: Any
     y: Any
 

@@ -29,6 +29,7 @@ class ToKelvin(scales.Celsius, scales.ToKelvin):
     """A temperature signal in degrees Celsius as one in kelvin: ``Kelvin = Celsius + 273.15``."""
 
     Celsius = ac.Input(unit="degC", doc="temperature")
+    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
 
 
 class FromKelvin(scales.Celsius, scales.FromKelvin):

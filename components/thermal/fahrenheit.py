@@ -29,6 +29,7 @@ class ToKelvin(scales.Fahrenheit, scales.ToKelvin):
     """A temperature signal in degrees Fahrenheit as one in kelvin: ``Kelvin = (Fahrenheit + 459.67) 5/9``."""
 
     Fahrenheit = ac.Input(unit="degF", doc="temperature")
+    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
 
 
 class FromKelvin(scales.Fahrenheit, scales.FromKelvin):

@@ -29,6 +29,7 @@ class ToKelvin(scales.Rankine, scales.ToKelvin):
     """A temperature signal in degrees Rankine as one in kelvin: ``Kelvin = 5/9 Rankine``."""
 
     Rankine = ac.Input(unit="degR", doc="temperature")
+    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
 
 
 class FromKelvin(scales.Rankine, scales.FromKelvin):

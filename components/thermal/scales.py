@@ -55,10 +55,10 @@ class Rankine(Kelvin):
 
 
 class ToKelvin(Kelvin):
-    """A temperature signal as one in kelvin; a subclass declares the input, which has the name of its scale."""
+    """A temperature signal as one in kelvin; a subclass declares both signals."""
 
     signal: ClassVar[str]
-    Kelvin = ac.Output(unit="K", doc="the same in kelvin")
+    Kelvin: Any
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.Kelvin, self.to_kelvin(getattr(self, self.signal)))
