@@ -30,7 +30,10 @@ class Moved:
 
 
 MOVED = {
-    "acausal.bands": Moved("acausal.data.band_limited"),
+    "acausal.bands": Moved(
+        "acausal.data.band_limited",
+        {"bow": "deviation_from_line", "bends": "polynomial_coefficients"},
+    ),
     "acausal.expressions": Moved("acausal.netlist.parser"),
     "acausal.formula": Moved("acausal.analysis.formula"),
     "acausal.library": Moved("acausal.netlist.library"),

@@ -107,7 +107,7 @@ def test_all_rules_are_tested():
 
 def test_everything_that_may_stand_in_an_equation_has_a_rule():
     assert set(COMPUTABLE) <= set(RULES)
-    exported = [getattr(functions, name) for name in functions.__all__]
+    exported = [getattr(ac, name) for name in ac.__all__ if name != "der"]
     classes = {f for f in exported if isinstance(f, type) and issubclass(f, sp.Function)}
     assert all(any(issubclass(f, known) for known in COMPUTABLE) for f in classes)
 

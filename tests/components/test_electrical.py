@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import brentq
 
 import acausal as ac
+from acausal.codegen import default_parameters, pack
 from acausal.components import electrical as el, nature, rotational as rot, translational as tl
 from acausal.components.electrical import op_amp_circuits as oc
 from acausal.components.thermal import HeatPort
@@ -1070,7 +1071,7 @@ def test_a_saturation_current_is_differentiable():
     layout = ac.compile(model).layout
 
     def scale(Lnom):
-        packed = layout.pack({**layout.defaults(jax.random.key(0)), "l.Lnom": Lnom})
+        packed = pack(layout, {**default_parameters(layout, jax.random.key(0)), "l.Lnom": Lnom})
         return packed.values[-1]
 
     for Lnom in (0.51, 0.7, 1.0, 1.5, 1.99):
