@@ -16,8 +16,6 @@ import numpy as np
 from acausal.errors import StructureError
 from acausal.flattening import EquationGroup, FlatModel, Integers
 
-MAX_DOUBLINGS = 64
-
 
 @dataclass(frozen=True)
 class AliasFree:
@@ -46,7 +44,7 @@ class AliasFree:
 def eliminate_aliases(model: FlatModel) -> AliasFree:
     """Merge aliased variables of a flat model and specialise its equations."""
     classes = _Classes.of(model.n_variables)
-    parameters = parameter_aliases(model)
+    parameters = model.parameter_aliases
     pending = [
         classes.with_derivative_nodes(piece)
         for group in model.groups
@@ -94,22 +92,6 @@ def _check_inputs(model: FlatModel, classes: _Classes) -> None:
             raise StructureError(
                 f"overdetermined: {text} is made a derivative of {seen[below]}; one of them cannot be free"
             )
-
-
-def parameter_aliases(model: FlatModel) -> Integers:
-    """Parameters bound to nothing but another parameter are that parameter."""
-    target = np.arange(len(model.value))
-    for binding in model.bindings:
-        if binding.expression in binding.symbols:
-            target[binding.target] = binding.arguments[0]
-    for _ in range(MAX_DOUBLINGS):
-        further = target[target]
-        if np.array_equal(further, target):
-            return target
-        target = further
-    circular = np.flatnonzero(target[target] != target)  # refused when parameters are laid out
-    target[circular] = circular
-    return target
 
 
 _KNOWN, _MERGED, _REFUSED = 0, 1, 2

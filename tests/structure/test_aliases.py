@@ -6,7 +6,7 @@ import pytest
 import acausal as ac
 from acausal.flattening.flat_model import flatten
 from acausal.flattening.template import Template, slot
-from acausal.structure.aliases import eliminate_aliases, parameter_aliases
+from acausal.structure.aliases import eliminate_aliases
 from tests.support.oracle import worst
 from tests.support.parts import Equations, Fixed, Mass, SpringDamper, model
 
@@ -188,7 +188,7 @@ def test_parameters_bound_to_a_parameter_are_that_parameter():
             self.b = SpringDamper(c=self.a.c, d=self.c * 1)
 
     flat = flatten(Box())
-    target = parameter_aliases(flat)
+    target = flat.parameter_aliases
     names = [flat.layout.parameter(i) for i in range(len(target))]
     same = {names[i]: names[t] for i, t in enumerate(target) if t != i}
     assert same == {"a.c": "c", "b.c": "c", "b.d": "c"}
