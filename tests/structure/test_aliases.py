@@ -178,22 +178,6 @@ def test_inputs_are_free():
             ac.compile(Equations(variables, stated, inputs))
 
 
-def test_parameters_bound_to_a_parameter_are_that_parameter():
-    class Box(ac.Component):
-        c = ac.Parameter(3.0)
-
-        def __init__(self):
-            super().__init__()
-            self.a = SpringDamper(c=self.c, d=1.0)
-            self.b = SpringDamper(c=self.a.c, d=self.c * 1)
-
-    flat = flatten(Box())
-    target = flat.parameter_aliases
-    names = [flat.layout.parameter(i) for i in range(len(target))]
-    same = {names[i]: names[t] for i, t in enumerate(target) if t != i}
-    assert same == {"a.c": "c", "b.c": "c", "b.d": "c"}
-
-
 def test_a_variable_over_a_zero_default_is_told():
     class Inverse(ac.Component):
         k = ac.Parameter(0.0)
