@@ -13,7 +13,6 @@ import sympy as sp
 from acausal.codegen.gather import Gather, gather
 from acausal.errors import DataError, DeclarationError, listing, nearest
 from acausal.flattening import Binding, FlatModel, Integers
-from acausal.structure import parameter_aliases
 
 
 @dataclass(frozen=True)
@@ -34,7 +33,7 @@ class ParameterLayout:
         order: position of every free parameter in the vector, so that equal ones are neighbours.
         position: (n_parameters,) of a parameter in ``Packed.values`` (-1: folded).
         bound: groups of bound parameters, in order of computation.
-        modules: module -> the module that it refers to, or itself.
+        module_of: (n_modules,) the module that a module refers to, or itself.
     """
 
     model: FlatModel
@@ -78,7 +77,7 @@ class ParameterLayout:
                 raise DataError(f"params: {self._why_unknown(name)}")
 
     def _why_unknown(self, name: str) -> str:
-        index = self._find(name)
+        index = self.model.layout.find_parameter(name)
         if index is None:
             return f"the model has no parameter '{name}'; {nearest(name, [*self.names, *self.module_names])}"
         if self.model.folded[index]:
@@ -88,16 +87,6 @@ class ParameterLayout:
             )
         return f"'{name}' is bound to an expression of other parameters; change these"
 
-    def _find(self, name: str) -> int | None:
-        layout = self.model.layout
-        for cut in [*[i for i, c in enumerate(name) if c == "."][::-1], -1]:
-            component = layout.number.get(name[: max(cut, 0)])
-            if component is not None:
-                local = layout.form(component).parameter_index.get(name[cut + 1 :])
-                if local is not None:
-                    return int(layout.parameter_base[component]) + local
-        return None
-
     def gather(self, parameters: Integers) -> Gather:
         """How to read some parameters out of ``Packed.values``."""
         position = self.position[parameters]
@@ -106,7 +95,7 @@ class ParameterLayout:
     @cached_property
     def name_at(self) -> dict[int, str]:
         """By position in ``Packed.values`` the parameter that lies there."""
-        own = np.flatnonzero(parameter_aliases(self.model) == np.arange(len(self.position)))
+        own = np.flatnonzero(self.model.parameter_aliases == np.arange(len(self.position)))
         return {int(self.position[p]): self.model.layout.parameter(int(p)) for p in own}
 
     def chosen(self, modules: Integers) -> tuple[int, ...]:
@@ -120,7 +109,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     Raises:
         DeclarationError: if parameters are bound in a circle.
     """
-    target = parameter_aliases(model)
+    target = model.parameter_aliases
     n = len(model.value)
     bound = np.zeros(n, dtype=bool)
     bound[[b.target for b in model.bindings]] = True

@@ -10,8 +10,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError
-from acausal.flattening.bindings import bind, is_bound, shifted
-from acausal.flattening.equation_group import Binding
+from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, tiled
 from acausal.modeling import STATE_SELECT, Component, Start, Variable
 

@@ -2,18 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError
-from acausal.flattening.equation_group import Binding
 from acausal.flattening.layout import Layout
+from acausal.flattening.template import Integers
 from acausal.modeling import Reference, references
 
 ALONE = sp.Symbol("p0", real=True)
 """The parameter in the expression that is nothing but a parameter."""
+
+
+MAX_DOUBLINGS = 64
+"""Of the length of chains of parameters that are followed to their end."""
+
+
+@dataclass(frozen=True)
+class Binding:
+    """A parameter or a start value given by an expression of parameters: ``target = expression(arguments)``."""
+
+    target: int
+    expression: sp.Expr
+    symbols: tuple[sp.Symbol, ...]
+    arguments: tuple[int, ...]
 
 
 def is_bound(value: Any) -> bool:
@@ -47,3 +63,19 @@ def bind(layout: Layout, target: int, expression: sp.Expr, name: Callable[[int],
         arguments.append(int(layout.parameter_base[number]) + index)
     named: Any = ALONE if alone else expression.xreplace(names)
     return Binding(target, named, tuple(symbols), tuple(arguments))
+
+
+def parameter_aliases(bindings: Sequence[Binding], n_parameters: int) -> Integers:
+    """For every parameter, the one at the end of its chain: a parameter bound to nothing but another is that other."""
+    target = np.arange(n_parameters)
+    for binding in bindings:
+        if binding.expression in binding.symbols:
+            target[binding.target] = binding.arguments[0]
+    for _ in range(MAX_DOUBLINGS):
+        further = target[target]
+        if np.array_equal(further, target):
+            return target
+        target = further
+    circular = np.flatnonzero(target[target] != target)  # refused when parameters are laid out
+    target[circular] = circular
+    return target

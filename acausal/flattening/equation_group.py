@@ -1,11 +1,10 @@
-"""Instances: the integers that fill a template's slots, and parameters bound to others."""
+"""Groups of equations: the instances of one template, and the integers that fill its slots."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-import sympy as sp
 
 from acausal.flattening.sums import Statement
 from acausal.flattening.template import Integers
@@ -39,13 +38,3 @@ class EquationGroup:
             self.modules[chosen],
             self.components[chosen],
         )
-
-
-@dataclass(frozen=True)
-class Binding:
-    """A parameter or a start value given by an expression of parameters: ``target = expression(arguments)``."""
-
-    target: int
-    expression: sp.Expr
-    symbols: tuple[sp.Symbol, ...]
-    arguments: tuple[int, ...]

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from acausal.flattening.attributes import variable_attributes
+from acausal.flattening.bindings import Binding, parameter_aliases
 from acausal.flattening.connections import connection_groups, connection_sets, model_inputs
-from acausal.flattening.equation_group import Binding, EquationGroup
+from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.instances import instantiate
 from acausal.flattening.layout import Flags, Layout, Numbers, lay_out
 from acausal.flattening.template import Integers
@@ -59,6 +61,11 @@ class FlatModel:
     def n_equations(self) -> int:
         """Number of equations, those of connections among them."""
         return sum(len(g) for g in self.groups)
+
+    @cached_property
+    def parameter_aliases(self) -> Integers:
+        """(n_parameters,) for a parameter that is bound to nothing but another one: that one; else itself."""
+        return parameter_aliases(self.bindings, len(self.value))
 
 
 def flatten(model: Component) -> FlatModel:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from typing import Any, TypeVar, cast
@@ -95,40 +95,56 @@ class Layout:
 
     def variable(self, index: int) -> str:
         """Dotted name of a variable."""
-        return self._name(index, self.variable_base, "variables")
+        return self._name(*self._variable(index))
 
     def parameter(self, index: int) -> str:
         """Dotted name of a parameter."""
-        return self._name(index, self.parameter_base, "parameters")
+        return self._name(*self._parameter(index))
 
     def module(self, index: int) -> str:
         """Dotted name of a module."""
-        return self._name(index, self.module_base, "modules")
+        component, local = _located(index, self.module_base)
+        return self._name(component, self.form(component).modules[local])
 
     def variable_declaration(self, index: int) -> Variable:
         """Declaration of a variable."""
-        component = int(np.searchsorted(self.variable_base, index, side="right")) - 1
-        return self.form(component).variables[index - int(self.variable_base[component])][1]
+        return self._variable(index)[1][1]
 
     def parameter_declaration(self, index: int) -> Parameter:
         """Declaration of a parameter."""
-        component = int(np.searchsorted(self.parameter_base, index, side="right")) - 1
-        return self.form(component).parameters[index - int(self.parameter_base[component])][1]
+        return self._parameter(index)[1][1]
 
     def find_variable(self, name: str) -> int | None:
         """Index of the variable of that dotted name, or None."""
+        return self._find(name, self.variable_base, lambda form: form.variable_index)
+
+    def find_parameter(self, name: str) -> int | None:
+        """Index of the parameter of that dotted name, or None."""
+        return self._find(name, self.parameter_base, lambda form: form.parameter_index)
+
+    def _find(
+        self, name: str, base: Integers, indices: Callable[[Form], Mapping[str, int]]
+    ) -> int | None:
         for cut in [*[i for i, c in enumerate(name) if c == "."][::-1], -1]:
             component = self.number.get(name[: max(cut, 0)])
             if component is not None:
-                local = self.form(component).variable_index.get(name[cut + 1 :])
+                local = indices(self.form(component)).get(name[cut + 1 :])
                 if local is not None:
-                    return int(self.variable_base[component]) + local
+                    return int(base[component]) + local
         return None
 
-    def _name(self, index: int, base: Integers, kind: str) -> str:
-        component = int(np.searchsorted(base, index, side="right")) - 1
-        local = getattr(self.form(component), kind)[index - int(base[component])][0]
-        path = self.paths[component]
+    def _variable(self, index: int) -> tuple[int, tuple[str, Variable]]:
+        """Component, local path and declaration of a variable."""
+        component, local = _located(index, self.variable_base)
+        return component, self.form(component).variables[local]
+
+    def _parameter(self, index: int) -> tuple[int, tuple[str, Parameter]]:
+        """Component, local path and declaration of a parameter."""
+        component, local = _located(index, self.parameter_base)
+        return component, self.form(component).parameters[local]
+
+    def _name(self, component: int, declared: tuple[str, Declaration]) -> str:
+        path, local = self.paths[component], declared[0]
         return f"{path}.{local}" if path else local
 
 
@@ -173,6 +189,12 @@ def lay_out(model: Component) -> Layout:
         parameter_base=base([len(f.parameters) for f in forms]),
         module_base=base([len(f.modules) for f in forms]),
     )
+
+
+def _located(index: int, base: Integers) -> tuple[int, int]:
+    """The component that a number belongs to, and the local index there."""
+    component = int(np.searchsorted(base, index, side="right")) - 1
+    return component, index - int(base[component])
 
 
 def members_of_forms(layout: Layout) -> list[Integers]:

@@ -54,12 +54,10 @@ from acausal.modeling.functions import (
     sign as sign,
     where as where,
 )
-from acausal.modeling.node import Node as Node
 from acausal.modeling.symbols import (
     Eq as Eq,
     ModuleCall as ModuleCall,
     ModuleReference as ModuleReference,
-    Owner as Owner,
     Reference as Reference,
     der as der,
     primes as primes,

@@ -145,7 +145,7 @@ def _attribute(component: Component, name: str) -> Any:
     """A part, connector, declaration or plain value of a component, nothing that could be called."""
     if (
         name not in component._node.children
-        and name not in component._declared
+        and name not in component._node.class_declarations
         and name not in component.__dict__
     ):
         return None
@@ -163,7 +163,7 @@ def is_left_out(model: Component, path: str) -> bool:
     if not isinstance(owner, Component):
         return False
     name = name.partition("[")[0]
-    declared = owner._declared.get(name)
+    declared = owner._node.class_declarations.get(name)
     return declared is not None and not owner._node.has(declared)
 
 

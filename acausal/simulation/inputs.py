@@ -13,7 +13,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import traced
-from acausal.data import FRACTIONS, Data, Signal, polynomial_coefficients
+from acausal.data import FRACTIONS, Signal, polynomial_coefficients
 from acausal.errors import DataError, listing, nearest
 from acausal.simulation.step_grid import ON_GRID
 
@@ -78,22 +78,18 @@ class Samples(eqx.Module):
 
 
 def functions_of_time(
-    names: tuple[str, ...], given: Mapping[str, Any] | Data | None, ends: Ends | None
+    names: tuple[str, ...], given: Mapping[str, Any], ends: Ends | None
 ) -> tuple[TimeFunction, ...]:
     """One function of time for each of the model's inputs.
 
     Arguments:
         names: the model's inputs.
-        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; a function of
-            time. Or a record that holds the inputs among other signals.
+        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; a function of time.
         ends: ends of the fixed steps, for samples without times.
 
     Raises:
         DataError: for an input that is missing, unknown or malformed.
     """
-    if isinstance(given, Data):
-        given = {n: given.signal(n) for n in names if n in given.signals}
-    given = given or {}
     unknown = [n for n in given if n not in names]
     if unknown:
         raise DataError(f"The model has no input {listing(unknown)}: {nearest(unknown[0], names)}")

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import precision
-from acausal.data import Data
+from acausal.data import Data, Signal
 from acausal.errors import DataError, StepLimitError, need_compiled
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
@@ -86,8 +86,8 @@ def simulate(
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     ends = None if dt is None else step_ends(start, end, dt)
-    known = _in_model_units(system, inputs) if isinstance(inputs, Data) else inputs
-    functions = functions_of_time(system.inputs, known, ends)
+    given = _signals(system, inputs) if isinstance(inputs, Data) else inputs or {}
+    functions = functions_of_time(system.inputs, given, ends)
     packed = system.pack(params)
     u_start = evaluate_all(functions, jnp.asarray([start]))[0]
     x_start = system.initial_state(packed, x0, u_start, start)
@@ -107,9 +107,11 @@ def simulate(
     return simulate_adaptive(run, ts, candidates[-1], rtol, atol, max_steps, adjoint, kind)
 
 
-def _in_model_units(system: System, record: Data) -> Data:
-    """The inputs among a record's signals, in the model's units."""
-    return record.select(n for n in system.inputs if n in record.signals).for_system(system)
+def _signals(system: System, record: Data) -> dict[str, Signal]:
+    """The inputs among a record's signals as functions of time, in the model's units."""
+    names = [n for n in system.inputs if n in record.signals]
+    converted = record.select(names).for_system(system)
+    return {n: converted.signal(n) for n in names}
 
 
 def _automatic(run: Run) -> tuple[solvers.Solver, ...]:

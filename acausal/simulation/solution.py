@@ -89,8 +89,7 @@ class Solution:
     def to_dict(self, names: Iterable[str] | None = None) -> dict[str, Float[np.ndarray, " n"]]:
         """Time and variables (by default all) as arrays, under ``time`` and their names."""
         names = self.names if names is None else tuple(names)
-        self._observe(names)
-        return {"time": np.asarray(self.t), **{n: np.asarray(self._observed[n]) for n in names}}
+        return {"time": np.asarray(self.t), **self._columns(names)}
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> DataFrame:
         """A pandas DataFrame of the variables (by default all), indexed by time.
@@ -111,7 +110,8 @@ class Solution:
         columns = self.to_dict(names)
         with Path(path).open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
-            writer.writerow(f"{n} [{self._unit(n)}]" for n in columns)
+            units = ("s" if n == "time" else self.system.unit(n) for n in columns)
+            writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
             writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
 
     def plot(self, *names: str, axes: Sequence[Axes] | None = None) -> Figure:
@@ -126,13 +126,13 @@ class Solution:
         """
         from acausal.reporting import plot_over_time
 
-        curves = self.to_dict(names or self.system.states)
-        return plot_over_time(
-            curves.pop("time"), curves, {n: self._unit(n) for n in curves}, axes=axes
-        )
+        curves = self._columns(names or self.system.states)
+        units = {n: self.system.unit(n) for n in curves}
+        return plot_over_time(np.asarray(self.t), curves, units, axes=axes)
 
-    def _unit(self, name: str) -> str:
-        return "s" if name == "time" else self.system.unit(name)
+    def _columns(self, names: Sequence[str]) -> dict[str, Float[np.ndarray, " n"]]:
+        self._observe(names)
+        return {n: np.asarray(self._observed[n]) for n in names}
 
     def _observe(self, names: Sequence[str]) -> None:
         new = tuple(n for n in names if n not in self._observed)

@@ -5,7 +5,6 @@ It knows integers and templates; no JAX. Its graph algorithms know integers alon
 """
 
 from acausal.structure.algebraic_loops import BlockEquation as BlockEquation, TornLoop as TornLoop
-from acausal.structure.aliases import parameter_aliases as parameter_aliases
 from acausal.structure.blocks import Accumulation as Accumulation, Assignment as Assignment
 from acausal.structure.elimination_order import (
     SETTINGS as SETTINGS,

@@ -18,7 +18,6 @@ from acausal.flattening import Integers, Template
 from acausal.structure import graph
 from acausal.structure.algebraic_loops import TornLoop, block_of, matrix, torn_loop
 from acausal.structure.equations import Equations
-from acausal.structure.jacobian import parameter_values
 from acausal.structure.sparse_loops import LARGE, SparseLoop, sparse_loop
 
 
@@ -84,7 +83,7 @@ def order_steps(
     """
     order = np.lexsort((np.arange(len(incidence)), blocks.block, blocks.level[blocks.block]))
     bounds = np.flatnonzero(np.diff(blocks.block[order], prepend=-1, append=-1))
-    values = parameter_values(system.model)
+    values = system.parameter_values
     vanishing = system.vanishing(values)
     sums: _Groups = {}
     formulas: _Groups = {}

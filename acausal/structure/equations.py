@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers, Statement
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
-from acausal.structure.jacobian import Point, is_constant, partials
+from acausal.structure.jacobian import Point, is_constant, parameter_values, partials
 from acausal.structure.singularity import equation_name
 
 
@@ -80,6 +81,11 @@ class Equations:
     def incidence(self) -> list[list[int]]:
         """The unknowns of every equation."""
         return self.structure.incidence
+
+    @cached_property
+    def parameter_values(self) -> np.ndarray:
+        """The model's own values of all parameters."""
+        return parameter_values(self.model)
 
     def unknowns(self) -> list[int]:
         """All representatives that are not known."""

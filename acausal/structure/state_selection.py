@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from acausal.errors import StructureError, listing
 from acausal.modeling import STATE_SELECT
 from acausal.structure.equations import Equations
-from acausal.structure.jacobian import Point, parameter_values, random_values
+from acausal.structure.jacobian import Point, random_values
 from acausal.structure.rank import choose_columns
 
 DEFAULT = float(STATE_SELECT.index("default"))
@@ -72,7 +72,7 @@ def _points(system: Equations) -> tuple[Point, Point]:
     start = np.array(anywhere)
     given = np.flatnonzero(model.start_given)
     start[system.aliases.representative[given]] = system.aliases.sign[given] * model.start[given]
-    parameters = parameter_values(model)
+    parameters = system.parameter_values
     return Point(start, parameters), Point(anywhere, parameters)
 
 

@@ -135,12 +135,12 @@ def _refuse_constant(problem: Problem) -> None:
 
 
 def _labelled(regularizers: tuple[Regularizer, ...]) -> dict[str, Regularizer]:
-    named: dict[str, Regularizer] = {}
+    labelled: dict[str, Regularizer] = {}
     for regularizer in regularizers:
         name = label(regularizer)
-        count = sum(n.split(" ")[0] == name for n in named)
-        named[f"{name} {count + 1}" if count else name] = regularizer
-    return named
+        count = sum(n.split(" ")[0] == name for n in labelled)
+        labelled[f"{name} {count + 1}" if count else name] = regularizer
+    return labelled
 
 
 def _substeps(data: Data, dt: float | None) -> int:

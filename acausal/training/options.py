@@ -177,7 +177,7 @@ class FitOptions:
         Raises:
             TrainingError: for what fits no training.
         """
-        for function in (*self.penalties, *self.called):
+        for function in (*self.penalties, *self.all_observers):
             if not callable(function):
                 raise TrainingError(
                     f"{function!r:.80} is called in the training, and is no function."
@@ -213,7 +213,7 @@ class FitOptions:
         return (given,) if callable(given) else tuple(given)
 
     @cached_property
-    def called(self) -> tuple[Observer, ...]:
+    def all_observers(self) -> tuple[Observer, ...]:
         """The observers."""
         return tuple(self.observers)
 

@@ -80,7 +80,7 @@ def train_from_starts(
         display(options.progress and first, sum(leg.epochs for leg in plan)) as show,
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
-        observers = (show, *options.called)
+        observers = (show, *options.all_observers)
         trained = train(problem, starts, plan, keys, observers, keep, stored, held)
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in _warnings(own, start, one):

@@ -626,3 +626,27 @@ def test_flattening_twice_gives_the_same():
     assert [g.template for g in first.groups] == [g.template for g in second.groups]
     for a, b in zip(first.groups, second.groups, strict=True):
         np.testing.assert_array_equal(a.variables, b.variables)
+
+
+def test_parameters_bound_to_a_parameter_are_that_parameter():
+    class Box(ac.Component):
+        c = ac.Parameter(3.0)
+
+        def __init__(self):
+            super().__init__()
+            self.a = SpringDamper(c=self.c, d=1.0)
+            self.b = SpringDamper(c=self.a.c, d=self.c * 1)
+
+    flat = flatten(Box())
+    target = flat.parameter_aliases
+    names = [flat.layout.parameter(i) for i in range(len(target))]
+    same = {names[i]: names[t] for i, t in enumerate(target) if t != i}
+    assert same == {"a.c": "c", "b.c": "c", "b.d": "c"}
+
+
+def test_parameters_are_found_by_name():
+    flat = flatten(model(a=Mass(m=1.0), b=SpringDamper(c=2.0, d=3.0)))
+    names = [flat.layout.parameter(i) for i in range(len(flat.value))]
+    assert [flat.layout.find_parameter(n) for n in names] == list(range(len(names)))
+    assert flat.layout.find_parameter("a.no_such") is None
+    assert flat.layout.find_parameter("") is None

@@ -6,7 +6,7 @@ import pytest
 import acausal as ac
 from acausal.flattening.flat_model import flatten
 from acausal.flattening.template import Template, slot
-from acausal.structure.aliases import eliminate_aliases, parameter_aliases
+from acausal.structure.aliases import eliminate_aliases
 from tests.support.oracle import worst
 from tests.support.parts import Equations, Fixed, Mass, SpringDamper, model
 
@@ -176,22 +176,6 @@ def test_inputs_are_free():
     for told, (variables, stated, inputs) in cases.items():
         with pytest.raises(ac.StructureError, match=told):
             ac.compile(Equations(variables, stated, inputs))
-
-
-def test_parameters_bound_to_a_parameter_are_that_parameter():
-    class Box(ac.Component):
-        c = ac.Parameter(3.0)
-
-        def __init__(self):
-            super().__init__()
-            self.a = SpringDamper(c=self.c, d=1.0)
-            self.b = SpringDamper(c=self.a.c, d=self.c * 1)
-
-    flat = flatten(Box())
-    target = parameter_aliases(flat)
-    names = [flat.layout.parameter(i) for i in range(len(target))]
-    same = {names[i]: names[t] for i, t in enumerate(target) if t != i}
-    assert same == {"a.c": "c", "b.c": "c", "b.d": "c"}
 
 
 def test_a_variable_over_a_zero_default_is_told():

@@ -11,6 +11,8 @@ import jax.numpy as jnp
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Float, Int, PRNGKeyArray, PyTree
 
+from acausal._jax import value_and_jacobian
+
 Scalar = Float[Array, ""]
 
 
@@ -92,19 +94,6 @@ def with_gradient(objective: Objective, trainable: PyTree, batch: Batch) -> Eval
     evaluate = jax.value_and_grad(lambda tree: total(objective, tree, batch), has_aux=True)
     (value, (losses, penalties)), gradient = evaluate(trainable)
     return Evaluated(losses, penalties, value, gradient)
-
-
-def value_and_jacobian(
-    function: Callable[[Float[Array, " P"]], Float[Array, " ..."]],
-    at: Float[Array, " P"],
-    axis: int,
-) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
-    """A function's value and Jacobian, in forward mode; ``axis`` of the Jacobian belongs to the arguments."""
-
-    def push(direction: Float[Array, " P"]) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
-        return jax.jvp(function, (at,), (direction,))
-
-    return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at)))
 
 
 def with_gauss_newton_hessian(

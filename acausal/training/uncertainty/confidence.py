@@ -21,11 +21,11 @@ import numpy as np
 from jaxtyping import Array, Float
 from scipy.linalg import solve_triangular
 
+from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import law_of, output_scale
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
-from acausal.training.optimizers.gradients import value_and_jacobian
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.residuals import correlation_time
 
