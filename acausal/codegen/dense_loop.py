@@ -17,7 +17,7 @@ from acausal.codegen.reading import Arrays, read_arguments
 from acausal.codegen.values import Values
 from acausal.modeling import time
 
-Slots = dict[sp.Symbol, Any]
+SlotValues = dict[sp.Symbol, Any]
 
 
 def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> list[Array]:
@@ -82,7 +82,7 @@ def _row(value: Any, i: int) -> Any:
     return jax.tree.map(lambda leaf: leaf[i] if eqx.is_array(leaf) else leaf, value.module)
 
 
-def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Slots) -> tuple[Array, Array]:
+def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: SlotValues) -> tuple[Array, Array]:
     """All unknowns of a torn block, and its residuals, for given tearing variables."""
     unknowns: list[Any] = [None] * loop.outputs
     for i, variable in enumerate(loop.tears):
@@ -93,9 +93,9 @@ def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Slots) -> tuple[Arra
     return jnp.stack(unknowns), jnp.stack(residuals)
 
 
-def _filled(formula: BlockFormula, unknowns: list[Any], t: Any, known: Slots) -> Slots:
+def _filled(formula: BlockFormula, unknowns: list[Any], t: Any, known: SlotValues) -> SlotValues:
     """What fills the slots of a formula of the block."""
-    values: Slots = {time: t}
+    values: SlotValues = {time: t}
     for symbol, code in formula.variables:
         values[symbol] = unknowns[code] if code >= 0 else known[external(-1 - code)]
     for symbol, i in formula.parameters:

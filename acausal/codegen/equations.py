@@ -35,7 +35,7 @@ MAX_LOOP = 6
 
 time = sp.Symbol("time")
 
-Slots = dict[sp.Symbol, sp.Expr]
+SlotExpressions = dict[sp.Symbol, sp.Expr]
 
 
 def explicit_equations(
@@ -106,9 +106,9 @@ class _Writer:
     def _read(self, arguments: Arguments, size: int, row: int) -> list[Place]:
         return [self._place(g, size, row) for _, g in arguments.variables]
 
-    def _slots(self, arguments: Arguments, size: int, row: int) -> Slots:
+    def _slots(self, arguments: Arguments, size: int, row: int) -> SlotExpressions:
         """What fills the slots of one instance."""
-        names: Slots = {internal_time: time}
+        names: SlotExpressions = {internal_time: time}
         for symbol, gather in arguments.variables:
             names[symbol] = self._values[self._place(gather, size, row)]
         for symbol, gather in arguments.parameters:
@@ -193,9 +193,11 @@ def _add(
         terms[row].append(sp.nsimplify(factor) * value)
 
 
-def _written(formula: BlockFormula, unknowns: Sequence[sp.Symbol], filled: Slots) -> sp.Expr:
+def _written(
+    formula: BlockFormula, unknowns: Sequence[sp.Symbol], filled: SlotExpressions
+) -> sp.Expr:
     """A formula of a torn loop in the names of its unknowns and of what fills the loop's slots."""
-    names: Slots = {internal_time: time}
+    names: SlotExpressions = {internal_time: time}
     for symbol, code in formula.variables:
         names[symbol] = unknowns[code] if code >= 0 else filled[external(-1 - code)]
     names |= {symbol: filled[parameter(i)] for symbol, i in formula.parameters}

@@ -49,7 +49,7 @@ class Jacobian(Protocol):
         ...
 
 
-class Residuals(Protocol):
+class RootProblem(Protocol):
     """Equations whose root is looked for."""
 
     def residual(self, z: Array, /) -> Array:
@@ -107,7 +107,7 @@ _State = tuple[Array, Array, Array]
 """Of Newton's method: the point, the status, the number of steps."""
 
 
-class _Walk(NamedTuple):
+class _PathSearch(NamedTuple):
     """Where the search is: its phase, the last point (m + 1,) of unknowns in units and s, and the next stride.
 
     The path is followed upward in s first; where that leads nowhere, the other way round.
@@ -122,7 +122,7 @@ class _Walk(NamedTuple):
 
 
 def root(
-    equations: Residuals,
+    equations: RootProblem,
     guess: Float[Array, " m"],
     scale: Float[Array, " m"] | float = 1.0,
     max_steps: int = 300,
@@ -149,7 +149,7 @@ def root(
         reach = jacobian.reach(sizes[:-1]) + jnp.abs(first) * sizes[-1]
         return rest, reach, jacobian.step(rest, first, direction / units) / units
 
-    def go_on(w: _Walk) -> _Walk:
+    def go_on(w: _PathSearch) -> _PathSearch:
         walking = w.phase == ON_THE_WAY
         direction = jnp.where(walking, w.direction, upward)
         ahead = jnp.where(walking, w.point + w.stride * w.direction, w.point.at[-1].set(1.0))
@@ -167,7 +167,7 @@ def root(
         part = jnp.where(passed, (1 - w.point[-1]) / (point[-1] - w.point[-1]), 1.0)
         kept = jnp.where(good, w.point + part * taken, jnp.where(back, begin, w.point))
         stride = jnp.where(good, 1.5 * length, jnp.where(walking, w.stride / 3, w.stride))
-        return _Walk(
+        return _PathSearch(
             jnp.where(walking, on, ends),
             jnp.where(walking, kept, jnp.where(arrived | (w.phase != ALONE), point, begin)),
             jnp.where(good, taken / length, jnp.where(back, -upward, w.direction)),
@@ -177,7 +177,7 @@ def root(
         )
 
     stride = FIRST * jnp.ones_like(begin[-1])
-    start = _Walk(jnp.array(ALONE), begin, upward, stride, jnp.array(0), jnp.array(True))
+    start = _PathSearch(jnp.array(ALONE), begin, upward, stride, jnp.array(0), jnp.array(True))
     end = jax.lax.while_loop(lambda w: w.phase < DONE, go_on, start)
     return end.point[:-1] * unit, end.phase == DONE
 

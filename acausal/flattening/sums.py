@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.flattening.template import Kept, Template, slot
+from acausal.flattening.template import KeptSlots, Template, slot
 
 FEW = 8
 """A sum of up to so many terms is a formula like any other."""
@@ -55,7 +55,7 @@ class Sum:
         terms = zip(self.factors, self.variables, strict=True)
         return sp.Add(*(factor * symbol for factor, symbol in terms))
 
-    def specialised(self, pattern: tuple[int, ...]) -> tuple[Statement, Kept]:
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Statement, KeptSlots]:
         """See `Template.specialised`."""
         merged: dict[int, int] = {}
         for factor, code in zip(self.factors, pattern, strict=True):

@@ -19,7 +19,7 @@ from acausal.modeling import Prescribed, time
 
 Integers = np.ndarray[Any, np.dtype[np.int64]]
 
-Kept = tuple[list[int], list[int], list[int]]
+KeptSlots = tuple[list[int], list[int], list[int]]
 """The columns of the slots that remain: variables, parameters, modules."""
 
 
@@ -60,7 +60,7 @@ class Template:
     # -- rewriting ---------------------------------------------------------------------------------
 
     @cache
-    def specialised(self, pattern: tuple[int, ...]) -> tuple[Template, Kept]:
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Template, KeptSlots]:
         """The template with slots merged, negated or set to zero, and the columns of the slots that remain.
 
         Arguments:

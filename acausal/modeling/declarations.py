@@ -15,7 +15,7 @@ from acausal.errors import DeclarationError
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")
-Shape = int | str | tuple[int | str, ...] | None
+DeclaredShape = int | str | tuple[int | str, ...] | None
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Declaration:
     name: str = ""
 
     def __init__(
-        self, *, unit: str = "", shape: Shape = None, when: str | None = None, doc: str = ""
+        self, *, unit: str = "", shape: DeclaredShape = None, when: str | None = None, doc: str = ""
     ) -> None:
         self.unit, self.when, self.doc = unit, when, doc
         self.shape: tuple[int | str, ...] | None = (
@@ -83,7 +83,7 @@ class Parameter(Declaration):
         unit: str = "",
         min: float | None = None,  # noqa: A002 (Modelica's name)
         max: float | None = None,  # noqa: A002
-        shape: Shape = None,
+        shape: DeclaredShape = None,
         when: str | None = None,
         doc: str = "",
     ) -> None:
@@ -106,7 +106,7 @@ class Variable(Declaration):
         fixed: bool | str = False,
         nominal: float | str = 1.0,
         state: StateSelect | str = "default",
-        shape: Shape = None,
+        shape: DeclaredShape = None,
         when: str | None = None,
         doc: str = "",
     ) -> None:

@@ -16,9 +16,9 @@ from acausal.networks.scaled import EnergyLaw
 from acausal.networks.spec import Layers, Net, NetworkSpec
 from acausal.networks.symmetry import Even
 
-Shape = Callable[[Net, int], Net]
+EnergyPart = Callable[[Net, int], Net]
 
-FREE: dict[tuple[bool, bool], Shape] = {
+FREE: dict[tuple[bool, bool], EnergyPart] = {
     (False, False): FromRest,
     (False, True): lambda net, n: FromRest(Even(net, n), n),
     (True, False): Bowl,
@@ -26,7 +26,7 @@ FREE: dict[tuple[bool, bool], Shape] = {
 }
 """Parts of energies of (passive, odd) laws that need not be convex."""
 
-CONVEX: dict[tuple[bool, bool], Shape] = {
+CONVEX: dict[tuple[bool, bool], EnergyPart] = {
     (False, False): FromRest,
     (False, True): lambda net, n: FromRest(Even(net, n), n),
     (True, False): Levelled,

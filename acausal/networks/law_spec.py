@@ -17,9 +17,9 @@ from acausal.networks.spec import Layers, Net, NetworkSpec, ZeroCrossing
 from acausal.networks.symmetry import Even, Odd
 from acausal.networks.zero import OffsetCorrected, ThroughZero
 
-Shape = Callable[[Net], Net]
+LawPart = Callable[[Net], Net]
 
-FREE: dict[tuple[bool, bool], Shape] = {
+FREE: dict[tuple[bool, bool], LawPart] = {
     (False, False): lambda net: net,
     (False, True): Odd,
     (True, False): Passive,
@@ -27,7 +27,7 @@ FREE: dict[tuple[bool, bool], Shape] = {
 }
 """Parts of (passive, odd) laws that need not be monotone."""
 
-MONOTONE: dict[tuple[bool, bool], Shape] = {
+MONOTONE: dict[tuple[bool, bool], LawPart] = {
     (False, False): lambda net: net,
     (False, True): Odd,
     (True, False): lambda net: SameSign(OffsetCorrected(net)),
@@ -35,7 +35,7 @@ MONOTONE: dict[tuple[bool, bool], Shape] = {
 }
 """Parts of (passive, odd) monotone laws: one that increases through zero is passive."""
 
-ZERO: dict[ZeroCrossing | None, Shape] = {
+ZERO: dict[ZeroCrossing | None, LawPart] = {
     None: lambda net: net,
     "regularizer": lambda net: net,
     "offset": OffsetCorrected,

@@ -19,7 +19,7 @@ from acausal.reporting.plot import (
     plot_modifiers as plot_modifiers,
 )
 from acausal.reporting.sections import (
-    Law as Law,
+    LearnedLaw as LearnedLaw,
     add_divergences as add_divergences,
     add_laws as add_laws,
     add_losses as add_losses,

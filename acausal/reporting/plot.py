@@ -23,7 +23,7 @@ SIGMAS = 3.0
 """Learned functions are drawn over this many sigmas of their inputs."""
 
 
-class Seen(Protocol):
+class InputStatistics(Protocol):
     """Mean and standard deviation of the arguments that a network was called with, such as `Fit.seen`."""
 
     @property
@@ -37,7 +37,7 @@ class Seen(Protocol):
         ...
 
 
-class Band(Protocol):
+class UncertainCurve(Protocol):
     """A curve with its standard deviation, such as `Confidence.laws`."""
 
     @property
@@ -101,7 +101,7 @@ class WithHistory(Protocol):
 def plot_learned(
     ax: Axes,
     functions: Mapping[str, Callable[..., Any]],
-    seen: Seen,
+    seen: InputStatistics,
     *,
     truth: Callable[[Float[np.ndarray, " points"]], ArrayLike] | None = None,
     xlabel: str = "",
@@ -128,7 +128,7 @@ def plot_learned(
     ax.legend(frameon=False)
 
 
-def plot_guides(ax: Axes, seen: Seen, start: float, end: float) -> None:
+def plot_guides(ax: Axes, seen: InputStatistics, start: float, end: float) -> None:
     """Mark over an axis from ``start`` to ``end`` what a network has seen of its first argument."""
     mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
     for side, edge in ((-1, start), (1, end)):
@@ -139,7 +139,7 @@ def plot_guides(ax: Axes, seen: Seen, start: float, end: float) -> None:
     ax.grid(alpha=0.25)
 
 
-def plot_band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") -> None:
+def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: str = "") -> None:
     """Draw a law with a band of two standard deviations to either side."""
     low, high = law.law - 2 * law.sigma, law.law + 2 * law.sigma
     ax.fill_between(law.x, low, high, color=color, alpha=0.2, lw=0)

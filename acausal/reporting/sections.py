@@ -10,9 +10,9 @@ from jaxtyping import Float
 
 from acausal.reporting.html import Page
 from acausal.reporting.plot import (
-    Band,
+    InputStatistics,
     Losses,
-    Seen,
+    UncertainCurve,
     plot_band,
     plot_guides,
     plot_losses,
@@ -35,7 +35,7 @@ DIVERGENCES_SHOWN = 50
 """Divergences that are listed."""
 
 
-class Law(NamedTuple):
+class LearnedLaw(NamedTuple):
     """A learned law.
 
     Attributes:
@@ -44,8 +44,8 @@ class Law(NamedTuple):
         samples: some of the values that its first argument had.
     """
 
-    band: Band
-    seen: Seen
+    band: UncertainCurve
+    seen: InputStatistics
     samples: Float[np.ndarray, " n_samples"]
 
 
@@ -82,7 +82,7 @@ class Correlated(Protocol):
         ...
 
 
-class Divergence(Protocol):
+class DivergedUpdate(Protocol):
     """Something that diverged in an update; its text says what."""
 
     @property
@@ -144,7 +144,7 @@ def add_trajectories(
 def add_predictions(
     page: Page,
     measured: Float[np.ndarray, "N n_targets"],
-    predicted: Mapping[str, Band],
+    predicted: Mapping[str, UncertainCurve],
     units: Mapping[str, str],
 ) -> None:
     """What was measured, and what members of an ensemble predict on average, by target."""
@@ -161,7 +161,7 @@ def add_predictions(
         page.figure(figure(WIDE, draw), f"A stretch of '{name}', two standard deviations wide.")
 
 
-def add_laws(page: Page, laws: Mapping[str, Law]) -> None:
+def add_laws(page: Page, laws: Mapping[str, LearnedLaw]) -> None:
     """Learned laws by network with their bands, over what the networks have seen."""
     if not laws:
         return
@@ -172,7 +172,7 @@ def add_laws(page: Page, laws: Mapping[str, Law]) -> None:
     )
     for name, law in laws.items():
 
-        def draw(ax: Axes, name: str = name, law: Law = law) -> None:
+        def draw(ax: Axes, name: str = name, law: LearnedLaw = law) -> None:
             band, seen, samples = law
             plot_band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
@@ -220,7 +220,7 @@ def add_residuals(page: Page, found: Sequence[Correlated]) -> None:
         )
 
 
-def add_divergences(page: Page, divergences: Sequence[Divergence]) -> None:
+def add_divergences(page: Page, divergences: Sequence[DivergedUpdate]) -> None:
     """What diverged in the training, if anything did."""
     if not divergences:
         return

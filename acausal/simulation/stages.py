@@ -15,8 +15,8 @@ from jaxtyping import Array, Bool, Float, Int, PyTree
 from acausal.simulation.stage_arguments import KEPT, stage_of
 
 Unknown: TypeAlias = Float[Array, " n_states"]
-Factors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
-Residual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
+LUFactors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
+StageResidual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
 """(unknown, arguments) -> residual, and what comes along."""
 
 KAPPA = 0.01
@@ -29,7 +29,7 @@ SLOW = 0.1
 class _Iteration(eqx.Module):
     """The state of the iteration: the factors of the Jacobian, and the sizes of the last two corrections."""
 
-    factors: Factors
+    factors: LUFactors
     size: Float[Array, ""]
     previous: Float[Array, ""]
     renewed: Bool[Array, ""]
@@ -62,7 +62,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def init(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         args: PyTree,
         options: dict[str, Any],
@@ -78,7 +78,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def step(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         args: PyTree,
         options: dict[str, Any],
@@ -98,7 +98,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def terminate(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         args: PyTree,
         options: dict[str, Any],
@@ -118,7 +118,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def postprocess(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         aux: PyTree,
         args: PyTree,
@@ -136,6 +136,6 @@ def stage_newton() -> optx.AbstractRootFinder[Any, Any, Any, Any]:
     return dfx.with_stepsize_controller_tols(StageNewton)()
 
 
-def _factors(fn: Residual, y: Unknown, args: PyTree) -> Factors:
+def _factors(fn: StageResidual, y: Unknown, args: PyTree) -> LUFactors:
     jacobian = jax.jacfwd(lambda y: fn(y, args)[0])(y)
     return jax.scipy.linalg.lu_factor(jacobian)

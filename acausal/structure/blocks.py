@@ -57,7 +57,7 @@ class Accumulation:
         return (self.unknowns,)
 
 
-Step = Assignment | Accumulation | TornLoop | SparseLoop
+SolvingStep = Assignment | Accumulation | TornLoop | SparseLoop
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class _Pending:
     """Equal blocks of one level, and what makes one step of them."""
 
     level: int
-    make: Callable[[list[Any]], Step]
+    make: Callable[[list[Any]], SolvingStep]
     members: list[Any] = field(default_factory=list[Any])
 
 
@@ -74,7 +74,7 @@ _Groups = dict[Hashable, _Pending]
 
 def order_steps(
     system: Equations, incidence: list[list[int]], variable_of: list[int], blocks: graph.Blocks
-) -> tuple[Step, ...]:
+) -> tuple[SolvingStep, ...]:
     """Group what can be computed at the same level by the same formula.
 
     What sums of a loop read outside of the loop becomes one variable, added up before.
@@ -91,7 +91,7 @@ def order_steps(
     large: _Groups = {}
 
     def collect(
-        groups: _Groups, key: Hashable, make: Callable[[list[Any]], Step], *new: Any
+        groups: _Groups, key: Hashable, make: Callable[[list[Any]], SolvingStep], *new: Any
     ) -> None:
         groups.setdefault((level, key), _Pending(level, make)).members.extend(new)
 

@@ -64,11 +64,11 @@ def analyse(rows: Integers, columns: Integers, values: np.ndarray, n: int) -> Pa
     return Pattern(rows, columns, *orders)
 
 
-Columns = dict[int, dict[int, float]]
+SparseColumns = dict[int, dict[int, float]]
 """Entries by column and row."""
 
 
-def _cheap_pivots(matrix: Any) -> tuple[list[tuple[int, int]], Columns]:
+def _cheap_pivots(matrix: Any) -> tuple[list[tuple[int, int]], SparseColumns]:
     """The pivots (row, column) that cost little, in order, and what is left when they are eliminated."""
     starts, indices, data = matrix.indptr.tolist(), matrix.indices.tolist(), matrix.data.tolist()
     columns = {
@@ -106,7 +106,7 @@ def _cheap_pivots(matrix: Any) -> tuple[list[tuple[int, int]], Columns]:
 
 
 def _eliminate(
-    columns: Columns, holders: dict[int, dict[int, None]], pivot: int, row: int
+    columns: SparseColumns, holders: dict[int, dict[int, None]], pivot: int, row: int
 ) -> list[int]:
     """Take a pivot's column and row out of the matrix; returns the columns that changed."""
     column = columns.pop(pivot)
@@ -128,7 +128,7 @@ def _eliminate(
     return changed
 
 
-def _core(columns: Columns) -> tuple[Integers, Integers, Any]:
+def _core(columns: SparseColumns) -> tuple[Integers, Integers, Any]:
     """What is left as a matrix of its own, with the numbers of its rows and columns."""
     column_numbers = np.asarray(list(columns), dtype=np.int64)
     entries = [(r, i, v) for i, column in enumerate(columns.values()) for r, v in column.items()]

@@ -23,7 +23,7 @@ from acausal.structure.rank import cancelling, prune_singletons
 
 PRIME = 2**61 - 1
 RESIDUES = sp.GF(PRIME)
-Columns = dict[int, int]
+ColumnByUnknown = dict[int, int]
 """Unknowns, and the columns that they stand in."""
 Part = tuple[Statement, sp.Expr, tuple[int, ...], tuple[int, ...]]
 """A template, its factor, the slots of variables that are kept, and in what slot of the sum each parameter goes."""
@@ -48,10 +48,10 @@ def expose_constraints(system: Equations) -> dict[int, list[int]]:
     return found
 
 
-def _highest(system: Equations) -> dict[int, Columns]:
+def _highest(system: Equations) -> dict[int, ColumnByUnknown]:
     """The unknowns without derivative of every equation in which all of them have constant factors."""
     derivative, known = system.structure.derivative, system.known
-    found: dict[int, Columns] = {}
+    found: dict[int, ColumnByUnknown] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
         columns = {v: c for c, v in enumerate(row) if derivative[v] < 0 and v not in known}
         if columns and (template.coefficients() or _are_constant(template, columns.values())):
@@ -75,7 +75,7 @@ def _factor(template: Statement, column: int) -> Any:
 
 
 def _residues(
-    system: Equations, equation: int, columns: Columns, residue: Callable[[int], Any]
+    system: Equations, equation: int, columns: ColumnByUnknown, residue: Callable[[int], Any]
 ) -> dict[int, Any]:
     """The factors of unknowns modulo the prime."""
     template = system.template[equation]
@@ -99,7 +99,7 @@ def _parameters(system: Equations, equations: dict[int, Any]) -> list[int]:
 
 
 def _exactly(
-    system: Equations, rows: dict[int, Columns], numbers: dict[int, int]
+    system: Equations, rows: dict[int, ColumnByUnknown], numbers: dict[int, int]
 ) -> list[dict[int, sp.Expr]]:
     """Factors with which these equations cancel, if there are any: polynomials in ``_symbol(number)``."""
     coefficients: dict[int, dict[int, Any]] = {}

@@ -14,7 +14,7 @@ from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree, eliminate_aliases
-from acausal.structure.blocks import Step, order_steps
+from acausal.structure.blocks import SolvingStep, order_steps
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
@@ -51,7 +51,7 @@ class ReducedModel:
     base: Integers
     derivative: Integers
     derivative_sign: Integers
-    steps: tuple[Step, ...]
+    steps: tuple[SolvingStep, ...]
 
     def resolve(self, node: int) -> tuple[int, int]:
         """Representative of a node and the node's sign relative to it."""

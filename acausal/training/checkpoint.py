@@ -26,7 +26,7 @@ LOG = "log {}: "
 """Prefix of the names of a training log's columns in a file."""
 
 
-class Kept(NamedTuple):
+class StoredBest(NamedTuple):
     """The best of a training: `acausal.training.member.Best` without its simulation, which can be repeated."""
 
     loss: float
@@ -49,7 +49,7 @@ class Snapshot(NamedTuple):
     leg: int
     before: int
     state: State
-    bests: tuple[Kept, ...]
+    bests: tuple[StoredBest, ...]
     evaluated: int
     seconds: float
     compiling: float

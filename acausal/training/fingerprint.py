@@ -136,7 +136,7 @@ def _optimizer(leg: Leg) -> str:
             value=_squares(trainable),
             grad=gradient,
             value_fn=_squares,
-            curvature=jnp.zeros((count, count)),
+            hessian=jnp.zeros((count, count)),
         )
 
     start = leg.objective.start()

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Int, PRNGKeyArray
 
 from acausal.errors import TrainingError
-from acausal.training.checkpoint import Keep, Kept, Snapshot, Stored
+from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
 from acausal.training.history import Divergence, History, Log
 from acausal.training.member import Best, Member, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
@@ -143,7 +143,7 @@ class _Run:
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
         """Restore a training; returns its leg and the trainer's state."""
         validation = None if self.members[0].held is None else 0.0
-        bests = tuple(Kept(0.0, validation, 0, start) for start in starts)
+        bests = tuple(StoredBest(0.0, validation, 0, start) for start in starts)
         state = self._begin(stored.leg, starts)
         like = Snapshot(stored.leg, 0, state, bests, 0, 0.0, 0.0, 0.0)
         snapshot = replicate(stored.snapshot(like), self.mesh)
@@ -226,7 +226,7 @@ class _Run:
     def _keep(self, leg: int, state: State) -> None:
         """Hand out all that is needed to go on from here."""
         seconds = time.perf_counter() - self.began
-        bests = tuple(Kept(*m.best[:-1]) for m in self.members)
+        bests = tuple(StoredBest(*m.best[:-1]) for m in self.members)
         snapshot = Snapshot(
             leg, self.before, state, bests, self.evaluated, seconds, self.compiling, self.updating
         )

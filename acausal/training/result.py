@@ -18,7 +18,7 @@ from acausal.data import Data
 from acausal.errors import TrainingError, nearest
 from acausal.networks import remove_offset
 from acausal.reporting import (
-    Law,
+    LearnedLaw,
     Page,
     add_divergences,
     add_laws,
@@ -226,9 +226,9 @@ class Fit:
             rows.append((name, value, written(name, change, "+.3g", unit), sigma))
         return rows
 
-    def with_bands(self, bands: Mapping[str, Band]) -> dict[str, Law]:
+    def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
         """Learned laws as reports show them: bands over what their networks have seen."""
-        return {n: Law(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
+        return {n: LearnedLaw(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""

@@ -38,7 +38,7 @@ class Signature:
     result: Dimension | None = None
 
 
-Slots = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
+SlotDimensions = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
 """Every symbol, or those that are known, with its dimension."""
 
 
@@ -51,7 +51,7 @@ class Finding:
 
 
 @lru_cache(maxsize=4096)
-def examine(expression: sp.Expr, slots: Slots) -> Finding | None:
+def examine(expression: sp.Expr, slots: SlotDimensions) -> Finding | None:
     """The first term, comparison or argument of a function that has the wrong dimension; None if there is none.
 
     Numbers in the branches of cases may have a dimension of their own. Therefore an expression with cases is right if
@@ -160,7 +160,7 @@ def _quoted(term: Any) -> str:
 
 # -- rules: one for each kind of expression ------------------------------------------------------------
 
-Rule = Callable[[_Walk, Any], Dimension | None]
+DimensionRule = Callable[[_Walk, Any], Dimension | None]
 
 
 def _alike(walk: _Walk, expression: Any) -> Dimension | None:
@@ -245,7 +245,7 @@ def _call(walk: _Walk, expression: Any) -> Dimension | None:
     return found
 
 
-RULES: dict[type, Rule] = {
+RULES: dict[type, DimensionRule] = {
     sp.Add: _alike,
     sp.Mul: _product,
     sp.Pow: _power,
@@ -262,5 +262,5 @@ RULES: dict[type, Rule] = {
 
 
 @cache
-def _rule(kind: type) -> Rule:
+def _rule(kind: type) -> DimensionRule:
     return next(RULES[k] for k in kind.__mro__ if k in RULES)

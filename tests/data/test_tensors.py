@@ -50,12 +50,12 @@ def test_parameters_come_back_as_they_were(saved: Path):
 
 
 class Line(eqx.Module):
-    slope: float
+    factor: float
     layers: list[Any]
     function: Any = eqx.field(static=True)
 
     def __call__(self, x: Any) -> Any:
-        return self.slope * x
+        return self.factor * x
 
 
 def test_networks_of_the_users_own(tmp_path: Path):

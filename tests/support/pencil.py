@@ -2,7 +2,7 @@
 
 The equations ``sum_k A_k x^(k) = ...`` have exactly one solution for consistent initial values where
 ``det(sum_k A_k s^k)`` is not zero, and as many states as its degree in ``s`` (Gantmacher 1959, chapter XII).
-Both are decided exactly: slopes are dyadic numbers, taken modulo a prime.
+Both are decided exactly: partial derivatives are dyadic numbers, taken modulo a prime.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from acausal.flattening.flat_model import FlatModel
-from acausal.structure.jacobian import Point, parameter_values, random_values, slopes
+from acausal.structure.jacobian import Point, parameter_values, partials, random_values
 
 PRIME = 2**61 - 1
 Polynomial = dict[int, int]
@@ -24,7 +24,7 @@ Row = dict[int, Polynomial]
 def degree(flat: FlatModel) -> int | None:
     """How many states the model has at its own parameter values; None if its pencil is singular.
 
-    Nonlinear equations are judged by their slopes at a point without relations.
+    Nonlinear equations are judged by their partial derivatives at a point without relations.
     """
     rows = _rows(flat)
     unknowns = flat.n_variables - len(flat.inputs)
@@ -42,7 +42,7 @@ def degree(flat: FlatModel) -> int | None:
 
 
 def _rows(flat: FlatModel) -> list[Row]:
-    """The slopes of all flat equations, by unknown and order of differentiation."""
+    """The partial derivatives of all flat equations, by unknown and order of differentiation."""
     n = flat.n_variables
     known = set(flat.inputs.tolist())
     orders = 1 + max((o for g in flat.groups for o in g.template.orders), default=0)
@@ -52,7 +52,7 @@ def _rows(flat: FlatModel) -> list[Row]:
         own: list[Row] = [{} for _ in range(len(group))]
         place = group.variables + n * np.asarray(group.template.orders, dtype=np.int64)
         for column, order in enumerate(group.template.orders):
-            found = slopes(group.template, column, place, group.parameters, point)
+            found = partials(group.template, column, place, group.parameters, point)
             for row, v, value in zip(own, group.variables[:, column], found, strict=True):
                 if int(v) not in known:
                     _add(row.setdefault(int(v), {}), {order: _modular(value)}, 1, 0)

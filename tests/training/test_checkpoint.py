@@ -153,7 +153,7 @@ def test_nothing_to_resume():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "names"),
+    ("chosen", "names"),
     [
         ({"seed": 1}, "'params', 'seed'"),
         ({"epochs": (30, 21)}, "'epochs'"),
@@ -167,10 +167,10 @@ def test_nothing_to_resume():
     ],
 )
 def test_a_checkpoint_of_another_training_is_refused(
-    interrupted: Path, wishes: dict[str, Any], names: str
+    interrupted: Path, chosen: dict[str, Any], names: str
 ):
     with pytest.raises(ac.DataError) as error:
-        train(checkpoint=interrupted, resume=True, **wishes)
+        train(checkpoint=interrupted, resume=True, **chosen)
     assert str(error.value) == (
         f"Checkpoint '{interrupted}' is of another training: {names} differ. "
         "Resume with the arguments it was begun with, or name another file."
@@ -180,14 +180,14 @@ def test_a_checkpoint_of_another_training_is_refused(
 def test_states_that_are_no_targets_are_part_of_the_data(tmp_path: Path):
     """Trained states begin where measured ones were, and move relative to that."""
     data = record(end=2.0).select(["mass.a", "mass.s", "push.f"])
-    wishes: dict[str, Any] = {
+    chosen: dict[str, Any] = {
         "x0": "fit", "modifiers": ["mass.m"], "epochs": 2, "checkpoint": tmp_path, "resume": True,
         "progress": False,
     }  # fmt: skip
-    ac.fit(plain(), data, "mass.a", **wishes)
+    ac.fit(plain(), data, "mass.a", **chosen)
     moved = ac.Data(data.time, {**data.signals, "mass.s": data["mass.s"] + 0.1})
     with pytest.raises(ac.DataError, match=r"is of another training: 'data' differ\."):
-        ac.fit(plain(), moved, "mass.a", **wishes)
+        ac.fit(plain(), moved, "mass.a", **chosen)
 
 
 def tampered(path: Path) -> bytes:
@@ -317,12 +317,12 @@ def test_a_loss_whose_helper_has_changed_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     """The loss itself is the same function."""
-    wishes: dict[str, Any] = {"loss": scaled, "checkpoint": tmp_path, "epochs": 1, "resume": True}
-    train(**wishes)
-    assert train(**wishes).history.epochs == 2
+    chosen: dict[str, Any] = {"loss": scaled, "checkpoint": tmp_path, "epochs": 1, "resume": True}
+    train(**chosen)
+    assert train(**chosen).history.epochs == 2
     monkeypatch.setitem(SCALE, "a", 2.0)
     with pytest.raises(ac.DataError, match=r"is of another training: 'loss' differ\."):
-        train(**wishes)
+        train(**chosen)
 
 
 SCALE = {"a": 1.0}

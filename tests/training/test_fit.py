@@ -21,9 +21,9 @@ from tests.support.slow_machine import slow_down
 CUBIC = 80.0
 
 
-def problem(system=None, data=None, targets=("mass.a",), **wishes):
+def problem(system=None, data=None, targets=("mass.a",), **chosen):
     system = learned() if system is None else system
-    options = FitOptions(**({"sequence_length": 0.5, "batch_size": 4} | wishes))
+    options = FitOptions(**({"sequence_length": 0.5, "batch_size": 4} | chosen))
     data = (record() if data is None else ac.Data.of(data)).for_system(system)
     return build_problem(system, data, targets, system.parameters(0), options)
 
@@ -46,7 +46,7 @@ def test_nrmse_of_a_perfect_prediction_has_a_gradient():
 
 
 @pytest.mark.parametrize(
-    "wishes",
+    "chosen",
     [
         {},
         {"sequence_length": None, "batch_size": 1},
@@ -54,8 +54,8 @@ def test_nrmse_of_a_perfect_prediction_has_a_gradient():
     ],
     ids=["sequences", "whole", "points, substeps, modifiers"],
 )
-def test_the_gradient_of_the_loss_is_that_of_differences(wishes):
-    posed = problem(regularizers=(ac.ZeroCrossing(), ac.SmallCorrection()), **wishes)
+def test_the_gradient_of_the_loss_is_that_of_differences(chosen):
+    posed = problem(regularizers=(ac.ZeroCrossing(), ac.SmallCorrection()), **chosen)
     start, batch = posed.start(), posed.draw(jax.random.key(3))
     start = jax.tree.map(lambda a: a + 0.1, start)  # no modifier at zero
 
@@ -333,7 +333,7 @@ def test_too_many_rejections_end_the_training():
 def test_a_gradient_that_is_not_finite_is_rejected():
     def poison(params, context):
         m = params["mass.m"]
-        return jnp.where(m > 1.99, jnp.sqrt(m - m), 0.0)  # zero, with an infinite slope
+        return jnp.where(m > 1.99, jnp.sqrt(m - m), 0.0)  # zero, with an infinite derivative
 
     with pytest.raises(ac.TrainingError, match="the gradient is not finite"):
         ac.fit(plain(), record(), "mass.a", modifiers=["mass.m"], regularizers=[poison],
@@ -411,7 +411,7 @@ def test_outputs_alone_suffice_for_the_whole_record():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "kind", "sentence"),
+    ("chosen", "kind", "sentence"),
     [
         ({"data": ["mass.a", "push.f"]}, ac.DataError,
          ("The data lack 'mass.s', 'mass.v': sequences start from measured states. "
@@ -453,10 +453,10 @@ def test_outputs_alone_suffice_for_the_whole_record():
          "'push.f': a target is what the model computes, not its input."),
     ],
 )  # fmt: skip
-def test_mistakes_get_one_sentence(wishes, kind, sentence):
-    data = record().select(wishes.pop("data", record().signals))
+def test_mistakes_get_one_sentence(chosen, kind, sentence):
+    data = record().select(chosen.pop("data", record().signals))
     with pytest.raises(kind) as error:
-        problem(data=data, **wishes)
+        problem(data=data, **chosen)
     assert str(error.value) == sentence
 
 

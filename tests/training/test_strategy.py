@@ -88,19 +88,19 @@ class Bowl(eqx.Module):
 
 
 @pytest.mark.parametrize(
-    ("value", "told"),
+    ("value", "expected"),
     [
         (True, "epoch 1: the sequence from t = 0 s diverged; update rejected"),
         (False, "epoch 1: the gradient is not finite; update rejected"),
     ],
 )
-def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, told: str):
+def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, expected: str):
     """The first step, of length 0.1, leads beyond the edge."""
     trainer = Trainer(ac.lbfgs(), 1e3, lambda objective, x: {})
     state = begin(trainer, jnp.asarray(0.95), jax.random.key(0))
     state, rows = advance(Bowl(1.02, value), trainer, state, jnp.asarray(20))
     log = Log(np.zeros(1), (), ())
-    assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [told]
+    assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [expected]
     assert int(state.rejected) == 0
     assert float(state.optimizer.point[0]) == pytest.approx(1.0, abs=1e-9)
 
@@ -259,7 +259,7 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "sentence"),
+    ("chosen", "sentence"),
     [
         ({"strategy": "equation_eror"}, "No strategy 'equation_eror': did you mean 'equation_error'?"),
         ({"strategy": "equation_error", "data": ["mass.a", "push.f"]},
@@ -281,9 +281,9 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
           "(sequence_length=None), or strategy=('sequences', 'whole_record') with another optimizer.")),
     ],
 )  # fmt: skip
-def test_mistakes_get_one_sentence(wishes: dict[str, Any], sentence: str):
-    data = record(end=2.0).select(wishes.pop("data", record().signals))
-    targets = wishes.pop("targets", "mass.a")
+def test_mistakes_get_one_sentence(chosen: dict[str, Any], sentence: str):
+    data = record(end=2.0).select(chosen.pop("data", record().signals))
+    targets = chosen.pop("targets", "mass.a")
     with pytest.raises(ac.TrainingError) as error:
-        ac.fit(learned(), data, targets, x0="model", **QUIET, **wishes)
+        ac.fit(learned(), data, targets, x0="model", **QUIET, **chosen)
     assert str(error.value) == sentence

@@ -272,7 +272,7 @@ class Problem(eqx.Module):
     def predictions(self, trainable: Trainable) -> Float[Array, "n_models n_samples n_targets"]:
         """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
-        return self.parameter_spread.each(lambda p: self.predict(trainable, p), params)
+        return self.parameter_spread.over_models(lambda p: self.predict(trainable, p), params)
 
     # -- simulation ----------------------------------------------------------------------------------
 

@@ -14,7 +14,7 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray, PyTree
 Scalar = Float[Array, ""]
 
 
-class Batch(Protocol):
+class WeightedBatch(Protocol):
     """Sequences of a record."""
 
     @property
@@ -79,7 +79,7 @@ Evaluate = Callable[..., Evaluated]
 
 
 def total(
-    objective: Objective, trainable: PyTree, batch: Batch
+    objective: Objective, trainable: PyTree, batch: WeightedBatch
 ) -> tuple[Scalar, tuple[Float[Array, " batch"], dict[str, Scalar]]]:
     """What is minimised; the losses and penalties that it consists of."""
     losses = objective.losses(trainable, batch)
@@ -87,7 +87,7 @@ def total(
     return jnp.average(losses, weights=batch.weight) + _sum(penalties), (losses, penalties)
 
 
-def with_gradient(objective: Objective, trainable: PyTree, batch: Batch) -> Evaluated:
+def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch) -> Evaluated:
     """The gradient alone, in reverse mode."""
     evaluate = jax.value_and_grad(lambda tree: total(objective, tree, batch), has_aux=True)
     (value, (losses, penalties)), gradient = evaluate(trainable)
@@ -108,7 +108,7 @@ def value_and_jacobian(
 
 
 def with_gauss_newton_hessian(
-    objective: LeastSquares, trainable: PyTree, batch: Batch
+    objective: LeastSquares, trainable: PyTree, batch: WeightedBatch
 ) -> Evaluated:
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 

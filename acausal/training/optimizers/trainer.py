@@ -168,7 +168,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
         value=jnp.where(usable, found.total, jnp.inf),
         grad=gradient,
         value_fn=lambda trainable: total(objective, trainable, batch)[0],
-        **({} if hessian is None else {"curvature": hessian}),
+        **({} if hessian is None else {"hessian": hessian}),
     )
     moved = optax.apply_updates(state.trainable, steps)
     accepted = _finite(moved) & (usable | _takes_back(optimizer))
