@@ -27,7 +27,7 @@ FlatStep: TypeAlias = Callable[[Sequence[Array], Array, Sequence[Array]], list[A
 """The same with flat lists: [next state, *outputs]."""
 
 _Cotangents: TypeAlias = tuple[list[Array | None], Array, list[Array | None]]
-"""Of constants, first state and rows; None for an array that is not differentiated by."""
+"""Of constants, first state and rows; None for an array for which no derivative is needed."""
 
 _Carry: TypeAlias = tuple[Array, list[Array]]
 """The adjoint of the state, and the totals of constants' cotangents."""
@@ -80,7 +80,7 @@ def stored_scan(
 
 
 class _Input(Protocol):
-    """What JAX gives a forward rule: a value, and whether it is differentiated by."""
+    """What JAX gives a forward rule: a value, and whether its derivative is needed."""
 
     value: Array
     perturbed: bool
@@ -91,7 +91,7 @@ class _Saved(eqx.Module):
 
     Attributes:
         constants, states, rows: of the loop.
-        moved: which constants and which rows are differentiated by.
+        moved: the constants and rows whose derivatives are needed.
         operations: in a step.
     """
 

@@ -34,7 +34,7 @@ ENOUGH = 0.7
 """A further term must reduce the error at least by this factor."""
 
 BEAM = 8
-"""Formulas of each length that are extended."""
+"""How many formulas of each length are extended."""
 
 PLAIN = 1.1
 """Factor by which the error of a formula may be larger for each scale that it does not have."""
@@ -208,7 +208,7 @@ def _solved(columns: TermColumns, y: Points) -> Numbers:
 
 
 def _polished(x: Points, y: Points, chosen: list[tuple[str, float]]) -> Formula:
-    """All scales fitted together; the coefficients are a linear least-squares solution for given scales."""
+    """The formula with all scales fitted at once; for given scales the coefficients solve a linear least-squares problem."""
     names = tuple(n for n, _ in chosen)
     scales = np.array([s for _, s in chosen])
     free = np.array([TERMS[n].scaled for n in names])

@@ -72,7 +72,7 @@ def nearest_of_torn_loop(
 
 
 def _row(value: Any, i: int) -> Any:
-    """What one of several instances sees."""
+    """The value for one of several instances."""
     if not isinstance(value, ModuleValue):
         return value[i] if jnp.ndim(value) else value
     if isinstance(value.module, tuple):
@@ -94,7 +94,7 @@ def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: SlotValues) -> tuple
 
 
 def _filled(formula: BlockFormula, unknowns: list[Any], t: Any, known: SlotValues) -> SlotValues:
-    """What fills the slots of a formula of the block."""
+    """The values in the slots of a formula of the block."""
     values: SlotValues = {time: t}
     for symbol, code in formula.variables:
         values[symbol] = unknowns[code] if code >= 0 else known[external(-1 - code)]

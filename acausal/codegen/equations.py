@@ -1,7 +1,7 @@
 """Write a program down as sympy equations, for people to read.
 
-Every derivative of a state is written in states, inputs and parameters; what cannot be written so, the unknowns of
-nonlinear loops, keeps its name and its equations follow.
+Every derivative of a state is an expression of states, inputs and parameters. The unknowns of nonlinear loops cannot be
+expressed so: they keep their names, and their equations follow.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from acausal.flattening import Integers
 from acausal.modeling import ModuleCall, primes, time as internal_time
 
 MAX_LOOP = 6
-"""Linear loops of more unknowns are not solved on paper."""
+"""Linear loops of more unknowns are not solved symbolically."""
 
 time = sp.Symbol("time")
 
@@ -72,7 +72,7 @@ class _Writer:
         return sp.Symbol(self.name(int(self.program.nodes[place[0]][place[1]])))
 
     def value(self, place: Place) -> sp.Expr:
-        """A value in terms of states, inputs and parameters (without recursion: chains may be long)."""
+        """A value as an expression of states, inputs and parameters (without recursion: chains may be long)."""
         stack = [place]
         while stack:
             current = stack[-1]

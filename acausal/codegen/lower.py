@@ -27,7 +27,7 @@ class ModuleValue:
 
     Attributes:
         module: one module for all instances; or, if ``stacked``, one whose arrays carry a leading axis of
-            instances; or a tuple of modules that are unlike each other, one for each instance.
+            instances; or a tuple of different modules, one for each instance.
     """
 
     module: Any
@@ -53,7 +53,7 @@ class ModuleValue:
 
 
 def collect(modules: Sequence[Any]) -> ModuleValue:
-    """The modules of several instances: stacked if they differ in the values of their arrays only."""
+    """The modules of several instances: stacked if they differ only in the values of their arrays."""
     parts = [eqx.partition(m, eqx.is_array) for m in modules]
     (first, rest), *others = parts
     alike = bool(jax.tree.leaves(first)) and all(

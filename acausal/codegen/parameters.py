@@ -105,7 +105,7 @@ class ParameterLayout:
 
     @cached_property
     def name_at(self) -> dict[int, str]:
-        """By position in ``Packed.values`` the parameter that lies there."""
+        """Position in ``Packed.values`` -> the parameter that lies there."""
         own = np.flatnonzero(parameter_aliases(self.model) == np.arange(len(self.position)))
         return {int(self.position[p]): self.model.layout.parameter(int(p)) for p in own}
 

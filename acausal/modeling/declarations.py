@@ -36,7 +36,7 @@ class Start:
 
     def __post_init__(self) -> None:
         if self.state is not None and self.state not in STATE_SELECT:
-            raise DeclarationError(f"state='{self.state}' is none of {', '.join(STATE_SELECT)}")
+            raise DeclarationError(f"state='{self.state}' must be one of {', '.join(STATE_SELECT)}")
 
 
 class Declaration:

@@ -48,7 +48,7 @@ def record_modifier(
         case Option():
             if declared.choices is not None and value not in declared.choices:
                 choices = ", ".join(map(repr, declared.choices))
-                raise DeclarationError(f"{where}={value!r} is none of {choices}")
+                raise DeclarationError(f"{where}={value!r} must be one of {choices}")
             if isinstance(declared.default, bool) and not isinstance(value, bool):
                 raise DeclarationError(f"{where}={value!r}: True or False is needed")
             node.options[name] = value

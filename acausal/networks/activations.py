@@ -42,6 +42,6 @@ def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str =
         raise DeclarationError(f"no activation '{name}': {nearest(name, ACTIVATIONS)}")
     if name not in allowed:
         raise DeclarationError(
-            f"activation '{name}' is not made for {use}; take one of {', '.join(allowed)}"
+            f"activation '{name}' does not suit {use}; choose one of {', '.join(allowed)}"
         )
     return name

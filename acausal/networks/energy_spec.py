@@ -62,14 +62,14 @@ class Energy(NetworkSpec):
             raise DeclarationError("extrapolation=... is for energies of one input; leave it out")
         if self.extrapolation and self.passive and not self.convex:
             raise DeclarationError(
-                "a passive energy may turn downwards at its limits; say convex=True, too, or leave out extrapolation"
+                "a passive energy may decrease beyond its limits; also give convex=True, or leave out extrapolation"
             )
 
     def check_bound(self, name: str) -> None:
         """Only convex energies can have a ``floor`` or ``start``."""
         if not self.convex:
             raise DeclarationError(
-                f"{name}=... is a curvature of a convex energy; say convex=True, too"
+                f"{name}=... is a curvature of a convex energy; also give convex=True"
             )
 
     @property

@@ -94,7 +94,7 @@ def check_limits(low: float, high: float, extrapolation: Extrapolation) -> None:
     """
     if extrapolation not in DERIVATIVES:
         raise DeclarationError(
-            f"extrapolation={extrapolation!r} is none of {', '.join(map(repr, DERIVATIVES))}"
+            f"extrapolation={extrapolation!r} must be one of {', '.join(map(repr, DERIVATIVES))}"
         )
     if not -math.inf < low < high < math.inf:
         raise DeclarationError(f"limits={low:g}, {high:g}: the first must be less than the second")

@@ -67,7 +67,7 @@ class Law(NetworkSpec):
         """Only monotone laws can have a ``floor`` or ``start``."""
         if not self.monotone:
             raise DeclarationError(
-                f"{name}=... is a derivative of a monotone law; say monotone=True, too"
+                f"{name}=... is a derivative of a monotone law; also give monotone=True"
             )
 
     @property

@@ -71,7 +71,7 @@ class NetworkSpec:
             value, choices = getattr(self, name), get_args(known)
             if value is not None and value not in choices:
                 raise DeclarationError(
-                    f"{name}={value!r} is none of {', '.join(map(repr, choices))}"
+                    f"{name}={value!r} must be one of {', '.join(map(repr, choices))}"
                 )
         check_sizes(self.in_size, self.width, self.depth, self.input_scale)
         scales = self.input_scale if isinstance(self.input_scale, tuple) else (self.input_scale,)
@@ -86,7 +86,7 @@ class NetworkSpec:
                 )
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
-                "limits=... says from where a law is extrapolated; say how by extrapolation='linear' or another"
+                "limits=... is where extrapolation begins; choose its kind, too, such as extrapolation='linear'"
             )
         _ = self.rho, self.range
         for name in ("passive", "odd"):

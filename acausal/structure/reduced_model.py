@@ -131,7 +131,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
     variable_of = graph.match(incidence, n_nodes)
     if len(incidence) != len(unknowns) or min(variable_of, default=0) < 0:
         raise StructureError(
-            f"after index reduction {len(incidence)} equations face {len(unknowns)} unknowns; "
+            f"after index reduction {len(incidence)} equations remain for {len(unknowns)} unknowns; "
             "the model has constraints that contradict or repeat each other"
         )
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)

@@ -95,7 +95,7 @@ def place(path: str | Path) -> Path:
         file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise TrainingError(
-            f"The folder of checkpoint '{file}' cannot be made: {reason(error)}."
+            f"The folder of checkpoint '{file}' cannot be created: {reason(error)}."
         ) from error
     return file
 
@@ -110,17 +110,17 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
     if about.get("kind") in EARLIER:
         raise DataError(
             f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
-            "or begin anew with another file."
+            "or start again with another file."
         )
     if about.get("kind") != KIND:
-        raise DataError(f"'{path}' is no {KIND}, but: {about.get('kind', 'it does not say what')}.")
+        raise DataError(f"'{path}' is not a {KIND}, but: {about.get('kind', 'it does not say what')}.")
     theirs = about["fingerprint"]
     names = [*fingerprint, *(n for n in theirs if n not in fingerprint)]
     differ = [n for n in names if fingerprint.get(n) != theirs.get(n)]
     if differ:
         raise DataError(
             f"Checkpoint '{path}' is of another training: {listing(differ)} differ. "
-            "Resume with the arguments it was begun with, or name another file."
+            "Resume with the arguments it was started with, or name another file."
         )
     prefixes = [LOG.format(k) for k in range(int(about["members"]))]
     columns = tuple(

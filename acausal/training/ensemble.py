@@ -161,7 +161,7 @@ def ensemble(
     """
     need_compiled(system, "ensemble")
     if not isinstance(members, int | np.integer) or members < 2:
-        raise TrainingError(f"members={members!r}; an ensemble has two at least.")
+        raise TrainingError(f"members={members!r}; an ensemble has at least two.")
     chosen = FitOptions.of("ensemble", options)
     if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")

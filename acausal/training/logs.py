@@ -53,7 +53,7 @@ class CsvLog:
         except OSError as error:
             raise TrainingError(f"Log '{self.path}' cannot be written: {reason(error)}.") from error
         if before and before[0] != ["epoch", *SCALARS]:
-            raise DataError(f"'{self.path}' is no log of a training: name another file.")
+            raise DataError(f"'{self.path}' is not the log of a training: name another file.")
 
     def __call__(self, progress: Progress) -> None:
         """Write a line."""

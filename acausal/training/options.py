@@ -164,7 +164,7 @@ class FitOptions:
                 if new in given:
                     raise TypeError(f"{function}: '{name}' is the old name of '{new}'; give one.")
                 warnings.warn(
-                    f"{function}(..., {name}=) is now called {new}=; the old name will go.",
+                    f"{function}(..., {name}=) is now called {new}=; the old name will be removed.",
                     DeprecationWarning,
                     stacklevel=3,
                 )
@@ -180,7 +180,7 @@ class FitOptions:
         for function in (*self.penalties, *self.called):
             if not callable(function):
                 raise TrainingError(
-                    f"{function!r:.80} is called in the training, and is no function."
+                    f"{function!r:.80} is not a function, but the training calls it."
                 )
         for name in self.parts:
             if name not in UPDATES:
@@ -191,7 +191,7 @@ class FitOptions:
             raise TrainingError(f"evaluate_every={self.evaluate_every}; give one update or more.")
         if self.optimizer is not None and not hasattr(self.optimizer, "update"):
             raise TrainingError(
-                f"optimizer={self.optimizer!r:.80} is none of optax; give one such as optax.adam(0.01)."
+                f"optimizer={self.optimizer!r:.80} is not an optax optimizer; give one such as optax.adam(0.01)."
             )
         self._check_updates()
 

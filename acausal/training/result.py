@@ -202,7 +202,7 @@ class Fit:
             add_residuals(page, self.residuals())
         else:
             page.text(
-                "The trained model diverges over the record; nothing can be said of what it has learned."
+                "The trained model diverges over the record; what it has learned cannot be assessed."
             )
         add_divergences(page, self.history.divergences)
         return page.write(Path(folder) / "index.html")

@@ -97,7 +97,7 @@ def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
     for name in problem.networks:
         if _shape(params[name]) != _shape(problem.params[name]):
             raise TrainingError(
-                f"The networks '{name}' that are trained together are not alike: give all of them one architecture."
+                f"The networks '{name}' of the members differ in architecture: give all of them the same."
             )
     networks = {name: params[name] for name in problem.networks}
     return replace(problem, params={**problem.params, **networks})
@@ -122,7 +122,7 @@ def _checkpoint(
     if not options.resume:
         raise TrainingError(
             f"There is a checkpoint '{file}' already: resume=True goes on from it; "
-            "to begin anew, remove it or name another file."
+            "to start again, remove it or name another file."
         )
     return file, checkpoints.read(file, identity)
 

@@ -87,7 +87,7 @@ def test_a_vector_is_no_side_of_an_equation():
 
 
 def test_start_checks_its_state_preference():
-    with pytest.raises(ac.DeclarationError, match="state='perfer' is none of never, avoid"):
+    with pytest.raises(ac.DeclarationError, match="state='perfer' must be one of never, avoid"):
         ac.Start(1.0, state="perfer")
 
 

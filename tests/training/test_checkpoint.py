@@ -142,7 +142,7 @@ def test_a_checkpoint_is_not_overwritten_by_another_training(interrupted: Path):
         train(checkpoint=interrupted)
     assert str(error.value) == (
         f"There is a checkpoint '{interrupted}' already: resume=True goes on from it; "
-        "to begin anew, remove it or name another file."
+        "to start again, remove it or name another file."
     )
     assert interrupted.read_bytes() == before
 
@@ -173,7 +173,7 @@ def test_a_checkpoint_of_another_training_is_refused(
         train(checkpoint=interrupted, resume=True, **chosen)
     assert str(error.value) == (
         f"Checkpoint '{interrupted}' is of another training: {names} differ. "
-        "Resume with the arguments it was begun with, or name another file."
+        "Resume with the arguments it was started with, or name another file."
     )
 
 
@@ -199,10 +199,10 @@ def tampered(path: Path) -> bytes:
 @pytest.mark.parametrize(
     ("spoil", "sentence"),
     [
-        (lambda path: path.read_bytes()[:-100], "is damaged or no safetensors file"),
-        (lambda path: path.read_bytes()[:5], "is damaged or no safetensors file"),
-        (lambda path: b"", "is damaged or no safetensors file"),
-        (lambda path: b"weights: 1, 2, 3, ...", "is damaged or no safetensors file"),
+        (lambda path: path.read_bytes()[:-100], "is damaged or not a safetensors file"),
+        (lambda path: path.read_bytes()[:5], "is damaged or not a safetensors file"),
+        (lambda path: b"", "is damaged or not a safetensors file"),
+        (lambda path: b"weights: 1, 2, 3, ...", "is damaged or not a safetensors file"),
         (tampered, "was changed after it was written: its checksum does not fit."),
     ],
     ids=["truncated", "cut off", "empty", "text", "tampered"],
@@ -225,7 +225,7 @@ def test_files_of_other_kinds_are_refused(tmp_path: Path):
     with pytest.raises(ac.DataError, match="was not written by acausal"):
         train(checkpoint=path, resume=True)
     tensors.write_arrays(path, {"weights": np.zeros(3)}, {"kind": "parameters"})
-    with pytest.raises(ac.DataError, match=r"is no checkpoint of a training, .* but: parameters"):
+    with pytest.raises(ac.DataError, match=r"is not a checkpoint of a training, .* but: parameters"):
         train(checkpoint=path, resume=True)
 
 
@@ -237,7 +237,7 @@ def test_a_checkpoint_of_an_earlier_version_is_refused(tmp_path: Path):
         train(checkpoint=path, resume=True)
     assert str(error.value) == (
         f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
-        "or begin anew with another file."
+        "or start again with another file."
     )
 
 
@@ -262,7 +262,7 @@ def test_where_nothing_can_be_written_training_does_not_begin(
     with pytest.raises(ac.TrainingError, match=r"cannot be written: Permission denied\."):
         train(checkpoint=tmp_path)
     monkeypatch.setattr(Path, "mkdir", failing(OSError(30, "Read-only file system")))
-    with pytest.raises(ac.TrainingError, match=r"cannot be made: Read-only file system\."):
+    with pytest.raises(ac.TrainingError, match=r"cannot be created: Read-only file system\."):
         train(checkpoint=tmp_path / "run")
 
 

@@ -173,7 +173,7 @@ def test_what_no_target_depends_on_is_told_of():
         )  # fmt: skip
     summary = fit.confidence().summary()
     assert summary[0].startswith("'one.mass.m' is known to ±")
-    assert summary[1].startswith("The data tell nothing of 'other.mass.m'")
+    assert summary[1].startswith("The data say nothing about 'other.mass.m'")
 
 
 # -- residuals ---------------------------------------------------------------------------------------

@@ -162,7 +162,7 @@ def test_it_is_drawn(tmp_path: Path):
         ({"validation": 0.001}, "validation=0.001 of 501 samples leaves 500 to train on; give a"),
         (
             {"validation": float("nan")},
-            "validation=nan is no fraction; give a number between 0 and 1.",
+            "validation=nan is not a fraction; give a number between 0 and 1.",
         ),
         ({"validation": np.float32(1.5)}, "validation=1.5 of 501 samples leaves -251 to train on"),
         ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'mass.s'"),

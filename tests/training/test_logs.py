@@ -65,7 +65,7 @@ def test_other_files_are_not_overwritten(tmp_path: Path):
     path = tmp_path / "data.csv"
     path.write_text("time,x\n0,1\n")
     with pytest.raises(
-        ac.DataError, match=r"data.csv' is no log of a training: name another file\."
+        ac.DataError, match=r"data.csv' is not the log of a training: name another file\."
     ):
         ac.CsvLog(path)
     assert path.read_text() == "time,x\n0,1\n"

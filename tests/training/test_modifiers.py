@@ -113,7 +113,7 @@ def test_a_bound_is_where_training_ends_that_wants_beyond():
             modifiers={"spring.d": ac.Bounded(0.0, 0.5), "spring.c": 0.2},
         )  # fmt: skip
     assert 0.499 < fit.params["spring.d"] <= 0.5
-    assert fit.confidence().summary()[0].endswith("How well it is known cannot be said.")
+    assert fit.confidence().summary()[0].endswith("Its standard deviation cannot be given.")
 
 
 @pytest.mark.parametrize(

@@ -51,7 +51,7 @@ def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | 
         return data, (Data.of(validation), 0)
     share = float(validation)
     if not np.isfinite(share):
-        raise DataError(f"validation={share} is no fraction; give a number between 0 and 1.")
+        raise DataError(f"validation={share} is not a fraction; give a number between 0 and 1.")
     first = len(data) - round(share * len(data))
     if not 2 <= first <= len(data) - 2:
         raise DataError(

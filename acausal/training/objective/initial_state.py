@@ -30,12 +30,12 @@ def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " 
     if x0 == "model":
         return None
     if isinstance(x0, str) and x0 != "data":
-        raise DataError(f"x0='{x0}' is no way to start here: {nearest(x0, ('data', 'model'))}")
+        raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, ('data', 'model'))}")
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
     for name, value in given.items():
         if name not in system.states:
             raise DataError(
-                f"x0: '{name}' is no state of the model: {nearest(name, system.states)}"
+                f"x0: '{name}' is not a state of the model: {nearest(name, system.states)}"
             )
         if not isinstance(value, Real | np.ndarray | Array) or not np.isfinite(value).all():
             raise DataError(f"x0: '{name}' is {value!r}; give a finite number.")

@@ -177,7 +177,7 @@ def sequences(
         DataError: for a length, size or fraction that does not fit the record.
     """
     if seconds is not None and not np.isfinite(seconds):
-        raise DataError(f"sequence_length={seconds} is no length; give seconds, or None for all.")
+        raise DataError(f"sequence_length={seconds} is not a length; give seconds, or None for all.")
     n = len(data) if seconds is None else round(seconds / data.sample_time)
     if not 2 <= n <= len(data):
         raise DataError(
@@ -193,6 +193,6 @@ def sequences(
         return Sequences(len(data), n, batch_size, None)
     if not 0 < fraction <= 1:
         raise DataError(
-            f"subsample={fraction:g} is no fraction of the points; give a number in (0, 1]."
+            f"subsample={fraction:g} is not a fraction of the points; give a number in (0, 1]."
         )
     return Sequences(len(data), n, batch_size, max(1, round(fraction * n)))

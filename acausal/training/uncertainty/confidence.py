@@ -36,7 +36,7 @@ INDISTINGUISHABLE = 0.98
 """The data can hardly distinguish two parameters with a correlation above this."""
 
 UNKNOWN = 0.9
-"""The data tell nothing of a parameter whose standard deviation is above this part of the prior one."""
+"""The data say nothing about a parameter whose standard deviation is above this part of the prior one."""
 
 CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
@@ -83,7 +83,7 @@ class Confidence:
     def words(self) -> list[str]:
         """The old name of `summary`."""
         warnings.warn(
-            "Confidence.words() is now called summary(); the old name will go.",
+            "Confidence.words() is now called summary(); the old name will be removed.",
             DeprecationWarning,
             stacklevel=2,
         )
@@ -152,7 +152,7 @@ def confidence(
     left, jacobian = _sensitivity(problem, changed, len(deviations))
     if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
-            "The trained model diverges over the record; nothing can be said of it."
+            "The trained model diverges over the record; its confidence cannot be computed."
         )
     noise = np.sqrt(np.mean(left**2, axis=0))
     alike = np.array([correlation_time(column) for column in left.T])
@@ -187,9 +187,9 @@ def _about(
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
-            return f"{at_limit[name]} How well it is known cannot be said."
+            return f"{at_limit[name]} Its standard deviation cannot be given."
         if sigma > UNKNOWN * prior:
-            return f"The data tell nothing of '{name}'; leave it as it was, or measure what depends on it."
+            return f"The data say nothing about '{name}'; leave it as it was, or measure what depends on it."
         deviation = problem.modifiers.written(name, sigma, ".2g", problem.system.unit(name))
         return f"'{name}' is known to ±{deviation} (one sigma)."
 

@@ -100,11 +100,11 @@ def conformal(
         DataError: if the record is too short for the level, or lacks what is needed.
     """
     if not 0 < level < 1:
-        raise DataError(f"level={level:g} is no share of the samples; give a number in (0, 1).")
+        raise DataError(f"level={level:g} is not a share of the samples; give a number in (0, 1).")
     _, y, measured = predicted(problem, trained, data, x0)
     errors = np.abs(measured - y)
     if not np.isfinite(errors).all():
-        raise DataError("The trained model diverges over the record; no band holds that.")
+        raise DataError("The trained model diverges over the record; it has no bands.")
     width: dict[str, float] = {}
     independent: dict[str, float] = {}
     for name, column in zip(problem.targets, errors.T, strict=True):

@@ -54,7 +54,7 @@ class Residuals:
     def words(self) -> str:
         """The old name of `summary`."""
         warnings.warn(
-            "Residuals.words() is now called summary(); the old name will go.",
+            "Residuals.words() is now called summary(); the old name will be removed.",
             DeprecationWarning,
             stacklevel=2,
         )
