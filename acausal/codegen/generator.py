@@ -164,7 +164,7 @@ _INSTRUCTION: dict[type, Callable[[_Generator, Any], Instruction]] = {
     TornLoop: _Generator.solve_torn_loop,
     SparseLoop: _Generator.solve_sparse_loop,
 }
-"""The instruction that computes a step."""
+"""By kind of step, the method that makes its instruction."""
 
 
 def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:

@@ -13,7 +13,7 @@ from acausal.flattening.layout import Layout
 from acausal.modeling import Reference, references
 
 ALONE = sp.Symbol("p0", real=True)
-"""The parameter in the expression that is nothing but a parameter."""
+"""The symbol in a binding to a single parameter."""
 
 
 def is_bound(value: Any) -> bool:

@@ -28,13 +28,13 @@ from acausal.modeling import (
 )
 
 SlotSource = tuple[tuple[str, ...], int]
-"""Where a slot is filled from, seen from the component that states the equation: the names of the parts on the way to
-the owner (none for the component itself), and the local index there."""
+"""What fills a slot, relative to the component that states the equation: the names of the parts on the way to the owner
+(none for the component itself), and the local index there."""
 
 
 @dataclass(frozen=True)
 class _Places:
-    """Where the slots of a template are filled from."""
+    """What fills the slots of a template."""
 
     variables: tuple[SlotSource, ...]
     parameters: tuple[SlotSource, ...]

@@ -1,4 +1,4 @@
-"""What a component is declared with: parameters, variables, signals, options and modules.
+"""The declarations of a component: parameters, variables, signals, options and modules.
 
 A declaration is a class attribute. Read on an instance it becomes a reference (`acausal.modeling.symbols`).
 """
@@ -26,7 +26,7 @@ class Start:
         value: the start value (a number or an expression of parameters); ``None`` keeps the declared one.
         fixed: whether the value must hold at the initial time (else it is a guess).
         nominal: the variable's typical magnitude.
-        state: how much the variable is wanted as a state (`StateSelect`).
+        state: how much the variable is preferred as a state (`StateSelect`).
     """
 
     value: Any = None

@@ -47,7 +47,7 @@ class Energy(NetworkSpec):
         passive: ``W ≥ 0``, and no force at ``x = 0``: the element never gives back more than it took.
         convex: ``W`` is convex in ``x``, its curvature at least ``floor``: the law is monotone, a rest position stable.
 
-    It has the attributes of `NetworkSpec`, too. Every promise holds for all weights: before, during and after training.
+    It also has the attributes of `NetworkSpec`. Every promise holds for all weights: before, during and after training.
 
     Raises:
         DeclarationError: in one sentence, for promises that contradict each other.

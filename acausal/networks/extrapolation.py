@@ -23,7 +23,7 @@ ScalarFunction = Callable[[Array], Array]
 class Continued(eqx.Module):
     """A law of ``x`` within limits, and beyond each of them a polynomial about that limit.
 
-    A law that is odd or monotone within symmetric limits is so everywhere; so is a passive law, with ``rising``.
+    A law that is odd or monotone within symmetric limits stays so everywhere; with ``rising`` also one that is passive.
 
     - ``"saturating"``: constant.
     - ``"linear"``: along its tangent.
@@ -62,7 +62,7 @@ class Continued(eqx.Module):
 class ContinuedEnergy(eqx.Module):
     """An energy within limits, extrapolated so that its derivative is extrapolated as a `Continued` law.
 
-    An energy that is even or convex within symmetric limits is so everywhere. Attributes and errors as in `Continued`.
+    An energy that is even or convex within symmetric limits stays so everywhere. Attributes and errors as in `Continued`.
     """
 
     net: Callable[..., Array]

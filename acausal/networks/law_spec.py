@@ -55,7 +55,7 @@ class Law(NetworkSpec):
         passive: ``F(x, T) x ≥ 0``.
         monotone: ``∂F/∂x ≥ 0``, at least ``floor``.
 
-    It has the attributes of `NetworkSpec`, too. Every promise holds for all weights: before, during and after training.
+    It also has the attributes of `NetworkSpec`. Every promise holds for all weights: before, during and after training.
 
     Raises:
         DeclarationError: in one sentence, for promises that contradict each other.

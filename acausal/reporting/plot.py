@@ -1,4 +1,4 @@
-"""Plots of a training: what a network has learned and where to trust it, and how the loss fell."""
+"""Plots of a training: learned functions and where to trust them, losses, and changes of parameters."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class Losses(Protocol):
 
     @property
     def validation_loss(self) -> Float[np.ndarray, "k 2"]:
-        """Over what is held out."""
+        """Of the held-out samples."""
         ...
 
 
@@ -107,7 +107,7 @@ def plot_learned(
     xlabel: str = "",
     ylabel: str = "",
 ) -> None:
-    """Draw learned functions of one argument over what they have seen.
+    """Draw learned functions of one argument over their inputs in training.
 
     Vertical lines mark 1 sigma (dashed) and 2 sigma (solid) of the inputs in training; beyond 2 sigma, shaded,
     a function extrapolates.
@@ -129,7 +129,7 @@ def plot_learned(
 
 
 def plot_guides(ax: Axes, seen: InputStatistics, start: float, end: float) -> None:
-    """Mark over an axis from ``start`` to ``end`` what a network has seen of its first argument."""
+    """Mark the range of a network's first argument in training on an axis from ``start`` to ``end``."""
     mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
     for side, edge in ((-1, start), (1, end)):
         ax.axvline(mean + side * sigma, color=GUIDE, lw=0.9, ls="--")
@@ -149,7 +149,7 @@ def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: 
 def plot_losses(
     ax: Axes, histories: Mapping[str, Losses], *, levels: Mapping[str, float] | None = None
 ) -> None:
-    """Draw losses over epochs: of the batches (thin), over the whole record (dots) and over what is held out (squares).
+    """Draw losses over epochs: of the batches (thin), over the whole record (dots) and of held-out samples (squares).
 
     Arguments:
         histories: by label.

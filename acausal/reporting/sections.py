@@ -40,7 +40,7 @@ class LearnedLaw(NamedTuple):
 
     Attributes:
         band: the law with its standard deviation.
-        seen: statistics of what the network was called with.
+        seen: statistics of the network's arguments.
         samples: some of the values that its first argument had.
     """
 
@@ -78,12 +78,12 @@ class Correlated(Protocol):
         ...
 
     def summary(self) -> str:
-        """What the correlations mean, in a sentence."""
+        """What the correlations mean, as a sentence."""
         ...
 
 
 class DivergedUpdate(Protocol):
-    """Something that diverged in an update; its text says what."""
+    """Something that diverged in an update; its text describes it."""
 
     @property
     def epoch(self) -> int:
@@ -118,7 +118,7 @@ def add_trajectories(
     after: Float[np.ndarray, "N n_targets"],
     units: Mapping[str, str],
 ) -> None:
-    """What was measured, and simulated before and after training; ``units`` has the targets in order."""
+    """Targets as measured, and as simulated before and after training; ``units`` has them in order."""
     page.section("Measured and simulated")
     rows = _middle(len(time))
     low, high = measured[rows].min(axis=0), measured[rows].max(axis=0)
@@ -147,7 +147,7 @@ def add_predictions(
     predicted: Mapping[str, UncertainCurve],
     units: Mapping[str, str],
 ) -> None:
-    """What was measured, and what members of an ensemble predict on average, by target."""
+    """Targets as measured, and as the members of an ensemble predict them on average."""
     page.section("Measured and simulated")
     rows = _middle(len(measured))
     for i, (name, band) in enumerate(predicted.items()):
@@ -162,7 +162,7 @@ def add_predictions(
 
 
 def add_laws(page: Page, laws: Mapping[str, LearnedLaw]) -> None:
-    """Learned laws by network with their bands, over what the networks have seen."""
+    """Learned laws by network with their bands, over the arguments in training."""
     if not laws:
         return
     page.section("Learned laws")
@@ -221,7 +221,7 @@ def add_residuals(page: Page, found: Sequence[Correlated]) -> None:
 
 
 def add_divergences(page: Page, divergences: Sequence[DivergedUpdate]) -> None:
-    """What diverged in the training, if anything did."""
+    """The divergences of a training, if there are any."""
     if not divergences:
         return
     page.section("What diverged")

@@ -17,7 +17,7 @@ from acausal.simulation.stage_arguments import KEPT, stage_of
 Unknown: TypeAlias = Float[Array, " n_states"]
 LUFactors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
 StageResidual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
-"""(unknown, arguments) -> residual, and what comes along."""
+"""(unknown, arguments) -> residual and auxiliary output."""
 
 KAPPA = 0.01
 """The part of a step's tolerance that may remain as error when the iteration stops."""
@@ -42,7 +42,7 @@ class _Iteration(eqx.Module):
 
 
 class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
-    """Newton's method with a Jacobian that is kept as long as the iteration converges fast.
+    """Newton's method that reuses its Jacobian as long as the iteration converges fast.
 
     diffrax solves a stage for its derivative, or its derivative times the step. The tolerances are those of the state,
     so a correction is measured by the change of the state. (`diffrax.VeryChord` applies them to the derivative; for a
@@ -105,7 +105,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
         state: _Iteration,
         tags: frozenset[object],
     ) -> tuple[Bool[Array, ""], optx.RESULTS]:
-        """Whether the iteration has converged, or does not."""
+        """Whether the iteration stops, and why: it has converged, or it diverges."""
         rate = state.rate
         left = jnp.where(rate < 1, state.size * rate / (1 - rate), state.size)
         converged = (state.count > 1) & (left < KAPPA)

@@ -30,7 +30,7 @@ class AliasFree:
         derivative, derivative_sign: (n_nodes,) of a representative: its derivative's node (-1: none) and sign.
         base: (n_nodes,) of a derivative node: the node it differentiates (-1: a variable).
         groups: the remaining equations over representatives.
-        redundant: what vanished: (origin, component) of equations that became ``0 = 0``.
+        redundant: (origin, component) of the equations that became ``0 = 0``.
     """
 
     zero: int
@@ -85,7 +85,7 @@ def _check_inputs(model: FlatModel, classes: _Classes) -> None:
         if root in seen:
             raise StructureError(
                 f"overdetermined: the equations tie the input '{name}' to {seen[root]}; "
-                "connect the input to a source, or remove what prescribes it"
+                "connect the input to a source, or remove the equation that prescribes it"
             )
         seen[root] = f"the input '{name}'"
     for root, text in list(seen.items())[1:]:
@@ -119,8 +119,8 @@ _KNOWN, _MERGED, _REFUSED = 0, 1, 2
 class _Classes:
     """The union-find: parents and signs of all nodes, and the derivative of every class.
 
-    ``antecedent`` leads from a class to the one that it is the derivative of. But for zero, which is its own
-    derivative, a class has at most one derivative and is the derivative of at most one.
+    ``antecedent`` leads from a class to the one that it is the derivative of. A class has at most one derivative and is
+    the derivative of at most one; zero is its own derivative.
     """
 
     zero: int
@@ -172,7 +172,7 @@ class _Classes:
         return node, sign
 
     def merge(self, group: EquationGroup, relative: tuple[int, ...]) -> Integers:
-        """Merge the two slots of every row (or one slot with zero); returns what came of every row."""
+        """Merge the two slots of every row (or one slot with zero); returns the outcome for every row."""
         outcome: list[int] = []
         for row in group.variables.tolist():
             a, b, sign = (*row, *relative) if len(row) == 2 else (*row, self.zero, 1)
@@ -184,7 +184,7 @@ class _Classes:
         return np.asarray(outcome)
 
     def _may_join(self, a: int, b: int) -> bool:
-        """Whether derivatives form chains also where two classes are one: no rings, no branches."""
+        """Whether derivatives still form chains after two classes are merged: no rings, no branches."""
         if self.zero in (a, b):
             return True
         if a in self.antecedent and b in self.antecedent:
@@ -219,7 +219,7 @@ class _Classes:
         return new
 
     def _join_derivatives(self, child: int, root: int, relative: int) -> list[tuple[int, int, int]]:
-        """``child = relative * root``: what follows for their derivatives."""
+        """The relations between derivatives that follow from ``child = relative * root``."""
         of_child = self.derivative.pop(child, None)
         if of_child is None:
             return []
@@ -367,7 +367,7 @@ def _result(
 def _best_members(model: FlatModel, classes: _Classes) -> Integers:
     """For every root the member that gives the class its name.
 
-    An input, else the most wanted state, else the one nearest to the top of the hierarchy, else the first declared.
+    An input, else the most preferred state, else the one nearest to the top of the hierarchy, else the first declared.
     """
     n, total = model.n_variables, len(classes.root)
     order = np.arange(total)

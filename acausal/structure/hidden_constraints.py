@@ -1,9 +1,9 @@
-"""Hidden constraints: equations that, taken together, say something about states alone.
+"""Hidden constraints: combinations of equations that constrain states alone.
 
-Two capacitors side by side say ``c1.v = p - n`` and ``c2.v = p - n``. By its structure this determines the
-potentials p and n; in truth it ties the voltages to each other. Where unknowns stand with constant factors, such
-combinations are found: first modulo a prime, for parameters without relations, then exactly. Each takes the place of
-one of its equations, so that index reduction sees it. (For factors that are integers: Otter & Elmqvist 2017,
+Two capacitors in parallel have the equations ``c1.v = p - n`` and ``c2.v = p - n``. Structurally these determine the
+potentials p and n; in fact they tie the voltages to each other. Where unknowns have constant factors, such
+combinations are found: first modulo a prime, for parameters without relations, then exactly. Each replaces one of its
+equations, so that index reduction sees it. (For factors that are integers: Otter & Elmqvist 2017,
 "Transformation of Differential Algebraic Array Equations to Index One Form".)
 """
 
@@ -24,16 +24,16 @@ from acausal.structure.rank import cancelling, prune_singletons
 PRIME = 2**61 - 1
 RESIDUES = sp.GF(PRIME)
 ColumnByUnknown = dict[int, int]
-"""Unknowns, and the columns that they stand in."""
+"""Unknown -> its column."""
 Part = tuple[Statement, sp.Expr, tuple[int, ...], tuple[int, ...]]
-"""A template, its factor, the slots of variables that are kept, and in what slot of the sum each parameter goes."""
+"""A template, its factor, the slots of variables that are kept, and the slot of the sum for each parameter."""
 
 
 def expose_constraints(system: Equations) -> dict[int, list[int]]:
-    """Replace equations that follow from others, but for what they say about states, by just that.
+    """Replace equations that, combined with others, constrain states alone by that constraint.
 
     Returns:
-        For every equation that was replaced the others that it was combined with.
+        For every replaced equation, the others that it was combined with.
     """
     highest = _highest(system)
     residue = cache(lambda parameter: RESIDUES(Random(parameter).randrange(1, PRIME)))
@@ -49,7 +49,7 @@ def expose_constraints(system: Equations) -> dict[int, list[int]]:
 
 
 def _highest(system: Equations) -> dict[int, ColumnByUnknown]:
-    """The unknowns without derivative of every equation in which all of them have constant factors."""
+    """The underived unknowns of every equation, if all of them have constant factors there."""
     derivative, known = system.structure.derivative, system.known
     found: dict[int, ColumnByUnknown] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
@@ -65,7 +65,7 @@ def _are_constant(template: Statement, columns: Iterable[int]) -> bool:
 
 @cache
 def _factor(template: Statement, column: int) -> Any:
-    """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
+    """The slot's factor if it is a number or a rational function of parameters, else None."""
     if not template.is_solvable(column):
         return None
     factor = template.partial(column)

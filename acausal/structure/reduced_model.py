@@ -1,6 +1,6 @@
 """Reduce: aliases, index reduction, state selection and solving order of a flat model.
 
-The result says which variables are states, and in which order and from which equations all others follow.
+The result lists the states, and in which order and from which equations all other variables follow.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class ReducedModel:
         states: nodes of the states, in order of declaration.
         rates, rate_signs: for every state the node of its derivative, and its sign.
         inputs: nodes of the inputs; derivatives of inputs, where the equations need them, follow.
-        input_orders: for every input, which one it derives from and how often it is differentiated.
+        input_orders: for every input, the one that it is a derivative of, and how often it is differentiated.
         input_signs: for every input the sign of its node.
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
@@ -63,7 +63,7 @@ class ReducedModel:
     def start_members(self) -> tuple[Integers, Integers]:
         """For every node the variable whose start it takes (itself if it has no name), and the sign.
 
-        Of a node's names a fixed one counts most, then one whose start was given, then the node's own.
+        Of a node's names, one with a fixed start takes precedence, then one whose start was given, then the node's own.
         """
         model, n = self.model, self.model.n_variables
         node, sign = self.aliases.representative[:n], self.aliases.sign[:n]
