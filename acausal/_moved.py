@@ -75,9 +75,7 @@ class _Loader(Loader):
             if name.startswith("__"):
                 raise AttributeError(f"module '{old}' has no attribute '{name}'")
             found = getattr(import_module(new), now := self.moved.renamed.get(name, name))
-            message = (
-                f"{old}.{name} has moved: use {new}.{now}; the old path will be removed in the next release"
-            )
+            message = f"{old}.{name} has moved: use {new}.{now}; the old path will be removed in the next release"
             warnings.warn(message, DeprecationWarning, stacklevel=2)
             return found
 

@@ -23,7 +23,7 @@ WIDTH = 8
 """Instances side by side: as many numbers as a vector register holds, or a few."""
 
 LARGEST = 16_384
-"""The largest array in a loop, in elements, for which instances are put side by side; larger ones keep libraries busy."""
+"""Most elements of an array in a loop whose instances are put side by side; larger arrays keep libraries busy."""
 
 MOST = 4_000
 """The most operations in a loop that is compiled as a whole: the time to compile grows with them."""

@@ -208,7 +208,7 @@ def _solved(columns: TermColumns, y: Points) -> Numbers:
 
 
 def _polished(x: Points, y: Points, chosen: list[tuple[str, float]]) -> Formula:
-    """The formula with all scales fitted at once; for given scales the coefficients solve a linear least-squares problem."""
+    """The formula with all scales fitted at once; for given scales, the coefficients follow by linear least squares."""
     names = tuple(n for n, _ in chosen)
     scales = np.array([s for _, s in chosen])
     free = np.array([TERMS[n].scaled for n in names])

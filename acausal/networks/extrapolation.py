@@ -62,7 +62,7 @@ class Continued(eqx.Module):
 class ContinuedEnergy(eqx.Module):
     """An energy within limits, extrapolated so that its derivative is extrapolated as a `Continued` law.
 
-    An energy that is even or convex within symmetric limits stays so everywhere. Attributes and errors as in `Continued`.
+    An energy that is even or convex within symmetric limits stays so everywhere. Attributes, errors: see `Continued`.
     """
 
     net: Callable[..., Array]

@@ -1,4 +1,4 @@
-"""The arguments that diffrax passes to a root finder. Nothing else depends on how its solvers write a stage's equations.
+"""The arguments that diffrax passes to a root finder. No other file depends on how its solvers write these equations.
 
 diffrax calls a root finder with arguments that it does not document. `tests/simulation/test_stage_arguments.py` fails
 when diffrax changes them; simulations still work then, with tolerances that apply to the stage's unknown.

@@ -77,6 +77,7 @@ def match(incidence: Incidence, n_variables: int) -> list[int]:
 @dataclass
 class DifferentialStructure:
     """The structure that index reduction extends: equations, and which variable is another's derivative.
+
     ``derivative[v]`` is the derivative of variable ``v`` or -1; ``successor[e]`` the differentiated equation.
     ``differentiate(e, structure)`` returns the unknowns of the derivative of equation ``e``; it calls
     `derivative_of` for the variables' derivatives.

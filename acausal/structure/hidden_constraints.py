@@ -49,7 +49,7 @@ def expose_constraints(system: Equations) -> dict[int, list[int]]:
 
 
 def _highest(system: Equations) -> dict[int, ColumnByUnknown]:
-    """The underived unknowns of every equation, if all of them have constant factors there."""
+    """The unknowns without a derivative of every equation, if all of them have constant factors there."""
     derivative, known = system.structure.derivative, system.known
     found: dict[int, ColumnByUnknown] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 VARIES = 1e-12
-"""A target that varies by less, relative to its size, is constant."""
+"""A target that varies by less than this, relative to its size, counts as constant."""
 
 
 def build_problem(
@@ -50,7 +50,7 @@ def build_problem(
         options: how to train.
 
     Raises:
-        DataError: if the data do not serve the training.
+        DataError: if the data are not sufficient for the training.
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     chosen = _networks(options.train, params)

@@ -1,4 +1,4 @@
-"""Checkpoints: a training in a file, from which it goes on as if it had never stopped."""
+"""Checkpoints: a training in a file, from which it continues as if it had never stopped."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from acausal.training.optimizers.trainer import State
 KIND = "checkpoint of a training, version 3"
 
 EARLIER = ("checkpoint of a training, version 1", "checkpoint of a training, version 2")
-"""What earlier versions of acausal wrote: names in them differ."""
+"""The kinds of earlier versions of acausal, with other names in them."""
 
 LOG = "log {}: "
 """Prefix of the names of a training log's columns in a file."""
@@ -36,7 +36,7 @@ class StoredBest(NamedTuple):
 
 
 class Snapshot(NamedTuple):
-    """All that a training needs to go on from between two updates.
+    """Everything that a training needs to continue after an update.
 
     Attributes:
         leg: of the strategy, by number; ``before``: updates done in the legs before it.
@@ -68,7 +68,7 @@ class Stored(NamedTuple):
 
     Attributes:
         path: where from.
-        leg: in which it was written.
+        leg: the leg in which it was written.
         columns: of each training's log.
         arrays: of the snapshot, by name.
     """
@@ -88,7 +88,7 @@ class Stored(NamedTuple):
 
 
 def place(path: str | Path) -> Path:
-    """The file of a checkpoint: itself, or in a folder, which is made."""
+    """The file of a checkpoint; if a folder is given, a file in it. Folders are created."""
     path = Path(path)
     file = path if path.suffix == ".safetensors" else path / "checkpoint.safetensors"
     try:
@@ -113,7 +113,9 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
             "or start again with another file."
         )
     if about.get("kind") != KIND:
-        raise DataError(f"'{path}' is not a {KIND}, but: {about.get('kind', 'it does not say what')}.")
+        raise DataError(
+            f"'{path}' is not a {KIND}, but: {about.get('kind', 'it does not say what')}."
+        )
     theirs = about["fingerprint"]
     names = [*fingerprint, *(n for n in theirs if n not in fingerprint)]
     differ = [n for n in names if fingerprint.get(n) != theirs.get(n)]
@@ -136,7 +138,7 @@ def keeping(path: Path | None, every: float, fingerprint: Mapping[str, str]) -> 
     """Write checkpoints: at once, then at intervals of ``every`` seconds, and at the end, also after an error.
 
     Raises:
-        TrainingError: if the first one cannot be written. When a later one can't, this warns and goes on.
+        TrainingError: if the first one cannot be written. If a later one cannot, this warns and continues.
     """
     if path is None:
         yield lambda snapshot, logs: None

@@ -24,7 +24,7 @@ from acausal.modeling import ModuleCall, Prescribed, time
 from acausal.units.dimensions import NUMBER, SECOND, Dimension, described
 
 MAX_CASES = 64
-"""Cases of one expression that are checked one by one; of more, the expression as a whole."""
+"""The most cases of one expression that are checked one by one; with more, the expression is checked as a whole."""
 
 MAX_SMALL = 12
 """The largest numerator and denominator of a small number."""
@@ -98,7 +98,7 @@ class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
 
 
 def is_small(number: Any) -> bool:
-    """Whether a number is made of 2, 1/2, 0.5, pi and the like: 9.81 and 1000 may be constants of nature."""
+    """Whether a number is a pure factor such as 2, 1/2, 0.5 or pi; 9.81 and 1000 may be constants of nature."""
     ratios = (
         (n.p, n.q) if n.is_Rational else float(n).as_integer_ratio()
         for n in number.atoms(sp.Number)

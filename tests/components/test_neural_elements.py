@@ -379,7 +379,10 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: neural.MultiportCompliance((tl.Flange, fluid.FlowPort)),
         "give ports of one domain",
     ),
-    "recipe": (lambda: Law(extrapolation="square"), "'square' must be one of 'saturating', 'linear'"),  # pyright: ignore[reportArgumentType]
+    "recipe": (
+        lambda: Law(extrapolation="square"),
+        "'square' must be one of 'saturating', 'linear'",
+    ),  # pyright: ignore[reportArgumentType]
     "curved": (lambda: Energy(floor=0.1), "also give convex=True"),
     "several inputs": (
         lambda: Energy(inputs=2, convex=True, extrapolation="linear"),

@@ -96,7 +96,9 @@ def test_files_that_cannot_be_read_or_written(
     with pytest.raises(ac.DataError, match=r"cannot be written: No such file or directory\.$"):
         ac.save_params({}, tmp_path / "none" / "a.safetensors")
     tensors.write_arrays(tmp_path / "a.safetensors", {}, {"kind": "something else"})
-    with pytest.raises(ac.DataError, match=r"does not hold parameters of a model, .* but: something else"):
+    with pytest.raises(
+        ac.DataError, match=r"does not hold parameters of a model, .* but: something else"
+    ):
         ac.load_params(tmp_path / "a.safetensors", learned())
 
     def fail(descriptor: int) -> None:

@@ -225,7 +225,9 @@ def test_files_of_other_kinds_are_refused(tmp_path: Path):
     with pytest.raises(ac.DataError, match="was not written by acausal"):
         train(checkpoint=path, resume=True)
     tensors.write_arrays(path, {"weights": np.zeros(3)}, {"kind": "parameters"})
-    with pytest.raises(ac.DataError, match=r"is not a checkpoint of a training, .* but: parameters"):
+    with pytest.raises(
+        ac.DataError, match=r"is not a checkpoint of a training, .* but: parameters"
+    ):
         train(checkpoint=path, resume=True)
 
 

@@ -1,4 +1,4 @@
-"""The state at which a record starts, as a user says it."""
+"""The state at which a record starts, as the user gives it."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " 
     """The state at a record's start as ``x0`` says; ``None`` as the model starts.
 
     Raises:
-        DataError: for another word, a name that is no state, a value that is no number, or a state that is neither
-            in the data nor in ``x0``.
+        DataError: for another word, a name that is not a state, a value that is not a number, or a state that is
+            neither in the data nor in ``x0``.
     """
     if x0 == "model":
         return None

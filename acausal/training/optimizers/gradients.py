@@ -81,7 +81,7 @@ Evaluate = Callable[..., Evaluated]
 def total(
     objective: Objective, trainable: PyTree, batch: WeightedBatch
 ) -> tuple[Scalar, tuple[Float[Array, " batch"], dict[str, Scalar]]]:
-    """What is minimised; the losses and penalties that it consists of."""
+    """The total to minimise; and the losses and penalties in it."""
     losses = objective.losses(trainable, batch)
     penalties = objective.penalties(trainable)
     return jnp.average(losses, weights=batch.weight) + _sum(penalties), (losses, penalties)

@@ -1,4 +1,4 @@
-"""Laws that may change by small bumps over what their networks have seen."""
+"""Laws that may change by small bumps over their networks' arguments in training."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 """Confidence: how well the record determines learned laws and parameters.
 
-A law is given the freedom to change by small bumps over what it has seen; parameters may change, too, and so may the
-state at the start where it was trained. The sensitivity of the whole simulation to all of them gives the Fisher
-information, whose inverse is their covariance: a Laplace approximation in the space of functions, independent of how
-many weights a network has. Details of a law that are narrower than a bump, half a standard deviation of its input, do
-not show. Samples whose residuals are correlated count for less than one each.
+A law may change by small bumps over the range of its argument in training; trained parameters may change, too, and so
+may a trained initial state. The sensitivity of the whole simulation to all of them gives the Fisher information, whose
+inverse is their covariance: a Laplace approximation in the space of functions, independent of the number of weights of
+a network. It does not resolve details of a law that are narrower than a bump, half a standard deviation of its input.
+Samples with correlated residuals count for less than one each.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
 
 LEAST_NOISE = 1e-12
-"""The least noise that is considered possible, relative to a target's standard deviation."""
+"""The smallest noise that is considered possible, relative to a target's standard deviation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +65,8 @@ class Confidence:
 
     Attributes:
         laws: by network, the law and its standard deviation.
-        parameters: by name, the standard deviation of trained parameters, relative to their values, or absolute
-            where `Fit.modifiers` is.
+        parameters: by name, the standard deviation of trained parameters, relative to their values; absolute if
+            their change in `Fit.modifiers` is absolute.
         correlation: between the parameters, in their order.
         noise: standard deviation of the residuals, by target.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
@@ -90,7 +90,7 @@ class Confidence:
         return self.summary()
 
     def summary(self) -> list[str]:
-        """What all this means, sentence by sentence."""
+        """What all this means, as a list of sentences."""
         names = list(self.parameters)
         confused = [
             f"The data can hardly tell '{names[i]}' from '{names[j]}' (correlation {self.correlation[i, j]:+.3f}): "
@@ -118,7 +118,7 @@ def confidence(
     trainable: Trainable,
     seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
 ) -> Confidence:
-    """How well a record determines what was trained on it.
+    """How well a record determines the laws and parameters that were trained on it.
 
     Residuals that are correlated over τ neighbouring samples have at low frequencies τ times the spectrum of white
     noise, so that each sample counts 1/τ.
