@@ -28,7 +28,7 @@ def test_trees_come_back_as_they_were():
         assert a is b or np.array_equal(*(tensors._stored(x) for x in (a, b)))
     with pytest.raises(ac.DataError, match=r"^it lacks 'x':"):
         tensors.filled_like({"x": 1.0}, {}, "it")
-    with pytest.raises(ac.DataError, match=r"^it has '.*' besides"):
+    with pytest.raises(ac.DataError, match=r"^it also has '.*':"):
         tensors.filled_like({}, {"x": np.zeros(1)}, "it")
     with pytest.raises(ac.DataError, match=r"as float64\[2\], but here it is float64\[3\]"):
         tensors.filled_like({"x": np.zeros(3)}, {"x": np.zeros(2)}, "it")
