@@ -73,7 +73,7 @@ def test_networks_of_the_users_own(tmp_path: Path):
 @pytest.mark.parametrize(
     ("model", "sentence"),
     [
-        (lambda: plain(), "has 'extra.net.biases[0]', "),
+        (lambda: plain(), "also has 'extra.net.biases[0]', "),
         (lambda: learned().parameters() | {"spring.k": 1.0}, "lacks 'spring.k': it belongs to another model."),
         (lambda: learned().parameters() | {"extra.net": ac.MLP(width=4, key=0)},
          "has 'extra.net.weights[0]' as float64[8, 1], but here it is float64[4, 1]: it belongs to another model."),
