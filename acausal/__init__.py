@@ -1,7 +1,7 @@
 """Connect physical components in Python; get, simulate and train a physics-enhanced neural ODE in JAX.
 
-The public names stand in `__init__.pyi`, each with the room that it comes from. A room is imported when one of its
-names is first asked for: building a model waits for no optimizer and no plots.
+`__init__.pyi` lists the public names, each with the room that it comes from. A room is imported when one of its
+names is first used: optimizers and plots are imported lazily.
 """
 
 import lazy_loader as _lazy

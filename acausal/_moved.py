@@ -1,6 +1,6 @@
-"""Module paths that have moved: the old ones work for one release, with a `DeprecationWarning` that names the new.
+"""Module paths that have moved: the old ones work for one release, with a `DeprecationWarning` that names the new ones.
 
-Python asks the finder below only for modules that it finds nowhere else.
+Python uses the finder below only for modules that it finds nowhere else.
 """
 
 from __future__ import annotations
@@ -78,9 +78,7 @@ class _Loader(Loader):
             if name.startswith("__"):
                 raise AttributeError(f"module '{old}' has no attribute '{name}'")
             found = getattr(import_module(new), now := self.moved.renamed.get(name, name))
-            message = (
-                f"{old}.{name} has moved: use {new}.{now}; the old path goes with the next release"
-            )
+            message = f"{old}.{name} has moved: use {new}.{now}; the old path will be removed in the next release"
             warnings.warn(message, DeprecationWarning, stacklevel=2)
             return found
 

@@ -1,6 +1,6 @@
 """Exceptions: one class per stage, so that a caller can tell a wrong model from wrong data.
 
-Every message says what is wrong, where (dotted names, at most a dozen) and the likely mend.
+Every message says what is wrong, where (dotted names, at most a dozen), and how to fix it.
 """
 
 from collections.abc import Iterable
@@ -20,11 +20,11 @@ class DeclarationError(ModelError):
 
 
 class ConnectionError(ModelError):  # noqa: A001 (the field's word; reached as ac.ConnectionError)
-    """Connectors are joined that cannot be joined."""
+    """A connection joins connectors that do not fit each other."""
 
 
 class UnitError(ModelError):
-    """A unit is none, or the two sides of an equation have unlike dimensions."""
+    """A text is not a unit, or the two sides of an equation have different dimensions."""
 
 
 class StructureError(ModelError):
@@ -36,7 +36,7 @@ class InitializationError(ModelError):
 
 
 class DataError(AcausalError):
-    """Measured data or inputs are incomplete, malformed or of another model."""
+    """Measured data or inputs are incomplete, malformed or belong to another model."""
 
 
 class SimulationError(AcausalError):
@@ -52,7 +52,7 @@ class TrainingError(AcausalError):
 
 
 def reason(error: OSError) -> str:
-    """What the operating system says, for a message."""
+    """The operating system's reason for an error, for a message."""
     return error.strerror or str(error)
 
 
@@ -75,7 +75,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     if close:
         return f"did you mean '{close[0]}'?"
     if not candidates:
-        return "there is none to choose from."
+        return "there are none to choose from."
     return f"known are {listing(candidates)}."
 
 

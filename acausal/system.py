@@ -48,12 +48,12 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
 
     Arguments:
         model: the component tree; inputs that nothing feeds become the system's inputs.
-        check_units: whether a model is refused whose equations, values or connections mix unlike units. A
+        check_units: whether to refuse a model whose equations, values or connections mix different units. A
             variable, parameter or network without a unit fits everything.
 
     Raises:
-        UnitError: if an equation adds, compares or equates unlike dimensions, or a unit is none.
-        ModelError: if the model is declared, connected or posed wrongly; the message names the place.
+        UnitError: if an equation adds, compares or equates different dimensions, or a unit is not valid.
+        ModelError: if the model is not declared or connected correctly, or is singular; the message names the place.
     """
     if isinstance(model, type) and issubclass(model, Component):
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
@@ -78,7 +78,7 @@ class System:
 
     Attributes:
         model: the component tree it came from.
-        flat, reduced, layout, program, initializer: the stages' results, to look inside.
+        flat, reduced, layout, program, initializer: the results of the stages, for inspection.
     """
 
     model: Component
@@ -198,15 +198,15 @@ class System:
     ) -> tuple[Float[Array, " n_states"], Float[Array, " n_names"]]:
         """Derivatives of the states and some variables at once: ``(dx, y)``.
 
-        What both need is computed once, and once only where it is differentiated: twice as fast as
-        `vector_field` and `observe` in the gradient of a loss.
+        Shared values are computed and differentiated only once. In the gradient of a loss this is twice as fast as
+        `vector_field` and `observe`.
         """
         return self.rates_and_read(names, self.values(t, x, u, params))
 
-    # -- the same of values in one record: what simulation and training carry -------------------------
+    # -- the same with values in one record, for simulation and training ------------------------------
 
     def values(self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params) -> Values:
-        """The record of what a model is evaluated at; arguments as those of `vector_field`.
+        """The values at which a model is evaluated, in one record; arguments as for `vector_field`.
 
         Raises:
             DataError: for states or inputs of another shape, or parameters that do not fit.
@@ -227,7 +227,7 @@ class System:
     def rates_and_read(
         self, names: Sequence[str], values: Values
     ) -> tuple[Float[Array, " n_states"], Float[Array, " n_names"]]:
-        """Both, what they share computed once."""
+        """Both; shared values are computed once."""
         nodes, signs = self._find_all(names)
         dx, y = rates_and_read(self.program, nodes, values)
         return dx, y if (signs == 1).all() else y * signs
@@ -248,16 +248,16 @@ class System:
     ) -> Float[Array, " n_states"]:
         """Consistent initial states, shape (n_states,); gradients go through.
 
-        What the conditions leave open stays as near to its start as they allow, in nominal values;
-        `initialize` tells which states those are.
+        States that the conditions leave open stay as near to their starts as they allow, in nominal values;
+        `initialize` lists these states.
 
         Arguments:
             x0: states by name (the rest from the model's starts), or all of them as an array.
             u0: inputs at the initial time, where initial conditions depend on them.
             steady: whether all states without a fixed start or a value in ``x0`` are to be at rest, or the names
                 of those that are.
-            least_squares: whether conditions that contradict each other are met as well as can be, fixed
-                starts and rates measured in nominal values, initial equations as they stand.
+            least_squares: whether contradictory conditions are met in the least-squares sense, with fixed
+                starts and rates in nominal values, and initial equations unscaled.
 
         Raises:
             DataError: if ``x0`` or ``steady`` does not fit.
@@ -275,7 +275,7 @@ class System:
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
     ) -> Initialization:
-        """`initial_state` with the story: what each state's value comes from, and what is left over.
+        """`initial_state` with a report: where each state's value comes from, and the residuals of the conditions.
 
         Arguments and errors as in `initial_state`.
         """
@@ -284,10 +284,10 @@ class System:
     def input_values(
         self, u: Mapping[str, Numbers] | Numbers | None = None
     ) -> Float[Array, " n_inputs"]:
-        """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or nothing.
+        """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or None.
 
         Raises:
-            DataError: for a name that is no input, or an array of another length.
+            DataError: for a name that is not an input, or an array of another length.
         """
         if u is None or isinstance(u, Mapping):
             given = dict(u or {})

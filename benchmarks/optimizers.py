@@ -39,7 +39,7 @@ NEAR = 1.01
 """A loss below this times the lowest of all is near it."""
 
 
-class Kept(Descent):
+class OptimistixState(Descent):
     """A descent by optimistix.
 
     Attributes:
@@ -57,7 +57,7 @@ def by_optimistix(solver: Any, function: Callable[..., Any]) -> DescentMethod:
 
     Arguments:
         solver: a minimiser, or a solver of least squares.
-        function: (difference from the point, value, gradient, curvature) -> what the solver takes.
+        function: (difference from the point, value, gradient, Hessian) -> what the solver takes.
     """
 
     def begin(point: Array) -> Any:
@@ -75,21 +75,23 @@ def by_optimistix(solver: Any, function: Callable[..., Any]) -> DescentMethod:
         point, _ = ravel_pytree(params)
         no = jnp.zeros((), bool)
         value = jnp.asarray(jnp.inf, point.dtype)
-        return Kept(point, value, jnp.zeros_like(point), no, begin(point)[0])
+        return OptimistixState(point, value, jnp.zeros_like(point), no, begin(point)[0])
 
-    def update(updates: Any, state: Any, params: Any = None, **told: Any) -> Any:
+    def update(updates: Any, state: Any, params: Any = None, **extra: Any) -> Any:
         point, unravel = ravel_pytree(params)
         gradient, _ = ravel_pytree(updates)
 
         def fn(y: Array, _: Any) -> Any:
-            return function(y - point, told["value"], gradient, told.get("curvature")), None
+            return function(y - point, extra["value"], gradient, extra.get("hessian")), None
 
         whole = eqx.combine(state.arrays, begin(point)[1])
         best, whole, _ = solver.step(fn, state.point, None, {}, whole, frozenset())
         converged, _ = solver.terminate(fn, best, None, {}, whole, frozenset())
-        value = jnp.where((best == point).all(), told["value"], state.value)
+        value = jnp.where((best == point).all(), extra["value"], state.value)
         arrays = eqx.filter(whole, eqx.is_array)
-        return unravel(whole.y_eval - point), Kept(best, value, gradient, converged, arrays)
+        return unravel(whole.y_eval - point), OptimistixState(
+            best, value, gradient, converged, arrays
+        )
 
     return DescentMethod(init, update)
 
@@ -98,10 +100,10 @@ def _line(step: Array, value: Array, gradient: Array, _: Array) -> Array:
     return value + gradient @ step
 
 
-def _residuals(step: Array, value: Array, gradient: Array, curvature: Array) -> Array:
-    """Residuals whose half sum of squares has this value, gradient and curvature, as far as that is positive."""
-    bends, axes = jnp.linalg.eigh(curvature)
-    roots = jnp.sqrt(jnp.maximum(bends, 1e-14 * bends[-1]))
+def _residuals(step: Array, value: Array, gradient: Array, hessian: Array) -> Array:
+    """Residuals whose half sum of squares has this value, gradient and Hessian, as far as that is positive."""
+    eigenvalues, axes = jnp.linalg.eigh(hessian)
+    roots = jnp.sqrt(jnp.maximum(eigenvalues, 1e-14 * eigenvalues[-1]))
     roots = jnp.where(roots > 0, roots, 1.0)
     start = axes.T @ gradient / roots
     rest = jnp.sqrt(jnp.maximum(2 * value - start @ start, 0.0))

@@ -89,8 +89,10 @@ def _apart(way: str, seed: int, rides: Path, cache: Path) -> dict[str, float]:
     }
     command = [sys.executable, "-m", "benchmarks.time_to_loss", "--one", way, str(seed), str(rides)]
     began = time.time()
-    told = subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE, text=True)
-    row = json.loads(told.stdout.splitlines()[-1])
+    finished = subprocess.run(
+        command, env=environment, check=True, stdout=subprocess.PIPE, text=True
+    )
+    row = json.loads(finished.stdout.splitlines()[-1])
     return {**row, "seconds": row["ended"] - began}
 
 

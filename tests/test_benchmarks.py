@@ -130,10 +130,10 @@ def test_all_optimizers_find_a_minimum(name):
 
     @jax.jit
     def one(x, state):
-        told = {"value": loss(x), "grad": jax.grad(loss)(x), "value_fn": loss}
+        extra = {"value": loss(x), "grad": jax.grad(loss)(x), "value_fn": loss}
         if name in optimizers.GAUSS_NEWTON:
-            told["curvature"] = jax.hessian(loss)(x)
-        moves, state = method.update(told["grad"], state, x, **told)
+            extra["hessian"] = jax.hessian(loss)(x)
+        moves, state = method.update(extra["grad"], state, x, **extra)
         return x + moves, state
 
     x = jnp.zeros(3)

@@ -155,10 +155,10 @@ def test_gradients_reach_the_networks(learning):
 
     @jax.jit
     @jax.grad
-    def slope(nets):
+    def derivative(nets):
         return learning.observe("body.a", 0.0, X, U, {**params, **nets})
 
-    grad = slope(nets)
+    grad = derivative(nets)
     # the last bias of either network shifts the force, which moves 350 kg
     for name in nets:
         assert float(jnp.ravel(grad[name].biases[-1])[0]) == pytest.approx(1 / 350)

@@ -496,7 +496,7 @@ GALLERY: dict[str, Wrong] = {
     "no choice of an option": (
         lambda: blocks.FirstOrder(T=1, initType="Steady"),
         ac.DeclarationError,
-        ("FirstOrder.initType='Steady' is none of 'NoInit', 'SteadyState'",),
+        ("FirstOrder.initType='Steady' must be one of 'NoInit', 'SteadyState'",),
     ),
     "a number as truth": (
         lambda: rotational.IdealGear(ratio=1, useSupport=1),
@@ -511,7 +511,7 @@ GALLERY: dict[str, Wrong] = {
     "a wrong priority of a state": (
         lambda: tl.Mass(m=1, s=ac.Start(state="sometimes")),  # type: ignore[arg-type]
         ac.DeclarationError,
-        ("state='sometimes' is none of never, avoid, default, prefer, always",),
+        ("state='sometimes' must be one of never, avoid, default, prefer, always",),
     ),
     "a vector of wrong length": (
         lambda: compiled(part=blocks.CriticalDamping(f=1, n=3, x_start=[1, 2])),
@@ -654,7 +654,7 @@ GALLERY: dict[str, Wrong] = {
         ac.InitializationError,
         ("the initial conditions cannot all hold", "part (Started: der(x) = 0)"),
     ),
-    "an initial value of what is no state": (
+    "an initial value of what is not a state": (
         lambda: compiled(part=blocks.FirstOrder(T=1)).initial_state(x0={"part.u": 1}),
         ac.DataError,
         ("x0: 'part.u' is not a state",),
@@ -847,7 +847,7 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
     ),
     "no choice of an option": (
         with_mass(stateSelect="StateSelect.often"),
-        ("components.mass", "stateSelect='often' is none of 'never', 'avoid'"),
+        ("components.mass", "stateSelect='often' must be one of 'never', 'avoid'"),
     ),
     "an initial equation without an equals sign": (
         netlist(initial_equations=["mass.s - 1"]),

@@ -1,4 +1,4 @@
-"""What knows JAX and no model.
+"""Tools for JAX that know no model.
 
 In: JAX functions and arrays. Out: the same functions compiled to faster code, and JAX's settings.
 It knows no model, no data and no training. `__init__.pyi` lists its names; they are imported on first use.

@@ -23,10 +23,10 @@ WIDTH = 8
 """Instances side by side: as many numbers as a vector register holds, or a few."""
 
 LARGEST = 16_384
-"""Elements of an array in a loop up to which instances are put side by side; larger ones keep libraries busy."""
+"""Most elements of an array in a loop whose instances are put side by side; larger arrays keep libraries busy."""
 
 MOST = 4_000
-"""Operations in a loop up to which it is compiled as a whole; it takes the longer, the more there are."""
+"""The most operations in a loop that is compiled as a whole: the time to compile grows with them."""
 
 
 def batched(function: Flat) -> Flat:
@@ -97,7 +97,7 @@ def _in_groups(
 
 
 def is_small(jaxpr: Jaxpr, in_loop: bool = False) -> bool:
-    """Whether XLA is going to compile the loops of a jaxpr as a whole.
+    """Whether XLA will compile the loops of a jaxpr as a whole.
 
     Arguments:
         jaxpr: what to look at.

@@ -1,8 +1,8 @@
-"""The compilation cache: compiled programs are kept on disk, so that a second run need not compile them again.
+"""The compilation cache: compiled programs are kept on disk, so that a second run does not compile them again.
 
 It is JAX's own cache, in the user's cache folder unless the user has set up another one. Programs that call Python, as
-sparse factorizations do, are never kept. Anyone who can write to the folder can make a program run code, so only the
-user may.
+sparse factorizations do, are never kept. Whoever can write to the folder can make a program run code, so only the
+user has access to it.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ SECOND = 1.0
 
 
 def begin(environment: Mapping[str, str]) -> None:
-    """Keep compiled programs from now on, unless the user has said otherwise or nothing can be written."""
+    """Keep compiled programs from now on, unless the user has turned this off or the folder cannot be written to."""
     chosen = environment.get(VARIABLE)
     set_up = _setting(FOLDER) is not None or not _setting(ENABLED)
     if set_up or (chosen is not None and chosen.lower() in OFF):
@@ -80,7 +80,7 @@ def _setting(name: str) -> object:
 
 
 def _usable(folder: Path) -> bool:
-    """Whether files can be written to a folder; it is created if need be."""
+    """Whether files can be written to a folder; it is created if it does not exist."""
     try:
         made = folder.expanduser()
         made.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -36,7 +36,7 @@ class Value(NamedTuple):
     laned: bool
 
 
-Rule: TypeAlias = Callable[[Equation, list[Value], int], list[Array]]
+LaneRule: TypeAlias = Callable[[Equation, list[Value], int], list[Array]]
 """(equation, inputs, width) -> arrays with lanes; at least one input has lanes."""
 
 
@@ -224,7 +224,7 @@ def _scan(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
     return [*end, *outputs]
 
 
-RULES: dict[str, Rule] = {
+RULES: dict[str, LaneRule] = {
     primitives.BROADCAST: _broadcast,
     primitives.DOT: _dot,
     primitives.PAD: _pad,

@@ -1,4 +1,4 @@
-"""How JAX writes down a traced function: the names of its operations and of their parameters.
+"""How JAX represents a traced function: the names of its operations and of their parameters.
 
 Everything that this package relies on and that JAX does not document is in this file. `tests/_jax/test_primitives.py`
 fails when JAX changes it. The code that reads jaxprs then falls back on `jax.vmap` and `jax.lax.scan`, which is slower.
@@ -38,7 +38,7 @@ ELEMENTWISE = _names(
     "div eq erf exp exp2 expm1 floor ge gt integer_pow is_finite le log log1p logistic lt max min mul ne neg not or "
     "pow rem round rsqrt select_n sign sin sinh sqrt square stop_gradient sub tan tanh xor"
 )
-"""Operations on each element of arrays of one shape, among which there may be single numbers."""
+"""Operations on each element of arrays of one shape; some of their arguments may be single numbers."""
 
 AXES_FROM_THE_FRONT = _names(
     "concatenate reduce_and reduce_max reduce_min reduce_or reduce_prod reduce_sum rev split squeeze stack unstack"
@@ -139,7 +139,7 @@ def bind(equation: Equation, arrays: Sequence[Array]) -> list[Array]:
 
 
 def shapes(atoms: Sequence[Var | Literal]) -> list[tuple[int, ...]]:
-    """The shapes of variables; () for what has none, such as a token."""
+    """The shapes of variables; () for those without a shape, such as a token."""
     return [getattr(atom.aval, "shape", ()) for atom in atoms]
 
 

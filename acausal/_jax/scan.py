@@ -20,14 +20,14 @@ from jaxtyping import Array, PyTree, Shaped
 from acausal._jax import primitives
 from acausal._jax.batching import batched, is_small, operations
 
-Step: TypeAlias = Callable[[PyTree, Array, PyTree], tuple[Array, PyTree]]
+ScanStep: TypeAlias = Callable[[PyTree, Array, PyTree], tuple[Array, PyTree]]
 """(constants, state, row) -> (next state, outputs), of arrays."""
 
-Flat: TypeAlias = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
+FlatStep: TypeAlias = Callable[[Sequence[Array], Array, Sequence[Array]], list[Array]]
 """The same with flat lists: [next state, *outputs]."""
 
 _Cotangents: TypeAlias = tuple[list[Array | None], Array, list[Array | None]]
-"""Of constants, first state and rows; None for an array that is not differentiated by."""
+"""Of constants, first state and rows; None for an array for which no derivative is needed."""
 
 _Carry: TypeAlias = tuple[Array, list[Array]]
 """The adjoint of the state, and the totals of constants' cotangents."""
@@ -44,7 +44,7 @@ operation, that saves a fifth of the time; for smaller networks it saves nothing
 
 
 def stored_scan(
-    step: Step,
+    step: ScanStep,
     constants: PyTree,
     x0: Shaped[Array, " n_states"],
     rows: PyTree,
@@ -66,7 +66,7 @@ def stored_scan(
     """
     row = jax.tree.map(lambda a: jax.ShapeDtypeStruct(a.shape[1:], a.dtype), rows)
     closed, shapes = jax.make_jaxpr(step, return_shape=True)(constants, x0, row)
-    shared, each = jax.tree.leaves(constants), jax.tree.leaves(rows)
+    shared, by_row = jax.tree.leaves(constants), jax.tree.leaves(rows)
     captured = len(closed.consts)
 
     def flat(constants: Sequence[Array], x: Array, row: Sequence[Array]) -> list[Array]:
@@ -75,12 +75,12 @@ def stored_scan(
 
     is_repeated = not direct and is_small(closed.jaxpr, in_loop=True)
     run = partial(_repeating, operations(closed.jaxpr)) if is_repeated else _forward
-    states, end, *outputs = run(flat, [*closed.consts, *shared], x0, each)
+    states, end, *outputs = run(flat, [*closed.consts, *shared], x0, by_row)
     return states, end, jax.tree.unflatten(jax.tree.structure(shapes[1]), outputs)
 
 
 class _Input(Protocol):
-    """What JAX gives a forward rule: a value, and whether it is differentiated by."""
+    """What JAX gives a forward rule: a value, and whether its derivative is needed."""
 
     value: Array
     perturbed: bool
@@ -91,7 +91,7 @@ class _Saved(eqx.Module):
 
     Attributes:
         constants, states, rows: of the loop.
-        moved: which constants and which rows are differentiated by.
+        moved: the constants and rows whose derivatives are needed.
         operations: in a step.
     """
 
@@ -102,7 +102,9 @@ class _Saved(eqx.Module):
     operations: int = eqx.field(static=True)
 
 
-def _forward(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -> Sequence[Array]:
+def _forward(
+    step: FlatStep, constants: list[Array], x0: Array, rows: list[Array]
+) -> Sequence[Array]:
     """[states, end, *outputs]."""
 
     def body(x: Array, row: list[Array]) -> tuple[Array, tuple[Array, list[Array]]]:
@@ -114,7 +116,7 @@ def _forward(step: Flat, constants: list[Array], x0: Array, rows: list[Array]) -
 
 
 def _repeating(
-    size: int, step: Flat, constants: list[Array], x0: Array, rows: list[Array]
+    size: int, step: FlatStep, constants: list[Array], x0: Array, rows: list[Array]
 ) -> Sequence[Array]:
     """The same, with a derivative that repeats the steps."""
     n = len(constants)
@@ -131,9 +133,9 @@ def _repeating(
         constants: list[_Input], x0: _Input, rows: list[_Input]
     ) -> tuple[Sequence[Array], _Saved]:
         moved = tuple(p.perturbed for p in constants), tuple(p.perturbed for p in rows)
-        shared, each = [p.value for p in constants], [p.value for p in rows]
-        results = run(*shared, x0.value, *each)
-        return results, _Saved(shared, results[0], each, moved, size)
+        shared, by_row = [p.value for p in constants], [p.value for p in rows]
+        results = run(*shared, x0.value, *by_row)
+        return results, _Saved(shared, results[0], by_row, moved, size)
 
     def back(saved: _Saved, cotangents: list[Array | SymbolicZero]) -> _Cotangents:
         return _back(step, saved, [None if isinstance(c, SymbolicZero) else c for c in cotangents])
@@ -142,7 +144,7 @@ def _repeating(
     return scan(constants, x0, rows)
 
 
-def _back(step: Flat, saved: _Saved, cotangents: list[Array | None]) -> _Cotangents:
+def _back(step: FlatStep, saved: _Saved, cotangents: list[Array | None]) -> _Cotangents:
     """Cotangents of constants, first state and rows."""
     n, m = len(saved.constants), len(saved.rows)
     some_constants, some_rows = saved.moved

@@ -1,4 +1,4 @@
-"""What JAX is told before its first use."""
+"""JAX's settings, made before its first use."""
 
 from __future__ import annotations
 

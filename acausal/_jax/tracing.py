@@ -1,4 +1,4 @@
-"""Whether JAX is tracing: then values are not known, and checks of them are left out."""
+"""Whether JAX is tracing: values are then unknown, and their checks are skipped."""
 
 from __future__ import annotations
 

@@ -27,20 +27,20 @@ OPTIONS = "xla_backend_extra_options"
 BOUND = "xla_cpu_small_while_loop_byte_threshold"
 
 SINCE, BEFORE = (0, 7), (0, 11)
-"""Versions of jaxlib, from and before, known to take the option. XLA ends the process at an option it does not know."""
+"""First version of jaxlib that takes the option, and the first that is untested. XLA aborts at an unknown option."""
 
 COMPILED_LOOP = "xla_cpu_small_call"
 """How a compiled program names a loop that was compiled as a whole."""
 
 
 def compile_small_loops(environment: MutableMapping[str, str], jaxlib: str) -> None:
-    """Ask XLA, by its environment variable, to compile small loops as a whole; a user's own options are kept.
+    """Make XLA compile small loops as a whole, by its environment variable; the user's own options are kept.
 
     XLA reads the variable when JAX computes for the first time in a process; later it has no effect.
 
     Arguments:
         environment: changed in place; `os.environ` outside of tests.
-        jaxlib: its version; a version that may not know the option is not asked.
+        jaxlib: its version; nothing is changed for a version that may not know the option.
     """
     flags = environment.get("XLA_FLAGS", "")
     if OPTIONS not in flags and SINCE <= _release(jaxlib) < BEFORE:

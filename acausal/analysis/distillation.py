@@ -18,7 +18,7 @@ from acausal.errors import TrainingError, listing, nearest
 from acausal.networks import law_of
 
 Points: TypeAlias = Float[np.ndarray, " n"]
-Columns: TypeAlias = Float[np.ndarray, "n n_terms"]
+TermColumns: TypeAlias = Float[np.ndarray, "n n_terms"]
 Numbers: TypeAlias = Float[np.ndarray, " n_terms"]
 
 POINTS = 401
@@ -34,7 +34,7 @@ ENOUGH = 0.7
 """A further term must reduce the error at least by this factor."""
 
 BEAM = 8
-"""Formulas of each length that are extended."""
+"""How many formulas of each length are extended."""
 
 PLAIN = 1.1
 """Factor by which the error of a formula may be larger for each scale that it does not have."""
@@ -146,7 +146,7 @@ def _values(network: Callable[..., Array], x: Points) -> Points:
     return y
 
 
-def _columns(x: Points, chosen: Sequence[tuple[str, float]]) -> Columns:
+def _columns(x: Points, chosen: Sequence[tuple[str, float]]) -> TermColumns:
     """Values of terms at all points, one column for each."""
     with np.errstate(over="ignore"):
         return np.stack([TERMS[name].value(np, x / scale) for name, scale in chosen], axis=1)
@@ -195,20 +195,20 @@ def _best_scale(x: Points, y: Points, chosen: list[tuple[str, float]], name: str
     return min(finite, key=lambda s: finite[s]) if finite else None
 
 
-def _squared_error(columns: Columns, y: Points) -> float:
+def _squared_error(columns: TermColumns, y: Points) -> float:
     largest = np.max(np.abs(columns), axis=0)
     if not np.all((largest > LEAST) & (largest < HUGE)):
         return np.inf
     return float(np.sum((columns @ _solved(columns, y) - y) ** 2))
 
 
-def _solved(columns: Columns, y: Points) -> Numbers:
+def _solved(columns: TermColumns, y: Points) -> Numbers:
     size = np.maximum(np.sqrt(np.sum(columns**2, axis=0)), LEAST)
     return np.linalg.lstsq(columns / size, y, rcond=1e-10)[0] / size
 
 
 def _polished(x: Points, y: Points, chosen: list[tuple[str, float]]) -> Formula:
-    """All scales fitted together; the coefficients are a linear least-squares solution for given scales."""
+    """The formula with all scales fitted at once; for given scales, the coefficients follow by linear least squares."""
     names = tuple(n for n, _ in chosen)
     scales = np.array([s for _, s in chosen])
     free = np.array([TERMS[n].scaled for n in names])

@@ -17,7 +17,7 @@ Block = Callable[[Array], tuple[Array, Array]]
 def solve_linear(
     block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
 ) -> Float[Array, " n"]:
-    """Unknowns of a block that is affine in its tearing variables, of which ``guess`` gives the number."""
+    """Unknowns of a block that is affine in its tearing variables; ``guess`` gives their number."""
     del scale
     origin = jnp.zeros_like(guess)
     constant = block(origin)[1]
@@ -49,7 +49,7 @@ def solve_nonlinear(
 def nearest(
     block: Block, guess: Float[Array, " m"], scale: Float[Array, " m"] | float = 1.0
 ) -> Float[Array, " m"]:
-    """Tearing variables where the search for a root of a nonlinear block ends, whether it is one or not."""
+    """Tearing variables where the search for a root of a nonlinear block ends, whether or not they are a root."""
     return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
 
 

@@ -17,7 +17,7 @@ from acausal.codegen.reading import Arrays, read_arguments
 from acausal.codegen.values import Values
 from acausal.modeling import time
 
-Slots = dict[sp.Symbol, Any]
+SlotValues = dict[sp.Symbol, Any]
 
 
 def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> list[Array]:
@@ -72,7 +72,7 @@ def nearest_of_torn_loop(
 
 
 def _row(value: Any, i: int) -> Any:
-    """What one of several instances sees."""
+    """The value for one of several instances."""
     if not isinstance(value, ModuleValue):
         return value[i] if jnp.ndim(value) else value
     if isinstance(value.module, tuple):
@@ -82,7 +82,7 @@ def _row(value: Any, i: int) -> Any:
     return jax.tree.map(lambda leaf: leaf[i] if eqx.is_array(leaf) else leaf, value.module)
 
 
-def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Slots) -> tuple[Array, Array]:
+def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: SlotValues) -> tuple[Array, Array]:
     """All unknowns of a torn block, and its residuals, for given tearing variables."""
     unknowns: list[Any] = [None] * loop.outputs
     for i, variable in enumerate(loop.tears):
@@ -93,9 +93,9 @@ def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Slots) -> tuple[Arra
     return jnp.stack(unknowns), jnp.stack(residuals)
 
 
-def _filled(formula: BlockFormula, unknowns: list[Any], t: Any, known: Slots) -> Slots:
-    """What fills the slots of a formula of the block."""
-    values: Slots = {time: t}
+def _filled(formula: BlockFormula, unknowns: list[Any], t: Any, known: SlotValues) -> SlotValues:
+    """The values in the slots of a formula of the block."""
+    values: SlotValues = {time: t}
     for symbol, code in formula.variables:
         values[symbol] = unknowns[code] if code >= 0 else known[external(-1 - code)]
     for symbol, i in formula.parameters:

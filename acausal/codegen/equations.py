@@ -1,7 +1,7 @@
 """Write a program down as sympy equations, for people to read.
 
-Every derivative of a state is written in states, inputs and parameters; what cannot be written so, the unknowns of
-nonlinear loops, keeps its name and its equations follow.
+Every derivative of a state is an expression of states, inputs and parameters. The unknowns of nonlinear loops cannot be
+expressed so: they keep their names, and their equations follow.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from acausal.flattening import Integers
 from acausal.modeling import ModuleCall, primes, time as internal_time
 
 MAX_LOOP = 6
-"""Linear loops of more unknowns are not solved on paper."""
+"""Linear loops of more unknowns are not solved symbolically."""
 
 time = sp.Symbol("time")
 
-Slots = dict[sp.Symbol, sp.Expr]
+SlotExpressions = dict[sp.Symbol, sp.Expr]
 
 
 def explicit_equations(
@@ -72,7 +72,7 @@ class _Writer:
         return sp.Symbol(self.name(int(self.program.nodes[place[0]][place[1]])))
 
     def value(self, place: Place) -> sp.Expr:
-        """A value in terms of states, inputs and parameters (without recursion: chains may be long)."""
+        """A value as an expression of states, inputs and parameters (without recursion: chains may be long)."""
         stack = [place]
         while stack:
             current = stack[-1]
@@ -106,9 +106,9 @@ class _Writer:
     def _read(self, arguments: Arguments, size: int, row: int) -> list[Place]:
         return [self._place(g, size, row) for _, g in arguments.variables]
 
-    def _slots(self, arguments: Arguments, size: int, row: int) -> Slots:
+    def _slots(self, arguments: Arguments, size: int, row: int) -> SlotExpressions:
         """What fills the slots of one instance."""
-        names: Slots = {internal_time: time}
+        names: SlotExpressions = {internal_time: time}
         for symbol, gather in arguments.variables:
             names[symbol] = self._values[self._place(gather, size, row)]
         for symbol, gather in arguments.parameters:
@@ -193,9 +193,11 @@ def _add(
         terms[row].append(sp.nsimplify(factor) * value)
 
 
-def _written(formula: BlockFormula, unknowns: Sequence[sp.Symbol], filled: Slots) -> sp.Expr:
+def _written(
+    formula: BlockFormula, unknowns: Sequence[sp.Symbol], filled: SlotExpressions
+) -> sp.Expr:
     """A formula of a torn loop in the names of its unknowns and of what fills the loop's slots."""
-    names: Slots = {internal_time: time}
+    names: SlotExpressions = {internal_time: time}
     for symbol, code in formula.variables:
         names[symbol] = unknowns[code] if code >= 0 else filled[external(-1 - code)]
     names |= {symbol: filled[parameter(i)] for symbol, i in formula.parameters}

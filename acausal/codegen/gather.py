@@ -13,10 +13,10 @@ import numpy as np
 from acausal.flattening import Integers
 
 MAX_RUNS = 8
-"""Slices up to which they are read one by one; more are read by an index."""
+"""The most slices that are read one by one; more are read by an index."""
 
 Positions = tuple[Integers, Integers]
-"""Of every element, in which array and where in it."""
+"""For every element, its array and its place there."""
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ from acausal.structure import (
 
 
 class _Generator:
-    """Lays out values array by array, and says how instructions read what lies there."""
+    """Lays out values array by array, and finds how instructions read them."""
 
     def __init__(self, reduced: ReducedModel, parameters: ParameterLayout) -> None:
         self.reduced = reduced
@@ -164,7 +164,7 @@ _INSTRUCTION: dict[type, Callable[[_Generator, Any], Instruction]] = {
     TornLoop: _Generator.solve_torn_loop,
     SparseLoop: _Generator.solve_sparse_loop,
 }
-"""What computes a step."""
+"""By kind of step, the method that makes its instruction."""
 
 
 def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:

@@ -1,6 +1,6 @@
-"""Instructions: what a program is made of, each one operation over all instances of a formula.
+"""Instructions: the parts of a program, each one operation over all instances of a formula.
 
-They are data: what is computed, and where its arguments lie. `acausal.codegen.interpreter` runs them with JAX,
+They are data: the operation, and where its arguments lie. `acausal.codegen.interpreter` runs them with JAX,
 `acausal.codegen.explicit_equations` writes them down with sympy.
 """
 
@@ -17,7 +17,7 @@ from acausal.flattening import Integers
 from acausal.structure import Pattern
 
 Place = tuple[int, int]
-"""Which of the arrays that an instruction fills, and where in it."""
+"""One of the arrays that an instruction fills, and the row in it."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +51,11 @@ class Evaluate:
 
     @property
     def formula(self) -> str:
-        """The right-hand side in words."""
+        """The right-hand side as text."""
         return f" = {self.expression}"
 
     def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed together with one: none but itself."""
+        """The values that are computed with this one: only itself."""
         return [place]
 
 
@@ -65,7 +65,7 @@ class Accumulate:
 
     Attributes:
         values: the terms, the first of all instances before the second of all.
-        weights: (terms, size), or the one number that all of them are.
+        weights: (terms, size), or one number if they are all equal.
     """
 
     values: Gather
@@ -82,7 +82,7 @@ class Accumulate:
         return set(self.values.sources)
 
     def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed together with one: none but itself."""
+        """The values that are computed with this one: only itself."""
         return [place]
 
 
@@ -105,15 +105,15 @@ class BlockFormula:
 class SolveTornLoop:
     """Solve ``size`` algebraic loops of one shape, linear or not.
 
-    For given tearing variables the other unknowns follow one by one, and residuals are left.
+    For given tearing variables the other unknowns follow one by one; the remaining equations give residuals.
 
     Attributes:
-        equations: ``expression = 0`` of the loop, in order; ``residual_rows`` are those that leave residuals.
+        equations: ``expression = 0`` of the loop, in order; ``residual_rows`` are those that give residuals.
         assigned: in order of computation, an unknown and the expression that gives it.
         tears: the tearing variables, as numbers of unknowns.
         arguments: what fills `external`, `parameter` and `module` slots.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
-        origins: the equations that leave residuals, as they were written.
+        origins: the equations that give residuals, as they were written.
     """
 
     equations: tuple[BlockFormula, ...]
@@ -139,11 +139,11 @@ class SolveTornLoop:
 
     @property
     def residuals(self) -> tuple[BlockFormula, ...]:
-        """What is left over for given tearing variables."""
+        """The residuals for given tearing variables."""
         return tuple(self.equations[row] for row in self.residual_rows)
 
     def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed together with one: all unknowns of its loop."""
+        """The values that are computed with this one: all unknowns of its loop."""
         return [(array, place[1]) for array in range(self.outputs)]
 
 
@@ -179,11 +179,11 @@ class Balances:
 
 @dataclass(frozen=True)
 class SolveSparseLoop:
-    """Solve a large algebraic loop by Newton's method, or at once if it is linear.
+    """Solve a large algebraic loop by Newton's method, or directly if it is linear.
 
     Attributes:
         formulas: equations in order of rows, then the ``balances``.
-        pattern: where the Jacobian's entries stand, in the same order.
+        pattern: where the Jacobian's entries are, in the same order.
         guess, scale: start values and magnitudes of the unknowns, shape (size,).
     """
 
@@ -214,7 +214,7 @@ class SolveSparseLoop:
         return (*own, *self.balances.origins)
 
     def found_with(self, place: Place) -> list[Place]:
-        """The values that are computed together with one: all unknowns."""
+        """The values that are computed with this one: all unknowns."""
         return [(place[0], i) for i in range(self.size)]
 
 

@@ -1,4 +1,4 @@
-"""Run a program with JAX: instruction by instruction while JAX traces, those that are needed only."""
+"""Run a program with JAX: instruction by instruction while JAX traces, and only those that are needed."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def read(program: Program, nodes: Sequence[int], values: Values) -> Float[Array,
 def rates_and_read(
     program: Program, nodes: Sequence[int], values: Values
 ) -> tuple[Float[Array, " n_states"], Float[Array, " n_nodes"]]:
-    """Derivatives of the states and values of some nodes, what they share computed once."""
+    """Derivatives of the states and values of some nodes; shared values are computed once."""
     wanted = program.gather(nodes)
     needed = program.state_rates.sources if program.state_rates else ()
     arrays = _run(program, {*wanted.sources, *needed}, values)
@@ -51,7 +51,7 @@ def rates_and_read(
 def steps(
     program: Program, values: Values
 ) -> Iterator[tuple[int, Instruction, list[Array], Arrays]]:
-    """All instructions one after the other: number, instruction, its results, the arrays before it."""
+    """Run all instructions in order; gives number, instruction, results, and the arrays before it."""
     arrays = _known(program, values)
     for i, instruction in enumerate(program.instructions):
         results = execute(instruction, values, arrays)

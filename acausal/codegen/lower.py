@@ -27,7 +27,7 @@ class ModuleValue:
 
     Attributes:
         module: one module for all instances; or, if ``stacked``, one whose arrays carry a leading axis of
-            instances; or a tuple of modules that are unlike each other, one for each instance.
+            instances; or a tuple of different modules, one for each instance.
     """
 
     module: Any
@@ -53,7 +53,7 @@ class ModuleValue:
 
 
 def collect(modules: Sequence[Any]) -> ModuleValue:
-    """The modules of several instances: stacked if they differ in the values of their arrays only."""
+    """The modules of several instances: stacked if they differ only in the values of their arrays."""
     parts = [eqx.partition(m, eqx.is_array) for m in modules]
     (first, rest), *others = parts
     alike = bool(jax.tree.leaves(first)) and all(
@@ -98,10 +98,10 @@ def evaluate(expression: sp.Expr, values: SymbolValues) -> Any:
 
 
 Visit = Callable[[sp.Basic], Any]
-Rule = Callable[[Any, Visit], Any]
+LoweringRule = Callable[[Any, Visit], Any]
 
 
-def _rule(node: sp.Basic) -> Rule:
+def _rule(node: sp.Basic) -> LoweringRule:
     for cls in type(node).__mro__:
         if cls in RULES:
             return RULES[cls]
@@ -197,11 +197,11 @@ def _only_where(holds: Any, value: Any) -> Any:
     return jnp.where(holds, value, jax.lax.stop_gradient(value))
 
 
-def _call(function: Callable[..., Any]) -> Rule:
+def _call(function: Callable[..., Any]) -> LoweringRule:
     return lambda node, visit: function(*(visit(a) for a in node.args))
 
 
-def _fold(function: Callable[[Any, Any], Any]) -> Rule:
+def _fold(function: Callable[[Any, Any], Any]) -> LoweringRule:
     def fold(node: Any, visit: Visit) -> Any:
         first, *others = (visit(a) for a in node.args)
         for other in others:
@@ -211,7 +211,7 @@ def _fold(function: Callable[[Any, Any], Any]) -> Rule:
     return fold
 
 
-def _relation(function: Callable[[Any, Any], Any]) -> Rule:
+def _relation(function: Callable[[Any, Any], Any]) -> LoweringRule:
     def relate(node: Relational, visit: Visit) -> Any:
         return function(visit(node.lhs), visit(node.rhs))
 
@@ -223,7 +223,7 @@ def _module(node: Any, visit: Visit) -> Any:
     return visit(module)(tuple(int(n) for n in orders), *(jnp.asarray(visit(a)) for a in args))
 
 
-RULES: dict[type, Rule] = {
+RULES: dict[type, LoweringRule] = {
     sp.Number: _number,
     sp.NumberSymbol: _number,
     sp.Add: _sum,

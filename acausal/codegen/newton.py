@@ -1,4 +1,4 @@
-"""Roots near a guess: Newton's method with damping, and a path to follow where it does not arrive.
+"""Roots near a guess: Newton's method with damping, and a path to follow where that does not converge.
 
 The path is Newton's homotopy ``residual(z) = (1 - s) residual(guess)``: at s = 0 the guess solves it, at s = 1 a
 root does. It is followed by its length, so that it may turn back in s on its way. Newton's method alone is the
@@ -20,9 +20,9 @@ Tolerance = dict[str, float]
 """By precision."""
 TOLERANCE: Tolerance = {"float64": 1e-10, "float32": 1e-5}
 STALLED: Tolerance = {"float64": 1e-6, "float32": 1e-3}
-"""Relative size of the last step, and of one that rounding keeps from making the residual smaller."""
+"""Relative size of the last step, and of a step that is accepted although roundoff stalls descent."""
 FIRST, SHORTEST = 0.1, 1e-7
-"""Of the path: the first stride, and the length below which it is given up."""
+"""Of the path: the first stride, and the shortest one before the search gives up."""
 STRIDES, CORRECTIONS = 400, 12
 """Of the path: most strides, and Newton steps after each."""
 STRAIGHT = 0.7
@@ -39,7 +39,7 @@ class Jacobian(Protocol):
     """The Jacobian (k, m) of residuals at a point, in whatever form."""
 
     def reach(self, sizes: Float[Array, " m"]) -> Float[Array, " k"]:
-        """How far residuals may move, (k,), when unknowns move by up to ``sizes``, (m,)."""
+        """The largest changes of the residuals, (k,), when unknowns change by up to ``sizes``, (m,)."""
         ...
 
     def step(
@@ -49,8 +49,8 @@ class Jacobian(Protocol):
         ...
 
 
-class Residuals(Protocol):
-    """Equations whose root is looked for."""
+class RootProblem(Protocol):
+    """Equations whose root is sought."""
 
     def residual(self, z: Array, /) -> Array:
         """From unknowns (m,) to residuals (k,)."""
@@ -66,8 +66,8 @@ class Dense:
     """Equations whose Jacobian is a matrix, found by differentiation.
 
     Attributes:
-        residual: of the equations. ``solve``: solves linear equations, of which there are as many as unknowns,
-            or fewer: from a matrix (k, m) and right sides (k,) to (m,).
+        residual: of the equations. ``solve``: solves linear equations, as many as unknowns or fewer: from a
+            matrix (k, m) and right sides (k,) to (m,).
     """
 
     residual: Residual
@@ -107,10 +107,10 @@ _State = tuple[Array, Array, Array]
 """Of Newton's method: the point, the status, the number of steps."""
 
 
-class _Walk(NamedTuple):
-    """Where the search is: its phase, the last point (m + 1,) of unknowns in units and s, and the next stride.
+class _PathSearch(NamedTuple):
+    """State of the search: its phase, the last point (m + 1,) of scaled unknowns and s, and the next stride.
 
-    The path is followed upward in s first; where that leads nowhere, the other way round.
+    The path is followed upward in s first; if that fails, in the other direction.
     """
 
     phase: Array
@@ -122,7 +122,7 @@ class _Walk(NamedTuple):
 
 
 def root(
-    equations: Residuals,
+    equations: RootProblem,
     guess: Float[Array, " m"],
     scale: Float[Array, " m"] | float = 1.0,
     max_steps: int = 300,
@@ -149,7 +149,7 @@ def root(
         reach = jacobian.reach(sizes[:-1]) + jnp.abs(first) * sizes[-1]
         return rest, reach, jacobian.step(rest, first, direction / units) / units
 
-    def go_on(w: _Walk) -> _Walk:
+    def go_on(w: _PathSearch) -> _PathSearch:
         walking = w.phase == ON_THE_WAY
         direction = jnp.where(walking, w.direction, upward)
         ahead = jnp.where(walking, w.point + w.stride * w.direction, w.point.at[-1].set(1.0))
@@ -167,7 +167,7 @@ def root(
         part = jnp.where(passed, (1 - w.point[-1]) / (point[-1] - w.point[-1]), 1.0)
         kept = jnp.where(good, w.point + part * taken, jnp.where(back, begin, w.point))
         stride = jnp.where(good, 1.5 * length, jnp.where(walking, w.stride / 3, w.stride))
-        return _Walk(
+        return _PathSearch(
             jnp.where(walking, on, ends),
             jnp.where(walking, kept, jnp.where(arrived | (w.phase != ALONE), point, begin)),
             jnp.where(good, taken / length, jnp.where(back, -upward, w.direction)),
@@ -177,7 +177,7 @@ def root(
         )
 
     stride = FIRST * jnp.ones_like(begin[-1])
-    start = _Walk(jnp.array(ALONE), begin, upward, stride, jnp.array(0), jnp.array(True))
+    start = _PathSearch(jnp.array(ALONE), begin, upward, stride, jnp.array(0), jnp.array(True))
     end = jax.lax.while_loop(lambda w: w.phase < DONE, go_on, start)
     return end.point[:-1] * unit, end.phase == DONE
 
@@ -190,12 +190,12 @@ def _newton(
 ) -> tuple[Array, Array]:
     """A root near a guess by Newton's method, and whether it was reached.
 
-    A step that does not make the residual smaller is halved until it does; what is smaller is judged with
-    every equation divided by its partial derivatives, so that units do not matter. Where no part of the step helps, but
-    the step is small, rounding is all that is left; otherwise the method is stuck.
+    A step that does not make the residual smaller is halved until it does. For this comparison every equation is
+    divided by its partial derivatives, so that units do not matter. Where no part of the step helps, but the step is
+    small, only roundoff is left; otherwise the method is stuck.
 
     Arguments:
-        linearized: from a point to the residuals, how far each may move, and the Newton step.
+        linearized: from a point to the residuals, the largest change of each, and the Newton step.
     """
 
     def advance(state: _State) -> _State:

@@ -1,4 +1,4 @@
-"""Explain where a model's equations have no finite values: the loop or the formula, and its values."""
+"""Explain why a model's equations have no finite values: which loop or formula fails, and at which values."""
 
 from __future__ import annotations
 
@@ -57,14 +57,14 @@ def _first_nonfinite(results: Sequence[Array]) -> Place | None:
 def _formula(name: str, formula: str, value: float) -> str:
     return (
         f"'{name}'{formula} is {value}: a division by zero, or a function outside its domain? "
-        "Look at the parameters and values that stand in it."
+        "Check its parameters and values."
     )
 
 
 def _singular(names: list[str]) -> str:
     return (
         f"the linear equations for {listing(names)} are singular there; "
-        "does a parameter make two of them alike, or one of them empty?"
+        "does a parameter make two of them the same, or one of them void?"
     )
 
 
@@ -74,7 +74,7 @@ def _stopped(names: list[str], origins: Sequence[str], values: Array, residuals:
     left = [f"{origins[i]} (off by {off[i]:.3g})" for i in np.argsort(-off, kind="stable")]
     at = ", ".join(f"{n} = {float(v):.6g}" for n, v in list(zip(names, values, strict=True))[:6])
     return (
-        f"the equations for {listing(names)} have no solution that Newton's method finds; "
-        f"nearest is {at}, which leaves {listing(left, 6)}. "
-        "Give start values nearer to the solution (ac.Start), or look at the parameters."
+        f"Newton's method finds no solution of the equations for {listing(names)}; "
+        f"the nearest point is {at}, which leaves {listing(left, 6)}. "
+        "Give start values nearer to the solution (ac.Start), or check the parameters."
     )

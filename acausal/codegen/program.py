@@ -1,4 +1,4 @@
-"""The program of a model: instructions in solving order, as data that others run, write down or count.
+"""The program of a model: instructions in solving order, as data that can be run, written down or counted.
 
 Its size depends on the number of distinct formulas, not of components. Values live in a list of arrays: the
 states, the inputs, a zero, then those that the instructions fill.
@@ -22,10 +22,10 @@ STATES, INPUTS, ZERO = 0, 1, 2
 
 @dataclass(frozen=True)
 class Program:
-    """What computes the values of a model.
+    """The instructions that compute the values of a model.
 
     Attributes:
-        nodes: by array, the nodes whose values lie in it.
+        nodes: for every array, the nodes whose values lie in it.
         instructions: in order; ``first[i]`` is the array that instruction i fills first.
         state_rates: where the derivatives of the states are read, and their signs; None without states.
         input_signs: what inputs are multiplied by before they are read.
@@ -45,7 +45,7 @@ class Program:
 
     @cached_property
     def positions(self) -> tuple[Integers, Integers]:
-        """For every node, in which array and where in it its value lies (-1: nowhere)."""
+        """For every node, the array and the place in it where its value lies (-1: nowhere)."""
         count = 1 + max((int(nodes.max()) for nodes in self.nodes if len(nodes)), default=-1)
         source, index = (np.full(count, -1, dtype=np.int64) for _ in range(2))
         for array, nodes in enumerate(self.nodes):

@@ -20,12 +20,12 @@ Arrays = Sequence[Array]
 
 
 def read_elements(gather: Gather, arrays: Arrays) -> Array:
-    """The elements that a gather tells, shape (n,); a scalar where it is one for all instances."""
+    """The elements that a gather selects, shape (n,); a scalar where all instances share one."""
     return _READ[type(gather)](gather, arrays)
 
 
 def read_arguments(arguments: Arguments, values: Values, arrays: Arrays) -> dict[sp.Symbol, Any]:
-    """What fills the slots of a formula."""
+    """The values in the slots of a formula."""
     packed = values.packed
     filled: dict[sp.Symbol, Any] = {time: values.t}
     filled |= {symbol: read_elements(g, arrays) for symbol, g in arguments.variables}

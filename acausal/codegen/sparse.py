@@ -25,7 +25,7 @@ from acausal.structure import SETTINGS, THRESHOLD, Pattern
 
 @dataclass(frozen=True, eq=False)
 class SparseMatrix:
-    """A square matrix of which only the pattern is fixed."""
+    """A square matrix with a fixed pattern and variable entries."""
 
     pattern: Pattern
 

@@ -1,4 +1,4 @@
-"""Where a model is evaluated: all that a program reads, in one record."""
+"""The point at which a model is evaluated: everything that a program reads, in one record."""
 
 from __future__ import annotations
 

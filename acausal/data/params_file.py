@@ -52,7 +52,9 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
     like: dict[str, Any] = dict(model) if isinstance(model, Mapping) else model.parameters()
     arrays, about = read_arrays(Path(path))
     if about.get("kind") != KIND:
-        raise DataError(f"'{path}' has no {KIND}, but: {about.get('kind', 'something unnamed')}.")
+        raise DataError(
+            f"'{path}' does not hold {KIND}, but: {about.get('kind', 'something unnamed')}."
+        )
     params = filled_like(like, arrays, f"'{path}'")
     for place, here in _settings(like, ""):
         there = about["settings"].get(place, here)

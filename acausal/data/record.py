@@ -133,7 +133,7 @@ class Data:
         )
 
     def columns(self, names: Iterable[str], purpose: str) -> Float[np.ndarray, "n n_names"]:
-        """The named signals side by side; ``purpose`` says in the error what they are needed for.
+        """The named signals side by side; ``purpose`` is what they are needed for, in an error.
 
         Raises:
             DataError: if the record lacks signals; it lists them.

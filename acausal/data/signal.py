@@ -1,7 +1,7 @@
 """Sampled signals: values over a time base, interpolated at any time.
 
 A `Signal` is a pure function of time that JAX can trace. It can be a model's input, and it can be a
-component's `Module` (``self.table(time)``), where it is differentiated like a network.
+component's `Module` (``self.table(time)``), which is differentiated like a network.
 """
 
 from __future__ import annotations
@@ -146,8 +146,8 @@ class Signal(eqx.Module):
             return self._secant(0)
         j = jnp.clip(i, 1, len(self.ts) - 2)
         left, right = self._secant(j - 1), self._secant(j)
-        curvature = (right - left) / (self.ts[j + 1] - self.ts[j - 1])
-        return left + curvature * (2 * self.ts[i] - self.ts[j - 1] - self.ts[j])
+        second_difference = (right - left) / (self.ts[j + 1] - self.ts[j - 1])
+        return left + second_difference * (2 * self.ts[i] - self.ts[j - 1] - self.ts[j])
 
     def _hermite(self, i: Array, t: Array) -> Float[Array, ""]:
         h = self.ts[i + 1] - self.ts[i]

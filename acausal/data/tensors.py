@@ -26,16 +26,16 @@ from acausal.errors import DataError, listing, reason
 Arrays = dict[str, np.ndarray]
 
 RENAMED = {".coefficients": ".bends", ".factor.": ".passage."}
-"""Fields by their old names, as in files of version 0.1."""
+"""New name of a field -> its old name, as in files of version 0.1."""
 
 
 def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
-    """Write a file. Whenever this fails or is killed, what was there before is still there.
+    """Write a file. If this fails or is killed, the old file is still there.
 
     Arguments:
         path: the file.
         arrays: its arrays, by name.
-        about: its description, which JSON can express.
+        about: its description, of values that JSON can hold.
 
     Raises:
         OSError: if it cannot be written.
@@ -62,7 +62,7 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
     except OSError as error:
         raise DataError(f"'{path}' cannot be read: {reason(error)}.") from error
     except SafetensorError as error:
-        raise DataError(f"'{path}' is damaged or no safetensors file: {error}.") from error
+        raise DataError(f"'{path}' is damaged or not a safetensors file: {error}.") from error
     if "about" not in metadata or "sha256" not in metadata:
         raise DataError(f"'{path}' was not written by acausal: it has no description.")
     if _checksum(arrays, metadata["about"]) != metadata["sha256"]:
@@ -112,7 +112,7 @@ def filled_like(like: PyTree, arrays: Mapping[str, np.ndarray], where: str) -> P
     if lacking := [place for place in places if place not in arrays]:
         raise DataError(f"{where} lacks {listing(lacking)}: it belongs to another model.")
     if superfluous := sorted(arrays.keys() - set(places)):
-        raise DataError(f"{where} has {listing(superfluous)} besides: it belongs to another model.")
+        raise DataError(f"{where} also has {listing(superfluous)}: it belongs to another model.")
     for place, (_, leaf) in zip(places, leaves, strict=True):
         here, there = _stored(leaf), arrays[place]
         if (here.shape, here.dtype) != (there.shape, there.dtype):
@@ -125,7 +125,7 @@ def filled_like(like: PyTree, arrays: Mapping[str, np.ndarray], where: str) -> P
 
 
 def _with_new_names(arrays: Mapping[str, np.ndarray], places: list[str]) -> Arrays:
-    """The arrays, with places in an older file called as they are now."""
+    """The arrays, with the names in an older file replaced by today's."""
     found = dict(arrays)
     for place in places:
         for new, old in RENAMED.items():

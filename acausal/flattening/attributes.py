@@ -19,7 +19,7 @@ T = TypeVar("T", bound=np.generic)
 
 @dataclass(frozen=True)
 class VariableAttributes:
-    """Attributes of all variables, as `FlatModel` holds them."""
+    """Attributes of all variables, in the form of `FlatModel`."""
 
     start: Numbers
     fixed: Flags
@@ -61,7 +61,7 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
 
 
 def _declared_attributes(layout: Layout) -> VariableAttributes:
-    """The attributes as the classes declare them; starts that are expressions are not among them."""
+    """The attributes as the classes declare them, without starts that are expressions."""
     base = layout.variable_base
 
     def spread(attribute: str, dtype: type[T]) -> np.ndarray[Any, np.dtype[T]]:
@@ -85,7 +85,7 @@ def _declared_attributes(layout: Layout) -> VariableAttributes:
 
 
 def _modified_starts(layout: Layout, number: int, found: VariableAttributes) -> Iterator[Binding]:
-    """Write the attributes that a component's modifiers give; starts that are expressions are returned."""
+    """Write the attributes that a component's modifiers give; return the starts that are expressions."""
     form, base = layout.form(number), int(layout.variable_base[number])
     for name, modifier in layout.components[number]._node.modifiers.items():
         if not isinstance(modifier, Start):
@@ -116,13 +116,13 @@ def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
 
 
 def _state_rank(prototype: Component, variable: Variable) -> float:
-    """Rank of the variable's `StateSelect`; half a rank more where the option that it names was set."""
+    """Rank of the variable's `StateSelect`; half a rank higher where the user set the option that it names."""
     by_hand = variable.state in prototype._node.options
     return STATE_SELECT.index(_attribute(prototype, variable, "state")) + 0.5 * by_hand
 
 
 def _indices(form: Form, name: str) -> Iterator[int]:
-    """Local indices of a variable, all elements of a vector among them."""
+    """Local indices of a variable; of a vector, those of all elements."""
     if name in form.variable_index:
         yield form.variable_index[name]
     else:

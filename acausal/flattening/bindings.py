@@ -15,7 +15,7 @@ from acausal.flattening.template import Integers
 from acausal.modeling import Reference, references
 
 ALONE = sp.Symbol("p0", real=True)
-"""The parameter in the expression that is nothing but a parameter."""
+"""The symbol in a binding to a single parameter."""
 
 
 MAX_DOUBLINGS = 64

@@ -1,8 +1,8 @@
 """Connection sets: the connectors that are connected to each other, and the equations that follow.
 
-As in Modelica, a connector of a composite belongs to two connection sets: one of the connections around the composite,
-one of the connections within it. A *side* is a connector in one of these two roles. Its number is ``2 * v`` for the
-outer side and ``2 * v + 1`` for the inner side, where ``v`` is the connector's first variable.
+As in Modelica, a connector of a composite belongs to two connection sets: one outside of the composite and one within
+it. A *side* is a connector in one of these two roles. Its number is ``2 * v`` for the outer side and ``2 * v + 1`` for
+the inner side, where ``v`` is the connector's first variable.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class _ConnectionSet:
 
     Attributes:
         variables: the first variable of each.
-        inner: for each, whether it is its inner side that belongs to the set.
+        inner: for each, whether its inner side belongs to the set.
         kind: the class of the connectors; None for signals.
     """
 
@@ -157,7 +157,7 @@ def _pairs(layout: Layout) -> tuple[Integers, dict[int, type[Connector] | None]]
 def _locate(
     layout: Layout, composite: Component, end: Endpoint
 ) -> tuple[bool, int, type[Connector] | None]:
-    """Whether an end that a composite connects is its own, the end's first variable, and its class."""
+    """For an end that a composite connects: whether it belongs to the composite, its first variable, its class."""
     owner, name = owner_and_name(end)
     number = layout.position.get(id(owner))
     if owner is None or number is None:

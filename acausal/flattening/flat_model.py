@@ -25,7 +25,7 @@ class FlatModel:
     Attributes:
         name: of the model: its class, or the title in its file.
         layout: names of everything.
-        groups: all equations, those of connections among them; ``initial``: equations at the initial time.
+        groups: all equations, including those of connections; ``initial``: equations at the initial time.
         inputs: indices of the variables that are the model's inputs.
         start, fixed, nominal, state: (n_variables,) attributes; ``state`` counts from 0 "never" to 4 "always",
             plus 0.5 where the model's author, not the library, set it.
@@ -59,7 +59,7 @@ class FlatModel:
 
     @property
     def n_equations(self) -> int:
-        """Number of equations, those of connections among them."""
+        """Number of equations, including those of connections."""
         return sum(len(g) for g in self.groups)
 
     @cached_property

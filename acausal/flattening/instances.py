@@ -27,18 +27,18 @@ from acausal.modeling import (
     time,
 )
 
-Place = tuple[tuple[str, ...], int]
-"""Where a slot is filled from, seen from the component that states the equation: the names of the parts on the way to
-the owner (none for the component itself), and the local index there."""
+SlotSource = tuple[tuple[str, ...], int]
+"""What fills a slot, relative to the component that states the equation: the names of the parts on the way to the owner
+(none for the component itself), and the local index there."""
 
 
 @dataclass(frozen=True)
 class _Places:
-    """Where the slots of a template are filled from."""
+    """What fills the slots of a template."""
 
-    variables: tuple[Place, ...]
-    parameters: tuple[Place, ...]
-    modules: tuple[Place, ...]
+    variables: tuple[SlotSource, ...]
+    parameters: tuple[SlotSource, ...]
+    modules: tuple[SlotSource, ...]
 
 
 def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[EquationGroup, ...]]:
@@ -98,9 +98,9 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
     names: dict[sp.Basic, sp.Basic] = {}
     names_of_parts: dict[sp.Basic, sp.Basic] = {}
     orders: dict[sp.Symbol, int] = {}
-    variables: dict[sp.Symbol, Place] = {}
-    parameters: dict[sp.Symbol, Place] = {}
-    modules: dict[sp.Symbol, Place] = {}
+    variables: dict[sp.Symbol, SlotSource] = {}
+    parameters: dict[sp.Symbol, SlotSource] = {}
+    modules: dict[sp.Symbol, SlotSource] = {}
     for symbol in _symbols(residual):
         if symbol == time:
             continue
@@ -211,7 +211,7 @@ def _route(owner: Component, reference: Reference, where: str) -> tuple[str, ...
 
 
 def _fill(layout: Layout, template: Template, places: _Places, members: Integers) -> EquationGroup:
-    def indices(entries: tuple[Place, ...], base: Integers) -> Integers:
+    def indices(entries: tuple[SlotSource, ...], base: Integers) -> Integers:
         columns = [base[_owners(layout, members, route)] + local for route, local in entries]
         return np.stack(columns, axis=1) if columns else np.empty((len(members), 0), dtype=np.int64)
 

@@ -66,7 +66,7 @@ class Layout:
 
     Attributes:
         components, paths: every component, parents before children, and its dotted path.
-        forms: the distinct forms; ``form_of[i]`` is the index of component i's.
+        forms: the distinct forms; ``form_of[i]`` is the index of component i's form.
         variable_base: ``variable_base[i]`` is the index of component i's first variable; the last entry is the total.
         parameter_base, module_base: likewise.
     """
@@ -238,7 +238,7 @@ def _structure(component: Component) -> Hashable:
 
 
 def _attributes(declared: Declaration | Connector) -> tuple[Hashable, ...]:
-    """The attributes of a declaration, which decide the form whichever instance made it."""
+    """The attributes of a declaration that decide the form; they do not depend on the instance that made it."""
     if isinstance(declared, Connector):
         return (declared._when,)
     return tuple((k, _frozen(v)) for k, v in sorted(vars(declared).items()))

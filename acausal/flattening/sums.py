@@ -1,7 +1,7 @@
-"""Sums of so many variables that integers state them, not sympy.
+"""Sums of many variables, stored as integers instead of sympy expressions.
 
 Where thousands of flows meet in one node, an expression with a term for each would cost sympy and XLA as much as
-thousands of formulas. A `Sum` answers with integers what a `Template` answers with expressions.
+thousands of formulas. A `Sum` has the interface of a `Template`, but computes with integers.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.flattening.template import Kept, Template, slot
+from acausal.flattening.template import KeptSlots, Template, slot
 
 FEW = 8
-"""A sum of up to so many terms is a formula like any other."""
+"""The most terms of a sum that is a template like any other equation."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Sum:
         terms = zip(self.factors, self.variables, strict=True)
         return sp.Add(*(factor * symbol for factor, symbol in terms))
 
-    def specialised(self, pattern: tuple[int, ...]) -> tuple[Statement, Kept]:
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Statement, KeptSlots]:
         """See `Template.specialised`."""
         merged: dict[int, int] = {}
         for factor, code in zip(self.factors, pattern, strict=True):
@@ -76,7 +76,7 @@ class Sum:
         return self
 
     def has_prescribed(self) -> bool:
-        """No signal stands in a sum."""
+        """A sum contains no `Prescribed` signal."""
         return False
 
     def with_signals(self) -> tuple[Sum, tuple[int, ...]]:
@@ -136,4 +136,4 @@ def balance(coefficients: tuple[int, ...], origin: str) -> Template | Sum:
 
 
 Statement = Template | Sum
-"""What an equation says, whichever variables fill its slots."""
+"""An equation in slots, whatever variables fill them."""

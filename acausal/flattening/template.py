@@ -1,7 +1,7 @@
 """Equation templates: one equation of one class, written once in slots, used by any number of instances.
 
 sympy works on templates only, once per template; the graph works on the integers that fill their slots. A `Template` is
-an expression; a `Sum` (in `sums`) answers the same questions with integers.
+an expression; a `Sum` (in `sums`) has the same interface, but holds integers.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from acausal.modeling import Prescribed, time
 
 Integers = np.ndarray[Any, np.dtype[np.int64]]
 
-Kept = tuple[list[int], list[int], list[int]]
+KeptSlots = tuple[list[int], list[int], list[int]]
 """The columns of the slots that remain: variables, parameters, modules."""
 
 
@@ -51,7 +51,7 @@ class Template:
 
     @cached_property
     def key(self) -> tuple[Any, ...]:
-        """Two templates with one key are one equation, whatever class it came from."""
+        """Two templates with one key are the same equation, whatever classes they came from."""
         names = [*self.variables, *self.parameters, *self.modules]
         canonical = {s: sp.Symbol(f"_{i}", real=True) for i, s in enumerate(names)}
         counts = (len(self.variables), len(self.parameters), len(self.modules))
@@ -60,7 +60,7 @@ class Template:
     # -- rewriting ---------------------------------------------------------------------------------
 
     @cache
-    def specialised(self, pattern: tuple[int, ...]) -> tuple[Template, Kept]:
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Template, KeptSlots]:
         """The template with slots merged, negated or set to zero, and the columns of the slots that remain.
 
         Arguments:
@@ -128,7 +128,7 @@ class Template:
         return derivative, tuple(kept)
 
     def with_orders(self, orders: tuple[int, ...]) -> Template:
-        """The same equation of variables that are differentiated so often."""
+        """The same equation with other orders of differentiation of its variables."""
         return replace(self, orders=orders)
 
     @cache
@@ -138,11 +138,11 @@ class Template:
 
     @cache
     def with_signals(self) -> tuple[Template, tuple[int, ...]]:
-        """The equation with signals in the place of `Prescribed`, for when it is not differentiated any more.
+        """The equation with signals in the place of `Prescribed`, once all differentiation is done.
 
         Returns:
-            The new template and, per variable slot, the column of this one: signals that only stand for further
-            derivatives are gone.
+            The new template and, per variable slot, the column of this one. Signals that only serve as further
+            derivatives are dropped.
         """
         residual = self.residual.replace(Prescribed, lambda order, _, *signals: signals[int(order)])
         present = residual.free_symbols
@@ -151,16 +151,16 @@ class Template:
         orders = tuple(self.orders[c] for c in kept)
         return replace(self, residual=residual, variables=variables, orders=orders), kept
 
-    # -- what it says --------------------------------------------------------------------------------
+    # -- properties ----------------------------------------------------------------------------------
 
     @property
     def is_void(self) -> bool:
-        """Whether it says nothing: ``0 = 0``."""
+        """Whether the equation is void: ``0 = 0``."""
         return self.residual == 0
 
     @cache
     def coefficients(self) -> tuple[Any, ...] | None:
-        """The numbers that slots are multiplied by, where the residual is the sum of that; else None."""
+        """The numbers that slots are multiplied by if the residual is such a sum, else None."""
         if self.parameters or self.modules or not self.variables:
             return None
         factors = [self.residual.diff(s) for s in self.variables]
@@ -205,7 +205,7 @@ class Template:
 
     @cache
     def is_safely_solvable(self, column: int) -> bool:
-        """Whether the slot stands linearly with a coefficient that cannot vanish while a simulation runs.
+        """Whether the slot appears linearly, with a coefficient that cannot vanish while a simulation runs.
 
         Numbers and products of parameters count as safe, anything that depends on variables, time or cases does not.
         """
@@ -217,24 +217,24 @@ class Template:
 
     @cache
     def is_linear(self, columns: tuple[int, ...]) -> bool:
-        """Whether the residual is affine in these slots together."""
+        """Whether the residual is affine in all of these slots at once."""
         symbols = {self.variables[c] for c in columns}
         if symbols & self._deciding():
             return False
         return not any(self.partial(c).free_symbols & symbols for c in columns)
 
     def weights(self, column: int) -> tuple[float, ...] | None:
-        """Weights whose sum over the other slots is this one; None, as an expression computes it: `solved`."""
+        """Weights whose sum over the other slots is this one; None for a template, see `solved`."""
         del column
         return None
 
     def split(self, inside: tuple[bool, ...]) -> None:
-        """A template reads what is outside of a loop slot by slot: nothing is added up before. See `Sum.split`."""
+        """None: a template reads variables outside of a loop slot by slot. See `Sum.split`."""
         del inside
 
     @cache
     def _terms(self) -> dict[Any, list[sp.Expr]]:
-        """The terms of the residual that each symbol stands in."""
+        """The terms of the residual that contain each symbol."""
         found: dict[Any, list[sp.Expr]] = {s: [] for s in self.variables}
         for term in sp.Add.make_args(self.residual):
             for symbol in term.free_symbols:
@@ -243,14 +243,14 @@ class Template:
 
     @cache
     def _deciding(self) -> set[Any]:
-        """The symbols that decide a case or a step: there the residual jumps, and no derivative tells."""
+        """The symbols that decide a case or a step: the residual jumps there, which its derivatives do not show."""
         places = self.residual.atoms(Relational, sp.Function)
         return set().union(*(p.free_symbols for p in places if not isinstance(p, sp.Piecewise)))
 
 
 @cache
 def interned(template: Template) -> Template:
-    """The first template equal to this one: equality of what is interned is identity, whatever its size."""
+    """The first template equal to this one: interned templates are equal only if they are identical."""
     return template
 
 
@@ -263,6 +263,6 @@ def slot(path: str, order: int = 0) -> sp.Symbol:
 
 
 def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:
-    """A slot of that name, or nearly: the derivative in a slot may stand there with the other sign."""
+    """A slot with that name or a similar one: the template may hold the same derivative with the other sign."""
     symbol = sp.Symbol(name, real=True)
     return _fresh(f"{name}'", taken) if symbol in taken else symbol

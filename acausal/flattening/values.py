@@ -17,7 +17,7 @@ from acausal.modeling import Declaration, ModuleReference, Parameter, Start, ele
 
 @dataclass(frozen=True)
 class ParameterValues:
-    """Values of all parameters, as `FlatModel` holds them."""
+    """Values of all parameters, in the form of `FlatModel`."""
 
     value: Numbers
     bindings: tuple[Binding, ...]
@@ -73,7 +73,7 @@ def parameter_values(layout: Layout) -> ParameterValues:
 
 
 def _fold_through(bindings: list[Binding], value: Numbers, folded: Flags) -> None:
-    """Fold parameters that folded ones make zero, too."""
+    """Also fold parameters that are zero because folded ones are."""
     left = bindings
     while zero := [b.target for b in left if folded[list(b.arguments)].all() and _is_zero(b)]:
         value[zero], folded[zero] = 0.0, True

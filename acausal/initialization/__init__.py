@@ -1,6 +1,6 @@
 """Initialize: consistent initial states from starts, initial equations and a user's values.
 
-In: a `ReducedModel` and its `Program`. Out: initial states, and the story of where they come from.
+In: a `ReducedModel` and its `Program`. Out: initial states, and a report on how each was found.
 It knows nothing of time integration or data.
 """
 

@@ -40,12 +40,11 @@ class FixedStart:
 
 @dataclass(frozen=True)
 class Conditions:
-    """What a model says about its initial time.
+    """The initial conditions of a model.
 
     Attributes:
         start_of: for every state the variable whose start it takes, and the sign; ``fixed``: whether it is fixed.
-        further: fixed starts that are not met by that: of variables that are not states, and of further
-            names of a state.
+        further: the other fixed starts: of variables that are not states, and of further names of a state.
     """
 
     reduced: ReducedModel
@@ -65,7 +64,7 @@ class Conditions:
 
     @cached_property
     def own(self) -> tuple[FixedStart, ...]:
-        """The fixed starts that states take by themselves."""
+        """The fixed starts that states take directly."""
         return tuple(
             FixedStart(int(state), sign, variable)
             for state, (variable, sign), fixed in zip(
@@ -75,7 +74,7 @@ class Conditions:
         )
 
     def names(self, starts: Sequence[FixedStart], resting: Sequence[int] = ()) -> list[str]:
-        """What `residuals` are residuals of, in words."""
+        """The conditions that `residuals` belong to, as text."""
         layout = self.reduced.model.layout
         names = [f"{layout.variable(c.variable)} (fixed start)" for c in starts]
         for group in self.reduced.model.initial:
@@ -176,7 +175,7 @@ class Conditions:
 def initial_conditions(
     reduced: ReducedModel, program: Program, parameters: ParameterLayout
 ) -> Conditions:
-    """Collect what the model says about the initial time."""
+    """Collect the initial conditions of a model."""
     model = reduced.model
     members, signs = reduced.start_members
     start_of = [(int(members[s]), int(signs[s])) for s in reduced.states]
@@ -197,7 +196,7 @@ def initial_conditions(
 def _distinct(
     model: FlatModel, starts: list[FixedStart], start_of: dict[int, tuple[int, int]]
 ) -> tuple[FixedStart, ...]:
-    """The fixed starts without those that repeat a number that their node is given already."""
+    """The fixed starts, without those that repeat a number that their node already has."""
     bound = {b.target for b in model.starts}
     known = {
         (state, sign * float(model.start[v]))

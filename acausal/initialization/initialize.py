@@ -30,11 +30,11 @@ INDEPENDENT = 1e-9
 
 @dataclass(frozen=True)
 class Plan:
-    """One initialization problem: which states move, and what they are to meet.
+    """One initialization problem: which states may change, and which conditions they must meet.
 
     Attributes:
-        moved: states that may move away from their starts. ``starts``: fixed starts that are to be met.
-        resting: states that are to be at rest. ``least_squares``: whether all is met as well as can be.
+        moved: states that may differ from their starts. ``starts``: fixed starts that must be met.
+        resting: states that must be at rest. ``least_squares``: whether conditions are met in the least-squares sense.
     """
 
     moved: tuple[int, ...]
@@ -52,7 +52,7 @@ class Initialization:
         roles: for every state "given" (by ``x0``), "fixed" (its start), "computed" (the conditions determine it),
             "chosen" (the conditions leave it open: as near to its start as they allow), "start" (no condition
             depends on it: it takes its start) or "fitted" (least squares).
-        conditions: in words; ``residuals``: how far each is off, in nominal values.
+        conditions: as text; ``residuals``: how far each is off, in nominal values.
     """
 
     x: Float[Array, " n_states"]
@@ -156,7 +156,7 @@ class Initializer:
         steady: bool | Sequence[str],
         least_squares: bool,
     ) -> tuple[Array, Plan | None]:
-        """The states to begin with, and what remains to be met, if anything."""
+        """The states to begin with, and the conditions that remain to be met, if any."""
         self._known("x0", given)
         x = self.conditions.starts(packed)
         for i, name in enumerate(self.names):
@@ -236,7 +236,7 @@ class Initializer:
         rest = residual(at, frozen)
         return x.at[free].set(z * nominal), rest, jax.jacfwd(lambda z: residual(z, frozen))(at)
 
-    # -- what goes wrong ---------------------------------------------------------------------------
+    # -- errors ------------------------------------------------------------------------------------
 
     def _check(self, plan: Plan, found: Values, rest: np.ndarray) -> None:
         wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
@@ -267,7 +267,7 @@ class Initializer:
         )
 
     def _held(self, plan: Plan, found: Values, wrong: np.ndarray) -> list[str]:
-        """States that may not move although conditions that are left over depend on them."""
+        """States that cannot change although violated conditions depend on them."""
 
         def residual(x: Array) -> Array:
             return self.conditions.residuals(plan.starts, plan.resting, found._replace(x=x))
@@ -296,12 +296,12 @@ def _stop_gradient(tree: Any) -> Any:
 
 
 def _least_change(residual: Callable[[Array], Array], guess: Array) -> Array:
-    """Newton's method with the smallest steps: a root near the guess also where there are many."""
+    """Newton's method with the smallest steps: a root near the guess even if there are many."""
     return root(Dense(residual, _smallest), guess, max_steps=MAX_STEPS)[0]
 
 
 def _smallest(jacobian: Float[Array, "k m"], r: Float[Array, " k"]) -> Float[Array, " m"]:
-    """The smallest step that the linear equations ask for, each equation counted alike."""
+    """The smallest step that satisfies the linear equations, with equal weight for each equation."""
     size = jnp.max(jnp.abs(jacobian), axis=1, initial=0.0)
     weight = 1 / jnp.where(size > 0, size, 1.0)
     return jnp.linalg.pinv(weight[:, None] * jacobian) @ (weight * r)

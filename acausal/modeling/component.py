@@ -30,7 +30,7 @@ class Component:
     """
 
     DISCRETE: ClassVar[tuple[str, ...]] = ()
-    """Discrete variables of the Modelica class that this class does not have; files may give them starts."""
+    """Discrete variables of the Modelica class that this class lacks; files may give them starts."""
 
     _declared: ClassVar[dict[str, Declaration | Connector]] = {}
 
@@ -40,7 +40,7 @@ class Component:
             """Parts that ``__init__`` assigns under computed names."""
 
     _node: Node[Component]
-    """What is recorded of the component; all other attributes are the author's."""
+    """The component's record; all other attributes belong to the class's author."""
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """An empty component; nothing depends on a subclass calling ``super().__init__``."""
@@ -68,7 +68,7 @@ class Component:
                     del declared[name]
         cls._declared = declared
 
-    # -- what a subclass states ------------------------------------------------------------------
+    # -- for subclasses --------------------------------------------------------------------------
 
     def equations(self) -> Iterable[Eq]:
         """The component's equations; a subclass extends its base's by ``yield from super().equations()``."""
@@ -78,7 +78,7 @@ class Component:
         """Equations that hold at the initial time only."""
         return ()
 
-    # -- what a user calls -----------------------------------------------------------------------
+    # -- for users -------------------------------------------------------------------------------
 
     def connect(self, *endpoints: Endpoint | Sequence[Endpoint]) -> None:
         """Connect two or more connectors (or signals, or equally long lists of them) in one node.
@@ -134,7 +134,7 @@ class Component:
             object.__setattr__(self, name, value)
 
     def _claim(self, name: str, anew: bool = True) -> None:
-        """Make sure that a name is free; one that is not ``anew`` may stand for a default of the class."""
+        """Make sure that a name is free; unless ``anew``, it may be that of a default of the class."""
         if not name.isidentifier():
             raise DeclarationError(
                 f"'{name}' is not a name for a part: letters, digits and underscores only"

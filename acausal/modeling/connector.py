@@ -21,8 +21,8 @@ from acausal.modeling.symbols import Eq, Owner, elements
 class Connector:
     """A set of variables through which a component meets others; one class per domain.
 
-    Subclasses declare `Potential` and `Flow` variables, and may say how a two-port of the domain names
-    its parts, so that generic elements fit in:
+    Subclasses declare `Potential` and `Flow` variables. They can also give the names of a two-port of their domain,
+    which generic elements use:
 
     Attributes:
         pair: names of a two-port's two connectors.
@@ -98,7 +98,7 @@ class Connector:
 
     @classmethod
     def kind(cls) -> tuple[tuple[str, type, str], ...]:
-        """What must agree for two connectors to be joined: names, roles and units of their variables."""
+        """Names, roles and units of the variables: two connectors can be joined if these agree."""
         return tuple((n, _role(d), d.unit) for n, d in cls.declarations.items())
 
     @classmethod
@@ -113,7 +113,7 @@ class Connector:
 
     @classmethod
     def carried(cls, enters: Self, leaves: Self) -> Iterable[Eq]:
-        """How a two-port passes on what its flow carries: equations, in domains with further potentials and flows."""
+        """Equations for further potentials and flows of a two-port, in domains that have them."""
         return ()
 
     def __repr__(self) -> str:

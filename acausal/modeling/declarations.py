@@ -1,4 +1,4 @@
-"""What a component is declared with: parameters, variables, signals, options and modules.
+"""The declarations of a component: parameters, variables, signals, options and modules.
 
 A declaration is a class attribute. Read on an instance it becomes a reference (`acausal.modeling.symbols`).
 """
@@ -15,7 +15,7 @@ from acausal.errors import DeclarationError
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")
-Shape = int | str | tuple[int | str, ...] | None
+DeclaredShape = int | str | tuple[int | str, ...] | None
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Start:
         value: the start value (a number or an expression of parameters); ``None`` keeps the declared one.
         fixed: whether the value must hold at the initial time (else it is a guess).
         nominal: the variable's typical magnitude.
-        state: how much the variable is wanted as a state (`StateSelect`).
+        state: how much the variable is preferred as a state (`StateSelect`).
     """
 
     value: Any = None
@@ -36,7 +36,7 @@ class Start:
 
     def __post_init__(self) -> None:
         if self.state is not None and self.state not in STATE_SELECT:
-            raise DeclarationError(f"state='{self.state}' is none of {', '.join(STATE_SELECT)}")
+            raise DeclarationError(f"state='{self.state}' must be one of {', '.join(STATE_SELECT)}")
 
 
 class Declaration:
@@ -51,7 +51,7 @@ class Declaration:
     name: str = ""
 
     def __init__(
-        self, *, unit: str = "", shape: Shape = None, when: str | None = None, doc: str = ""
+        self, *, unit: str = "", shape: DeclaredShape = None, when: str | None = None, doc: str = ""
     ) -> None:
         self.unit, self.when, self.doc = unit, when, doc
         self.shape: tuple[int | str, ...] | None = (
@@ -83,7 +83,7 @@ class Parameter(Declaration):
         unit: str = "",
         min: float | None = None,  # noqa: A002 (Modelica's name)
         max: float | None = None,  # noqa: A002
-        shape: Shape = None,
+        shape: DeclaredShape = None,
         when: str | None = None,
         doc: str = "",
     ) -> None:
@@ -106,7 +106,7 @@ class Variable(Declaration):
         fixed: bool | str = False,
         nominal: float | str = 1.0,
         state: StateSelect | str = "default",
-        shape: Shape = None,
+        shape: DeclaredShape = None,
         when: str | None = None,
         doc: str = "",
     ) -> None:

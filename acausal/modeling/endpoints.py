@@ -18,7 +18,7 @@ def owner_and_name(end: Endpoint) -> tuple[Owner | None, str]:
 
 
 def endpoint_label(end: Any) -> str:
-    """What messages call an end of a connection."""
+    """The name of an end of a connection in messages."""
     if isinstance(end, Reference):
         path = end.owner.path
         return f"{path}.{end.path}" if path else end.path

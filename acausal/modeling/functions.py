@@ -1,4 +1,4 @@
-"""Functions for equations that sympy lacks, or whose derivatives it writes otherwise."""
+"""Functions for equations that sympy lacks, or that need other derivatives than sympy's."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class floor(sp.floor):  # noqa: N801 (a mathematician's name)
 
 
 class Prescribed(sp.Function):
-    """``Prescribed(n, time, q, qd, ...)``: q's n-th derivative, which is the signal at that place."""
+    """``Prescribed(n, time, q, qd, ...)``: q's n-th derivative, which is the n-th of the signals after it."""
 
     def fdiff(self, argindex: int = 1) -> Any:
         """With respect to time the next signal, else zero."""
@@ -63,7 +63,7 @@ class Prescribed(sp.Function):
 
 
 def prescribed(q: Any, *derivatives: Any) -> Any:
-    """The signal ``q``, whose derivatives in time are these signals, not computed but given."""
+    """The signal ``q``, whose time derivatives are not computed, but given as these signals."""
     return Prescribed(0, time, q, *derivatives) if derivatives else q
 
 

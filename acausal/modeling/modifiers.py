@@ -48,7 +48,7 @@ def record_modifier(
         case Option():
             if declared.choices is not None and value not in declared.choices:
                 choices = ", ".join(map(repr, declared.choices))
-                raise DeclarationError(f"{where}={value!r} is none of {choices}")
+                raise DeclarationError(f"{where}={value!r} must be one of {choices}")
             if isinstance(declared.default, bool) and not isinstance(value, bool):
                 raise DeclarationError(f"{where}={value!r}: True or False is needed")
             node.options[name] = value
@@ -73,7 +73,7 @@ def record_modifier(
 
 
 def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start | sp.Expr) -> None:
-    """Turn a parameter into an unknown: one that initialization determines, or one that follows from such."""
+    """Turn a parameter into an unknown: initialization determines it, or it depends on such a parameter."""
     kept = {"unit": declared.unit, "doc": declared.doc}
     attributes = vars(node.component)
     attributes.pop(name, None)
@@ -89,7 +89,7 @@ def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start 
 
 
 def _merge_start(node: Node[Any], name: str, start: Start) -> None:
-    """Record a variable's attributes; what an earlier modifier gave and this one leaves open stays."""
+    """Record a variable's attributes; those that this modifier leaves open keep their earlier values."""
     earlier = node.modifiers.get(name, Start())
     node.modifiers[name] = Start(
         **{
@@ -138,7 +138,7 @@ def _is_finite(value: Any) -> bool:
 
 
 def is_open(value: Any) -> bool:
-    """Whether initialization determines a parameter: by `Start(..., fixed=False)`, or by an expression of such ones."""
+    """Whether initialization determines a parameter: by `Start(..., fixed=False)`, or through others of that kind."""
     if isinstance(value, Start):
         return value.fixed is False
     return isinstance(value, sp.Expr) and any(

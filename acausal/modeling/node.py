@@ -1,6 +1,6 @@
-"""The record of one component: its place in the tree, and what was declared, given and connected there.
+"""The record of one component: its place in the tree, its declarations, modifiers and connections.
 
-`Component` keeps everything that is not the author's in one attribute, ``_node``. The other rooms ask the node.
+`Component` keeps all of its bookkeeping in one attribute, ``_node``, which the other rooms read.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Node(Generic[C]):
         own_declarations: declarations that were assigned to the instance, by name.
         parent: node of the component that it is a part of; None for the model.
         name: its name there, such as ``"mass[2]"``.
-        title: what messages call a model without parent; its class where this is empty.
+        title: name of a model without parent in messages; its class if this is empty.
         children: its parts, by name.
         options: the options that were set.
         modifiers: values of parameters and modules, and starts of variables, that were set.
@@ -82,7 +82,7 @@ class Node(Generic[C]):
 
     @property
     def label(self) -> str:
-        """What messages call the component: its class and path."""
+        """The component's name in messages: its class and path."""
         path, kind = self.path, type(self.component).__name__
         return f"{kind} '{path}'" if path else self.title or kind
 
@@ -107,7 +107,7 @@ class Node(Generic[C]):
         return bool(getattr(self.component, option)) is not inverted
 
     def declare(self, name: str, declared: Declaration | Connector) -> Any:
-        """Add a declaration to the instance; what it is when read is returned."""
+        """Add a declaration to the instance; returns what reading it gives."""
         self.own_declarations[name] = declared
         if isinstance(declared, Connector):
             return declared._bind(self, name)
@@ -115,10 +115,10 @@ class Node(Generic[C]):
         return self.read(declared)
 
     def read(self, declared: Declaration | Connector) -> Any:
-        """What a declaration is on this component: an option's value, a connector, or references.
+        """What reading a declaration gives on this component: an option's value, a connector, or references.
 
         Raises:
-            DeclarationError: for what does not exist with the present options.
+            DeclarationError: for a declaration that does not exist with the present options.
         """
         name = declared._name if isinstance(declared, Connector) else declared.name
         if isinstance(declared, Option):

@@ -1,4 +1,4 @@
-"""Symbols for what a component declares, and equations between expressions of them.
+"""Symbols for the declarations of components, and equations between expressions of them.
 
 A *reference* is a sympy symbol that knows its owner, so that one expression may mix names of several components.
 """
@@ -21,7 +21,7 @@ time = sp.Symbol("time", real=True)
 
 
 class Owner(Protocol):
-    """The node of a component (`acausal.modeling.node`), as far as its declarations know it."""
+    """The node of a component (`acausal.modeling.node`), as its declarations see it."""
 
     modifiers: dict[str, Any]
     bindings: list[Eq]
@@ -33,7 +33,7 @@ class Owner(Protocol):
 
     @property
     def label(self) -> str:
-        """What messages call the component."""
+        """The component's name in messages."""
         ...
 
     def route_from(self, ancestor: Owner) -> tuple[str, ...] | None:
@@ -81,7 +81,7 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
 class ModuleCall(sp.Function):
     """A callable parameter applied: ``ModuleCall(module, orders, *args)``.
 
-    ``orders`` counts, per argument, how often the function is differentiated; it is how sympy carries
+    ``orders`` counts, per argument, how often the function is differentiated, so that sympy can carry
     a network through index reduction and linearization.
     """
 

@@ -56,8 +56,8 @@ def load(path: str | Path, libraries: Sequence[ModuleType] = ()) -> Netlist:
 def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = ()) -> None:
     """Write a model as a JSON netlist; `load` gives the same model back.
 
-    Parts whose class is in a library are written by its name; other composites as subsystems. What was read from
-    a file and not changed is written as it stood there.
+    Parts whose class is in a library are written by its name; other composites as subsystems. Entries that were read
+    from a file and not changed are written as they were.
 
     Arguments:
         model: a composite: parts, parameters, connections. Its class may not state equations of its own.

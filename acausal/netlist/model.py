@@ -1,4 +1,4 @@
-"""The component that a netlist is read into, which remembers its file; and how names are looked up in it."""
+"""The component made from a netlist, with a record of its file; and the lookup of names in it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PATH = re.compile(rf"[A-Za-z]\w*({INDEX})?(\.[A-Za-z]\w*({INDEX})?)*", re.ASCII)
 
 @dataclass
 class FileRecord:
-    """What a file contains beyond a model's parts and connections, so that it can be written again.
+    """The content of a file besides a model's parts and connections, so that it can be written again.
 
     Attributes:
         experiment: keys of the file that are not part of the model.
@@ -82,7 +82,7 @@ class Netlist(Component):
         self._node.constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
 
     def remember_state(self) -> None:
-        """Take the present state for the one that the file led to, after an enclosing file has modified this model."""
+        """Record the present state as that of the file, after an enclosing file has modified this model."""
         for (part, key), (raw, _) in list(self._file.texts.items()):
             self.remember(part, key, raw)
         for child in self._node.children.values():
@@ -127,7 +127,7 @@ def _member(value: Any, name: str) -> Any:
 
 
 def state(part: Any, key: str) -> tuple[Any, ...]:
-    """What a part holds because of modifiers of that name; the same objects as long as nobody changes it."""
+    """The state of a part that modifiers of that name set; the same objects as long as it is not changed."""
     if not isinstance(part, Component):
         return ()
     node = part._node
@@ -142,7 +142,7 @@ def state(part: Any, key: str) -> tuple[Any, ...]:
 
 
 def _attribute(component: Component, name: str) -> Any:
-    """A part, connector, declaration or plain value of a component, nothing that could be called."""
+    """A part, connector, declaration or plain value of a component, but nothing callable."""
     if (
         name not in component._node.children
         and name not in component._node.class_declarations
@@ -177,7 +177,7 @@ def hint(model: Component, text: str) -> str:
 
 
 def arguments_of(cls: Any) -> dict[str, Any]:
-    """The arguments of a class that are no declarations, with their defaults."""
+    """The arguments of a class that are not declarations, with their defaults."""
     found: dict[str, Any] = {}
     for function in (cls.__new__, cls.__init__):
         for name, parameter in inspect.signature(function).parameters.items():

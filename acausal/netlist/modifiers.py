@@ -1,4 +1,4 @@
-"""Modifiers in a netlist: what the entries of ``with`` do to a part."""
+"""Modifiers in a netlist: the entries of ``with`` are applied to a part."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def _connector(scope: Scope, raw: Any, where: str) -> Any:
 
 
 def _parameter(scope: Scope, raw: Any, where: str) -> Any:
-    """The value of a parameter; of one with attributes what stands under "=", None if nothing does."""
+    """The value of a parameter; if it has attributes, the value under "=", or None without one."""
     if not isinstance(raw, Mapping):
         return scope.value(raw, where)
     for key in raw:

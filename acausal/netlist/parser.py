@@ -1,8 +1,8 @@
 """A small, safe parser for expressions in files, in Modelica's syntax.
 
 Numbers, names, arithmetic, comparisons, ``if`` ... ``then`` ... ``else``, vectors, matrices, texts and a few functions.
-Nothing is evaluated as Python. Names are looked up by the caller, so that an expression reaches only what the caller
-hands out. `written` is the way back.
+Nothing is evaluated as Python. The caller looks names up, so that an expression can only use what the caller provides.
+`written` is the inverse.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class ExpressionError(DeclarationError):
 
 
 def parse(text: str, lookup: Lookup) -> Any:
-    """The value of an expression: a number, truth value, text, sympy expression, list, or whatever `lookup` gave.
+    """The value of an expression: a number, truth value, text, sympy expression, list, or any result of `lookup`.
 
     Arguments:
         lookup: from a dotted name to its value; ``name()`` for a name that is called. It raises KeyError for a

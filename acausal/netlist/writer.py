@@ -360,7 +360,7 @@ def _is_within(model: Component, value: Any) -> bool:
 
 
 def _comparable(root: Component, value: Any) -> Any:
-    """A value with names instead of references, so that the values of equal parts are equal."""
+    """A value with names in the place of references, so that the values of equal parts are equal."""
     match value:
         case sp.Expr() if _is_within(root, value):
             names = {r: sp.Symbol(_path(root, r, "")) for r in references(value)}

@@ -1,7 +1,7 @@
 """Networks for use inside equations, and promises that they keep for all weights.
 
 A network is a module that is called with scalars and returns a scalar. `MLP` is the paper's; `Law` and `Energy`
-build networks that keep promises out of small parts. Each part keeps one promise, whatever network is inside it, also
+build networks that keep promises out of small parts. Each part keeps one promise, whatever network is inside it, even
 a user's own module: ``ac.networks.Passive(my_network)``.
 
 In: scales and promises. Out: equinox modules.

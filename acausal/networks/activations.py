@@ -23,25 +23,25 @@ ACTIVATIONS: dict[str, Callable[[Array], Array]] = {
 """Activations by name."""
 
 INCREASING = ("relu", "tanh", "softplus", "elu", "identity")
-"""Those that never decrease: monotone networks are made of them."""
+"""Those that never decrease, for monotone networks."""
 
 SMOOTH = ("tanh", "softplus", "silu", "gelu", "elu", "sin")
 """Those with a continuous derivative, so that a force that is the derivative of an energy has no jumps."""
 
 SMOOTH_AND_CONVEX = ("softplus", "elu")
-"""Those that are also convex: convex energies are made of them."""
+"""Those that are also convex, for convex energies."""
 
 
 def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str = "") -> str:
     """The name of an activation, if it is one of those allowed.
 
     Raises:
-        DeclarationError: if it is not; ``use`` says for what.
+        DeclarationError: if it is not; ``use`` names the network in the message.
     """
     if name not in ACTIVATIONS:
         raise DeclarationError(f"no activation '{name}': {nearest(name, ACTIVATIONS)}")
     if name not in allowed:
         raise DeclarationError(
-            f"activation '{name}' is not made for {use}; take one of {', '.join(allowed)}"
+            f"activation '{name}' does not suit {use}; choose one of {', '.join(allowed)}"
         )
     return name

@@ -46,7 +46,7 @@ class WithFactor(eqx.Module):
 def chosen_factor(
     factor: DryFrictionFactor | None, passage: DryFrictionFactor | None
 ) -> DryFrictionFactor:
-    """The factor that a constructor is given, also by its old name; a fresh one by default."""
+    """The factor given to a constructor, by its new or old name; a fresh one by default."""
     if passage is not None:
         warnings.warn("passage=... is called factor=... now", DeprecationWarning, stacklevel=3)
         factor = passage

@@ -16,9 +16,9 @@ from acausal.networks.scaled import EnergyLaw
 from acausal.networks.spec import Layers, Net, NetworkSpec
 from acausal.networks.symmetry import Even
 
-Shape = Callable[[Net, int], Net]
+EnergyPart = Callable[[Net, int], Net]
 
-FREE: dict[tuple[bool, bool], Shape] = {
+FREE: dict[tuple[bool, bool], EnergyPart] = {
     (False, False): FromRest,
     (False, True): lambda net, n: FromRest(Even(net, n), n),
     (True, False): Bowl,
@@ -26,7 +26,7 @@ FREE: dict[tuple[bool, bool], Shape] = {
 }
 """Parts of energies of (passive, odd) laws that need not be convex."""
 
-CONVEX: dict[tuple[bool, bool], Shape] = {
+CONVEX: dict[tuple[bool, bool], EnergyPart] = {
     (False, False): FromRest,
     (False, True): lambda net, n: FromRest(Even(net, n), n),
     (True, False): Levelled,
@@ -47,7 +47,7 @@ class Energy(NetworkSpec):
         passive: ``W ≥ 0``, and no force at ``x = 0``: the element never gives back more than it took.
         convex: ``W`` is convex in ``x``, its curvature at least ``floor``: the law is monotone, a rest position stable.
 
-    It has the attributes of `NetworkSpec`, too. Every promise holds for all weights: before, during and after training.
+    It also has the attributes of `NetworkSpec`. Every promise holds for all weights: before, during and after training.
 
     Raises:
         DeclarationError: in one sentence, for promises that contradict each other.
@@ -62,14 +62,14 @@ class Energy(NetworkSpec):
             raise DeclarationError("extrapolation=... is for energies of one input; leave it out")
         if self.extrapolation and self.passive and not self.convex:
             raise DeclarationError(
-                "a passive energy may turn downwards at its limits; say convex=True, too, or leave out extrapolation"
+                "a passive energy may decrease beyond its limits; also give convex=True, or leave out extrapolation"
             )
 
     def check_bound(self, name: str) -> None:
         """Only convex energies can have a ``floor`` or ``start``."""
         if not self.convex:
             raise DeclarationError(
-                f"{name}=... is a curvature of a convex energy; say convex=True, too"
+                f"{name}=... is a curvature of a convex energy; also give convex=True"
             )
 
     @property

@@ -17,13 +17,13 @@ from acausal.errors import DeclarationError
 Extrapolation = Literal["saturating", "linear", "cubic"]
 """Constant beyond the limit, along the tangent there, or along a cubic."""
 
-Function = Callable[[Array], Array]
+ScalarFunction = Callable[[Array], Array]
 
 
 class Continued(eqx.Module):
     """A law of ``x`` within limits, and beyond each of them a polynomial about that limit.
 
-    A law that is odd or monotone within symmetric limits is so everywhere; so is a passive law, with ``rising``.
+    A law that is odd or monotone within symmetric limits stays so everywhere; with ``rising`` also one that is passive.
 
     - ``"saturating"``: constant.
     - ``"linear"``: along its tangent.
@@ -62,7 +62,7 @@ class Continued(eqx.Module):
 class ContinuedEnergy(eqx.Module):
     """An energy within limits, extrapolated so that its derivative is extrapolated as a `Continued` law.
 
-    An energy that is even or convex within symmetric limits is so everywhere. Attributes and errors as in `Continued`.
+    An energy that is even or convex within symmetric limits stays so everywhere. Attributes, errors: see `Continued`.
     """
 
     net: Callable[..., Array]
@@ -94,7 +94,7 @@ def check_limits(low: float, high: float, extrapolation: Extrapolation) -> None:
     """
     if extrapolation not in DERIVATIVES:
         raise DeclarationError(
-            f"extrapolation={extrapolation!r} is none of {', '.join(map(repr, DERIVATIVES))}"
+            f"extrapolation={extrapolation!r} must be one of {', '.join(map(repr, DERIVATIVES))}"
         )
     if not -math.inf < low < high < math.inf:
         raise DeclarationError(f"limits={low:g}, {high:g}: the first must be less than the second")
@@ -110,23 +110,25 @@ def _places(x: ArrayLike, low: float, high: float) -> tuple[Array, Array, Array]
     return given, jnp.clip(given, low, high), jnp.where(given < 0, low, high)
 
 
-def _held(law: Function, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
+def _held(law: ScalarFunction, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
     return [law(near)]
 
 
-def _straight(law: Function, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
+def _straight(law: ScalarFunction, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
     value, derivative = _tangent(law, near)
     return [value, jnp.maximum(derivative, 0) if rising else derivative]
 
 
-def _cube(law: Function, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
+def _cube(law: ScalarFunction, near: Array, limit: Array, rising: bool) -> Sequence[Array]:
     value, derivative = _straight(law, near, limit, rising)
     secant = (value - law(jnp.zeros_like(near))) / limit
     b = jnp.maximum((derivative - secant) / (2 * limit**2), 0)
     return [value, derivative, 6 * b * limit, 6 * b]
 
 
-DERIVATIVES: dict[Extrapolation, Callable[[Function, Array, Array, bool], Sequence[Array]]] = {
+DERIVATIVES: dict[
+    Extrapolation, Callable[[ScalarFunction, Array, Array, bool], Sequence[Array]]
+] = {
     "saturating": _held,
     "linear": _straight,
     "cubic": _cube,
@@ -134,7 +136,7 @@ DERIVATIVES: dict[Extrapolation, Callable[[Function, Array, Array, bool], Sequen
 """The value and the derivatives of a law's extrapolation at a limit."""
 
 
-def _tangent(function: Function, x: Array) -> tuple[Array, Array]:
+def _tangent(function: ScalarFunction, x: Array) -> tuple[Array, Array]:
     """The value and the derivative at a point."""
     return jax.jvp(function, (x,), (jnp.ones_like(x),))
 

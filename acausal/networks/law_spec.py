@@ -17,9 +17,9 @@ from acausal.networks.spec import Layers, Net, NetworkSpec, ZeroCrossing
 from acausal.networks.symmetry import Even, Odd
 from acausal.networks.zero import OffsetCorrected, ThroughZero
 
-Shape = Callable[[Net], Net]
+LawPart = Callable[[Net], Net]
 
-FREE: dict[tuple[bool, bool], Shape] = {
+FREE: dict[tuple[bool, bool], LawPart] = {
     (False, False): lambda net: net,
     (False, True): Odd,
     (True, False): Passive,
@@ -27,7 +27,7 @@ FREE: dict[tuple[bool, bool], Shape] = {
 }
 """Parts of (passive, odd) laws that need not be monotone."""
 
-MONOTONE: dict[tuple[bool, bool], Shape] = {
+MONOTONE: dict[tuple[bool, bool], LawPart] = {
     (False, False): lambda net: net,
     (False, True): Odd,
     (True, False): lambda net: SameSign(OffsetCorrected(net)),
@@ -35,7 +35,7 @@ MONOTONE: dict[tuple[bool, bool], Shape] = {
 }
 """Parts of (passive, odd) monotone laws: one that increases through zero is passive."""
 
-ZERO: dict[ZeroCrossing | None, Shape] = {
+ZERO: dict[ZeroCrossing | None, LawPart] = {
     None: lambda net: net,
     "regularizer": lambda net: net,
     "offset": OffsetCorrected,
@@ -55,7 +55,7 @@ class Law(NetworkSpec):
         passive: ``F(x, T) x ≥ 0``.
         monotone: ``∂F/∂x ≥ 0``, at least ``floor``.
 
-    It has the attributes of `NetworkSpec`, too. Every promise holds for all weights: before, during and after training.
+    It also has the attributes of `NetworkSpec`. Every promise holds for all weights: before, during and after training.
 
     Raises:
         DeclarationError: in one sentence, for promises that contradict each other.
@@ -67,7 +67,7 @@ class Law(NetworkSpec):
         """Only monotone laws can have a ``floor`` or ``start``."""
         if not self.monotone:
             raise DeclarationError(
-                f"{name}=... is a derivative of a monotone law; say monotone=True, too"
+                f"{name}=... is a derivative of a monotone law; also give monotone=True"
             )
 
     @property

@@ -131,13 +131,15 @@ def _layers(
 
 
 def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) -> None:
-    """Whether there is a network of these sizes.
+    """Check the sizes of a network.
 
     Raises:
-        DeclarationError: if there is none.
+        DeclarationError: if no network has them.
     """
     if min(in_size, width) < 1 or depth < 0:
-        raise DeclarationError(f"a network of in_size={in_size}, width={width}, depth={depth}")
+        raise DeclarationError(
+            f"no network has in_size={in_size}, width={width}, depth={depth}; give positive sizes"
+        )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
         raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
 

@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 from acausal.networks.mlp import Scale, scaled
 
 REACH = 1e6
-"""Beyond so many input scales from zero a law is constant, so that no input makes it overflow."""
+"""A law is constant further than this from zero, in input scales, so that no input makes it overflow."""
 
 
 class Scaled(eqx.Module):
@@ -34,7 +34,7 @@ class EnergyLaw(eqx.Module):
 
     Attributes:
         energy_scale: magnitude of the energy; that of the law is ``energy_scale / input_scale``.
-        inputs: by how many of the first inputs it is differentiated.
+        inputs: how many of the first inputs the law is the derivative by.
     """
 
     net: Callable[..., Array]
@@ -61,10 +61,10 @@ class EnergyLaw(eqx.Module):
 
 
 def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
-    """The law that a network stands for: itself, or the derivative of an energy."""
+    """The law of a network: itself, or the derivative of an energy."""
     return network.law if isinstance(network, EnergyLaw) else network
 
 
 def inputs_of(network: Callable[..., Array]) -> int:
-    """How many of a network's inputs its law is about; the others are secondary."""
+    """How many inputs a network's law has; the others are secondary."""
     return network.inputs if isinstance(network, EnergyLaw) else 1

@@ -25,7 +25,7 @@ class Layers(TypedDict):
 
 
 KNOWN = 3.0
-"""The range of the data is taken to be so many input scales from zero, where no limits are given."""
+"""Without limits, the data are assumed to reach this many input scales from zero."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class NetworkSpec:
 
     Attributes:
         passive: the element never gives back more energy than it took, see `Law` and `Energy`.
-        secondary: number of further inputs, after those that the promises are about.
+        secondary: number of further inputs, after those that the promises apply to.
         width, depth: neurons in each hidden layer, and hidden layers.
         activation: of the hidden layers, by name; ``None`` takes the default.
         input_scale: magnitude of the inputs: one number, or one for each.
@@ -48,8 +48,8 @@ class NetworkSpec:
         limits: of the first input, in its unit: a pair, or one number for both sides. The default is three input
             scales.
         floor: the minimum derivative of a monotone law, relative to ``output_scale / input_scale``.
-        start: a further derivative of a fresh monotone law, likewise, which is trained. If a model divides by the
-            law's derivative, it should not start near zero.
+        start: added to the derivative of a fresh monotone law, in the same unit, and trained. If a model divides by
+            the law's derivative, it should not start near zero.
     """
 
     passive: bool = False
@@ -71,7 +71,7 @@ class NetworkSpec:
             value, choices = getattr(self, name), get_args(known)
             if value is not None and value not in choices:
                 raise DeclarationError(
-                    f"{name}={value!r} is none of {', '.join(map(repr, choices))}"
+                    f"{name}={value!r} must be one of {', '.join(map(repr, choices))}"
                 )
         check_sizes(self.in_size, self.width, self.depth, self.input_scale)
         scales = self.input_scale if isinstance(self.input_scale, tuple) else (self.input_scale,)
@@ -86,7 +86,7 @@ class NetworkSpec:
                 )
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
-                "limits=... says from where a law is extrapolated; say how by extrapolation='linear' or another"
+                "limits=... is where extrapolation begins; choose its kind, too, such as extrapolation='linear'"
             )
         _ = self.rho, self.range
         for name in ("passive", "odd"):
@@ -140,7 +140,7 @@ class NetworkSpec:
         return self.passive or self.odd or self.zero_crossing in ("offset", "exact")
 
     def check_bound(self, name: str) -> None:
-        """Whether the law or energy can have a ``floor`` or ``start``.
+        """Check that the law or energy can have a ``floor`` or ``start``.
 
         Raises:
             DeclarationError: if it cannot.
@@ -148,11 +148,11 @@ class NetworkSpec:
         raise NotImplementedError
 
     def layers(self, key: Key) -> Layers:
-        """What all networks of layers take."""
+        """Arguments for all networks of layers."""
         return {"width": self.width, "depth": self.depth, "activation": self.rho, "key": key}
 
     def continued(self, net: Net, continuation: Callable[..., Net], **more: bool) -> Net:
-        """The network, extrapolated beyond the limits by a `Continued` or a `ContinuedEnergy` if that is wanted."""
+        """The network, extrapolated beyond the limits by `Continued` or `ContinuedEnergy` if the user chose that."""
         if self.extrapolation is None:
             return net
         return continuation(net, *self.range, self.extrapolation, **more)

@@ -22,7 +22,7 @@ class Odd(eqx.Module):
 
 
 class Even(eqx.Module):
-    """``½ (F(x, T) + F(−x, T))``: even in its first inputs together, and as convex as ``F`` is.
+    """``½ (F(x, T) + F(−x, T))``: even if all first inputs change sign, and as convex as ``F`` is.
 
     Attributes:
         inputs: how many change their sign.

@@ -1,8 +1,8 @@
 """Report: plots, pages and diagrams.
 
 In: arrays with names and units, a component tree. Out: matplotlib axes, HTML, SVG.
-It knows no results, for results have methods such as `Fit.report` that call it: it takes plain data, or anything with
-the attributes of a small protocol.
+It does not know the classes of results, whose methods such as `Fit.report` call it: it takes plain data, or anything
+with the attributes of a small protocol.
 """
 
 from acausal.reporting.diagram import diagram as diagram
@@ -19,7 +19,7 @@ from acausal.reporting.plot import (
     plot_modifiers as plot_modifiers,
 )
 from acausal.reporting.sections import (
-    Law as Law,
+    LearnedLaw as LearnedLaw,
     add_divergences as add_divergences,
     add_laws as add_laws,
     add_losses as add_losses,

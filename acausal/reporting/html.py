@@ -1,4 +1,4 @@
-"""Self-contained HTML pages: text, tables, equations and figures in one file, for results that are shown around."""
+"""Self-contained HTML pages: text, tables, equations and figures in one file that can be sent to others."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ footer { margin-top: 3rem; padding-top: .6rem; color: var(--soft); font-size: .8
 
 
 class Page:
-    """An HTML page under construction; every method adds below what is there.
+    """An HTML page under construction; every method appends to it.
 
     Arguments:
         title: headline of the page. lead: a sentence or two below it.
@@ -97,7 +97,7 @@ class Page:
         )
 
     def write(self, path: str | Path, footer: str = "") -> Path:
-        """Write the page, making its folder.
+        """Write the page and create its folder.
 
         Raises:
             DataError: if it cannot be written.
@@ -118,7 +118,7 @@ class Page:
 
 
 def write_json(path: str | Path, content: Any) -> Path:
-    """Write figures as JSON, making the folder."""
+    """Write figures as JSON and create the folder."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")

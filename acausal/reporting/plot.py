@@ -1,4 +1,4 @@
-"""Plots of a training: what a network has learned and where to trust it, and how the loss fell."""
+"""Plots of a training: learned functions and where to trust them, losses, and changes of parameters."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SIGMAS = 3.0
 """Learned functions are drawn over this many sigmas of their inputs."""
 
 
-class Seen(Protocol):
+class InputStatistics(Protocol):
     """Mean and standard deviation of the arguments that a network was called with, such as `Fit.seen`."""
 
     @property
@@ -37,7 +37,7 @@ class Seen(Protocol):
         ...
 
 
-class Band(Protocol):
+class UncertainCurve(Protocol):
     """A curve with its standard deviation, such as `Confidence.laws`."""
 
     @property
@@ -76,7 +76,7 @@ class Losses(Protocol):
 
     @property
     def validation_loss(self) -> Float[np.ndarray, "k 2"]:
-        """Over what is held out."""
+        """Of the held-out samples."""
         ...
 
 
@@ -101,13 +101,13 @@ class WithHistory(Protocol):
 def plot_learned(
     ax: Axes,
     functions: Mapping[str, Callable[..., Any]],
-    seen: Seen,
+    seen: InputStatistics,
     *,
     truth: Callable[[Float[np.ndarray, " points"]], ArrayLike] | None = None,
     xlabel: str = "",
     ylabel: str = "",
 ) -> None:
-    """Draw learned functions of one argument over what they have seen.
+    """Draw learned functions of one argument over their inputs in training.
 
     Vertical lines mark 1 sigma (dashed) and 2 sigma (solid) of the inputs in training; beyond 2 sigma, shaded,
     a function extrapolates.
@@ -128,8 +128,8 @@ def plot_learned(
     ax.legend(frameon=False)
 
 
-def plot_guides(ax: Axes, seen: Seen, start: float, end: float) -> None:
-    """Mark over an axis from ``start`` to ``end`` what a network has seen of its first argument."""
+def plot_guides(ax: Axes, seen: InputStatistics, start: float, end: float) -> None:
+    """Mark the range of a network's first argument in training on an axis from ``start`` to ``end``."""
     mean, sigma = float(seen.mean[0]), float(seen.sigma[0])
     for side, edge in ((-1, start), (1, end)):
         ax.axvline(mean + side * sigma, color=GUIDE, lw=0.9, ls="--")
@@ -139,7 +139,7 @@ def plot_guides(ax: Axes, seen: Seen, start: float, end: float) -> None:
     ax.grid(alpha=0.25)
 
 
-def plot_band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") -> None:
+def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: str = "") -> None:
     """Draw a law with a band of two standard deviations to either side."""
     low, high = law.law - 2 * law.sigma, law.law + 2 * law.sigma
     ax.fill_between(law.x, low, high, color=color, alpha=0.2, lw=0)
@@ -149,7 +149,7 @@ def plot_band(ax: Axes, law: Band, *, color: str = LEARNED[0], label: str = "") 
 def plot_losses(
     ax: Axes, histories: Mapping[str, Losses], *, levels: Mapping[str, float] | None = None
 ) -> None:
-    """Draw losses over epochs: of the batches (thin), over the whole record (dots) and over what is held out (squares).
+    """Draw losses over epochs: of the batches (thin), over the whole record (dots) and of held-out samples (squares).
 
     Arguments:
         histories: by label.

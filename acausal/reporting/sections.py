@@ -10,9 +10,9 @@ from jaxtyping import Float
 
 from acausal.reporting.html import Page
 from acausal.reporting.plot import (
-    Band,
+    InputStatistics,
     Losses,
-    Seen,
+    UncertainCurve,
     plot_band,
     plot_guides,
     plot_losses,
@@ -35,17 +35,17 @@ DIVERGENCES_SHOWN = 50
 """Divergences that are listed."""
 
 
-class Law(NamedTuple):
+class LearnedLaw(NamedTuple):
     """A learned law.
 
     Attributes:
         band: the law with its standard deviation.
-        seen: statistics of what the network was called with.
+        seen: statistics of the network's arguments.
         samples: some of the values that its first argument had.
     """
 
-    band: Band
-    seen: Seen
+    band: UncertainCurve
+    seen: InputStatistics
     samples: Float[np.ndarray, " n_samples"]
 
 
@@ -78,12 +78,12 @@ class Correlated(Protocol):
         ...
 
     def summary(self) -> str:
-        """What the correlations mean, in a sentence."""
+        """What the correlations mean, as a sentence."""
         ...
 
 
-class Divergence(Protocol):
-    """Something that diverged in an update; its text says what."""
+class DivergedUpdate(Protocol):
+    """Something that diverged in an update; its text describes it."""
 
     @property
     def epoch(self) -> int:
@@ -118,7 +118,7 @@ def add_trajectories(
     after: Float[np.ndarray, "N n_targets"],
     units: Mapping[str, str],
 ) -> None:
-    """What was measured, and simulated before and after training; ``units`` has the targets in order."""
+    """Targets as measured, and as simulated before and after training; ``units`` has them in order."""
     page.section("Measured and simulated")
     rows = _middle(len(time))
     low, high = measured[rows].min(axis=0), measured[rows].max(axis=0)
@@ -144,10 +144,10 @@ def add_trajectories(
 def add_predictions(
     page: Page,
     measured: Float[np.ndarray, "N n_targets"],
-    predicted: Mapping[str, Band],
+    predicted: Mapping[str, UncertainCurve],
     units: Mapping[str, str],
 ) -> None:
-    """What was measured, and what members of an ensemble predict on average, by target."""
+    """Targets as measured, and as the members of an ensemble predict them on average."""
     page.section("Measured and simulated")
     rows = _middle(len(measured))
     for i, (name, band) in enumerate(predicted.items()):
@@ -161,8 +161,8 @@ def add_predictions(
         page.figure(figure(WIDE, draw), f"A stretch of '{name}', two standard deviations wide.")
 
 
-def add_laws(page: Page, laws: Mapping[str, Law]) -> None:
-    """Learned laws by network with their bands, over what the networks have seen."""
+def add_laws(page: Page, laws: Mapping[str, LearnedLaw]) -> None:
+    """Learned laws by network with their bands, over the arguments in training."""
     if not laws:
         return
     page.section("Learned laws")
@@ -172,7 +172,7 @@ def add_laws(page: Page, laws: Mapping[str, Law]) -> None:
     )
     for name, law in laws.items():
 
-        def draw(ax: Axes, name: str = name, law: Law = law) -> None:
+        def draw(ax: Axes, name: str = name, law: LearnedLaw = law) -> None:
             band, seen, samples = law
             plot_band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
@@ -220,8 +220,8 @@ def add_residuals(page: Page, found: Sequence[Correlated]) -> None:
         )
 
 
-def add_divergences(page: Page, divergences: Sequence[Divergence]) -> None:
-    """What diverged in the training, if anything did."""
+def add_divergences(page: Page, divergences: Sequence[DivergedUpdate]) -> None:
+    """The divergences of a training, if there are any."""
     if not divergences:
         return
     page.section("What diverged")

@@ -22,7 +22,7 @@ Tolerance = float | Array
 
 
 class Solved(NamedTuple):
-    """What diffrax gives back.
+    """The result of diffrax.
 
     Attributes:
         x: states at the saved times, shape (n, n_states).
@@ -122,7 +122,7 @@ def _check(run: Run, solved: Solved, max_steps: int, solver: solvers.Solver) -> 
     if not exhausted:
         raise SimulationError(
             f"{where}: its steps became too small, or its values not finite. "
-            "The model may diverge there: look at its parameters, initial values and inputs."
+            "The model may diverge there: check its parameters, initial values and inputs."
         )
     implicit = isinstance(solver, dfx.AbstractImplicitSolver)
     stiff = "" if implicit else "it is stiff (choose solver='kvaerno5'), "

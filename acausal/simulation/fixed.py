@@ -97,5 +97,5 @@ def _advice(modes: NDArray[np.complex128], dt: float) -> str:
             f"choose dt below {1 / fastest:.1g} s, an implicit solver, or leave dt out."
         )
     if growth > 0:
-        return f"The model is unstable: a mode grows by {growth:.3g} 1/s at the start. Look at its parameters."
-    return "The model may diverge there: look at its parameters, initial values and inputs, or try a smaller dt."
+        return f"The model is unstable: a mode grows by {growth:.3g} 1/s at the start. Check its parameters."
+    return "The model may diverge there: check its parameters, initial values and inputs, or try a smaller dt."

@@ -85,10 +85,10 @@ def _is_zero(fraction: ArrayLike) -> bool:
 
 
 class Within(NamedTuple):
-    """What the right-hand side needs within a step, beside the state.
+    """The arguments of the right-hand side within a step, besides the state.
 
     Attributes:
-        values: what stays the same over the step; its time, states and inputs are replaced.
+        values: the values that are constant over the step; time, states and inputs are replaced.
         functions: the inputs that are functions of time.
         step: the step.
     """
@@ -227,7 +227,7 @@ def _implicit(solver: Solver) -> Stepper:
 
 
 def _strong(tree: PyTree) -> PyTree:
-    """Arrays without JAX's weak types, which diffrax would take for a change of type within its loops."""
+    """Arrays without JAX's weak types, which look like a change of type within diffrax's loops."""
     return jax.tree.map(
         lambda a: jax.lax.convert_element_type(a, a.dtype) if eqx.is_array(a) else a, tree
     )

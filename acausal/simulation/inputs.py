@@ -66,7 +66,7 @@ class Samples(eqx.Module):
     Attributes:
         start: values at the steps' starts, shape (n, number of inputs).
         end: values at their ends.
-        functions: per input, what is evaluated at stage times instead of the samples, or ``None``.
+        functions: per input, the function to evaluate at stage times instead of the samples, or ``None``.
         coefficients: of the polynomials by which inputs deviate from the line in between
             (`acausal.data.band_limited.deviation_from_line`); ``None`` where all are linear.
     """

@@ -24,14 +24,14 @@ AHEAD = np.geomspace(1e-6, 1.0, 7)
 """Where to look for a value that is not finite, as fractions of the time ahead."""
 
 DIVERGED = 1e30
-"""States beyond this have diverged."""
+"""States larger than this have diverged."""
 
 EIGENVALUES = 300
 """Models with more states are not examined: dense Jacobians and implicit steps would not pay."""
 
 
 class Run(NamedTuple):
-    """What is simulated.
+    """The task of one simulation.
 
     Attributes:
         system: the model.
@@ -78,7 +78,7 @@ class Run(NamedTuple):
         return np.linalg.eigvals(jacobian).astype(complex)
 
     def explain(self, at: Values, ahead: float) -> str:
-        """Which equation has no finite value at a point, or within some seconds along its derivative.
+        """Find the equation without a finite value at a point, or within some seconds along its derivative.
 
         Arguments:
             at: the point, from `at`.

@@ -17,7 +17,7 @@ from acausal.simulation.stages import StageNewton, stage_newton
 Solver = dfx.AbstractSolver
 
 STIFF_STEPS = 5000
-"""Explicit steps that stability alone may cost; an implicit solver is chosen beyond that."""
+"""The most explicit steps that stability may require before an implicit solver is chosen."""
 
 TSIT5_STABILITY_LIMIT = 3.3
 """Where the stability region of Tsit5 ends on the negative real axis, in units of 1/step."""

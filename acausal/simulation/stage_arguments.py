@@ -1,7 +1,7 @@
-"""What diffrax gives a root finder: the only place that knows how its solvers write the equations of a stage.
+"""The arguments that diffrax passes to a root finder. No other file depends on how its solvers write these equations.
 
 diffrax calls a root finder with arguments that it does not document. `tests/simulation/test_stage_arguments.py` fails
-when diffrax changes them; simulations then run on, with tolerances that count for the stage's unknown.
+when diffrax changes them; simulations still work then, with tolerances that apply to the stage's unknown.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ class Stage(NamedTuple):
 
 
 def stage_of(unknown: Float[Array, " n_states"], args: PyTree) -> Stage:
-    """The state of the model at a stage; where the arguments are not understood, the unknown itself.
+    """The state of the model at a stage; the unknown itself if the arguments are not as expected.
 
     Arguments:
         unknown: of the stage: a derivative, a derivative times the step, or (implicit Euler) the change over the step.
-        args: what diffrax gives the stage's equations.
+        args: the arguments of the stage's equations in diffrax.
     """
     ones = jnp.ones_like(unknown)
     match args:

@@ -15,9 +15,9 @@ from jaxtyping import Array, Bool, Float, Int, PyTree
 from acausal.simulation.stage_arguments import KEPT, stage_of
 
 Unknown: TypeAlias = Float[Array, " n_states"]
-Factors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
-Residual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
-"""(unknown, arguments) -> residual, and what comes along."""
+LUFactors: TypeAlias = tuple[Float[Array, "n_states n_states"], Int[Array, " n_states"]]
+StageResidual: TypeAlias = Callable[[Unknown, PyTree], tuple[Unknown, PyTree]]
+"""(unknown, arguments) -> residual and auxiliary output."""
 
 KAPPA = 0.01
 """The part of a step's tolerance that may remain as error when the iteration stops."""
@@ -29,7 +29,7 @@ SLOW = 0.1
 class _Iteration(eqx.Module):
     """The state of the iteration: the factors of the Jacobian, and the sizes of the last two corrections."""
 
-    factors: Factors
+    factors: LUFactors
     size: Float[Array, ""]
     previous: Float[Array, ""]
     renewed: Bool[Array, ""]
@@ -42,7 +42,7 @@ class _Iteration(eqx.Module):
 
 
 class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
-    """Newton's method with a Jacobian that is kept as long as the iteration converges fast.
+    """Newton's method that reuses its Jacobian as long as the iteration converges fast.
 
     diffrax solves a stage for its derivative, or its derivative times the step. The tolerances are those of the state,
     so a correction is measured by the change of the state. (`diffrax.VeryChord` applies them to the derivative; for a
@@ -62,7 +62,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def init(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         args: PyTree,
         options: dict[str, Any],
@@ -78,7 +78,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def step(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         args: PyTree,
         options: dict[str, Any],
@@ -98,14 +98,14 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def terminate(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         args: PyTree,
         options: dict[str, Any],
         state: _Iteration,
         tags: frozenset[object],
     ) -> tuple[Bool[Array, ""], optx.RESULTS]:
-        """Whether the iteration has converged, or does not."""
+        """Whether the iteration stops, and why: it has converged, or it diverges."""
         rate = state.rate
         left = jnp.where(rate < 1, state.size * rate / (1 - rate), state.size)
         converged = (state.count > 1) & (left < KAPPA)
@@ -118,7 +118,7 @@ class StageNewton(optx.AbstractRootFinder[Any, Any, Any, _Iteration]):
 
     def postprocess(
         self,
-        fn: Residual,
+        fn: StageResidual,
         y: Unknown,
         aux: PyTree,
         args: PyTree,
@@ -136,6 +136,6 @@ def stage_newton() -> optx.AbstractRootFinder[Any, Any, Any, Any]:
     return dfx.with_stepsize_controller_tols(StageNewton)()
 
 
-def _factors(fn: Residual, y: Unknown, args: PyTree) -> Factors:
+def _factors(fn: StageResidual, y: Unknown, args: PyTree) -> LUFactors:
     jacobian = jax.jacfwd(lambda y: fn(y, args)[0])(y)
     return jax.scipy.linalg.lu_factor(jacobian)

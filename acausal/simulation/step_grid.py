@@ -8,7 +8,7 @@ from jaxtyping import Float, Int
 from acausal.errors import DataError
 
 ON_GRID = 1e-6
-"""A time is a step's end if it is within this fraction of a step of it."""
+"""A time counts as the end of a step if it is within this fraction of a step of it."""
 
 
 def step_ends(start: float, end: float, dt: float) -> Float[np.ndarray, " n_ends"]:

@@ -31,7 +31,7 @@ class BlockEquation:
 
 @dataclass(frozen=True)
 class BlockShape:
-    """What equal algebraic loops share: equations over local numbers, and how they are torn."""
+    """The shared part of equal algebraic loops: equations over local numbers, and how they are torn."""
 
     equations: tuple[BlockEquation, ...]
     n_unknowns: int
@@ -48,7 +48,7 @@ class BlockShape:
 
 @dataclass(frozen=True)
 class TornLoop:
-    """Algebraic loops of one shape, side by side: (n, m) unknowns follow from externals together."""
+    """Algebraic loops of one shape, side by side: (n, m) unknowns, solved from externals."""
 
     shape: BlockShape
     unknowns: Integers

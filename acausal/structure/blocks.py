@@ -56,15 +56,15 @@ class Accumulation:
         return (self.unknowns,)
 
 
-Step = Assignment | Accumulation | TornLoop | SparseLoop
+SolvingStep = Assignment | Accumulation | TornLoop | SparseLoop
 
 
 @dataclass(frozen=True)
 class _Pending:
-    """Equal blocks of one level, and what makes one step of them."""
+    """Equal blocks of one level, and the function that makes one step of them."""
 
     level: int
-    make: Callable[[list[Any]], Step]
+    make: Callable[[list[Any]], SolvingStep]
     members: list[Any] = field(default_factory=list[Any])
 
 
@@ -73,13 +73,13 @@ _Groups = dict[Hashable, _Pending]
 
 def order_steps(
     system: Equations, incidence: list[list[int]], variable_of: list[int], blocks: graph.Blocks
-) -> tuple[Step, ...]:
-    """Group what can be computed at the same level by the same formula.
+) -> tuple[SolvingStep, ...]:
+    """Group the blocks of one level that have the same formula.
 
-    What sums of a loop read outside of the loop becomes one variable, added up before.
+    The terms of a loop's sums that lie outside of the loop are added up first, as one variable.
 
     Raises:
-        StructureError: for an equation that is to be divided by zero, or a loop that is singular.
+        StructureError: for an equation that would be divided by zero, or a loop that is singular.
     """
     order = np.lexsort((np.arange(len(incidence)), blocks.block, blocks.level[blocks.block]))
     bounds = np.flatnonzero(np.diff(blocks.block[order], prepend=-1, append=-1))
@@ -90,7 +90,7 @@ def order_steps(
     large: _Groups = {}
 
     def collect(
-        groups: _Groups, key: Hashable, make: Callable[[list[Any]], Step], *new: Any
+        groups: _Groups, key: Hashable, make: Callable[[list[Any]], SolvingStep], *new: Any
     ) -> None:
         groups.setdefault((level, key), _Pending(level, make)).members.extend(new)
 
@@ -131,7 +131,7 @@ class _Sum:
 
 
 def _add_up_outside(system: Equations, equations: list[int], unknowns: list[int]) -> list[_Sum]:
-    """Let the sums of a loop read one variable for all that they add up outside of the loop."""
+    """Replace the terms of a loop's sums that lie outside of the loop by one variable."""
     inside = set(unknowns)
     sums: list[_Sum] = []
     for e in equations:

@@ -1,6 +1,6 @@
-"""Ordering: in which order to eliminate a large sparse matrix, so that it fills in little. Numbers only.
+"""An order of elimination for a large sparse matrix that causes little fill-in. This file knows numbers only.
 
-It is found once, when a model is compiled; each factorization follows it (as in circuit simulators: Davis &
+The order is found once, when a model is compiled; each factorization uses it (as in circuit simulators: Davis &
 Palamadai Natarajan 2010, "Algorithm 907: KLU").
 """
 
@@ -18,21 +18,21 @@ from scipy.sparse.linalg import splu
 
 Integers = np.ndarray[Any, np.dtype[np.int64]]
 CHEAP = 4
-"""Pivots with at most so many updates are taken first (Markowitz 1957)."""
+"""Pivots with at most this many updates are taken first (Markowitz 1957)."""
 THRESHOLD = 0.1
 """How much smaller than the largest entry beside it a pivot may be."""
 CANCELLED = 1e-13
-"""What is left of a number where two that are equal were subtracted, relative to it."""
+"""Relative size below which the difference of two equal numbers is roundoff."""
 SETTINGS = {"SymmetricMode": True}
 """SuperLU then prefers the diagonal, where the order has put the pivots."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pattern:
-    """Where the entries of a square matrix stand: entry ``k`` in row ``rows[k]`` and column ``columns[k]``.
+    """The positions of a square matrix's entries: entry ``k`` is in row ``rows[k]`` and column ``columns[k]``.
 
     Attributes:
-        row_order, column_order: the order of elimination; the matrix in it has its pivots on the diagonal.
+        row_order, column_order: the order of elimination; the reordered matrix has its pivots on the diagonal.
     """
 
     rows: Integers
@@ -42,10 +42,10 @@ class Pattern:
 
 
 def analyse(rows: Integers, columns: Integers, values: np.ndarray, n: int) -> Pattern:
-    """The pattern of a matrix and an order of elimination in which it fills in little.
+    """The pattern of a matrix and an order of elimination with little fill-in.
 
-    Cheap pivots are taken one by one. What is then left is matched to a diagonal of large entries (Duff &
-    Koster 2001) and ordered by minimum degree.
+    Cheap pivots are taken one by one. The rest is matched to a diagonal of large entries (Duff & Koster 2001) and
+    ordered by minimum degree.
 
     Raises:
         LinAlgError: if the matrix is singular.
@@ -64,12 +64,12 @@ def analyse(rows: Integers, columns: Integers, values: np.ndarray, n: int) -> Pa
     return Pattern(rows, columns, *orders)
 
 
-Columns = dict[int, dict[int, float]]
+SparseColumns = dict[int, dict[int, float]]
 """Entries by column and row."""
 
 
-def _cheap_pivots(matrix: Any) -> tuple[list[tuple[int, int]], Columns]:
-    """The pivots (row, column) that cost little, in order, and what is left when they are eliminated."""
+def _cheap_pivots(matrix: Any) -> tuple[list[tuple[int, int]], SparseColumns]:
+    """The pivots (row, column) that cost little, in order, and the matrix after their elimination."""
     starts, indices, data = matrix.indptr.tolist(), matrix.indices.tolist(), matrix.data.tolist()
     columns = {
         c: dict(zip(indices[a:b], data[a:b], strict=True))
@@ -106,7 +106,7 @@ def _cheap_pivots(matrix: Any) -> tuple[list[tuple[int, int]], Columns]:
 
 
 def _eliminate(
-    columns: Columns, holders: dict[int, dict[int, None]], pivot: int, row: int
+    columns: SparseColumns, holders: dict[int, dict[int, None]], pivot: int, row: int
 ) -> list[int]:
     """Take a pivot's column and row out of the matrix; returns the columns that changed."""
     column = columns.pop(pivot)
@@ -128,8 +128,8 @@ def _eliminate(
     return changed
 
 
-def _core(columns: Columns) -> tuple[Integers, Integers, Any]:
-    """What is left as a matrix of its own, with the numbers of its rows and columns."""
+def _core(columns: SparseColumns) -> tuple[Integers, Integers, Any]:
+    """The rest as a matrix of its own, with the numbers of its rows and columns."""
     column_numbers = np.asarray(list(columns), dtype=np.int64)
     entries = [(r, i, v) for i, column in enumerate(columns.values()) for r, v in column.items()]
     r, i, values = (

@@ -1,4 +1,4 @@
-"""Equations by number: what index reduction reads and extends, each a template with its slots filled."""
+"""Equations by number, each a template with its slots filled; index reduction reads and extends them."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ class Equations:
         return [(t.origin, c) for t, c in zip(self.template, self.component, strict=True)]
 
     def describe(self, equation: int) -> str:
-        """Where an equation is stated, and how it reads (of a derivative, what was differentiated)."""
+        """Where an equation is stated, and its text (of a derivative, that of the original equation)."""
         while equation in self.derived_from:
             equation = self.derived_from[equation]
         origin = self.template[equation].origin, self.component[equation]
@@ -173,7 +173,7 @@ class Equations:
         return [(self.template[chosen[members[0]]], members) for members in found.values()]
 
     def reduce_index(self) -> None:
-        """Differentiate what Pantelides' algorithm asks for."""
+        """Differentiate the equations that Pantelides' algorithm selects."""
         try:
             graph.pantelides(self.structure)
         except RecursionError as error:

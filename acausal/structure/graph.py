@@ -1,7 +1,7 @@
 """Graph algorithms of the compiler, on integers alone: matching, index reduction, blocks, tearing.
 
-Equations and variables are numbers; ``incidence[e]`` lists the unknowns of equation ``e``. Nothing here knows
-what an equation says.
+Equations and variables are numbers; ``incidence[e]`` lists the unknowns of equation ``e``. These algorithms do not
+depend on the content of an equation.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class Matching:
     """A matching of equations to variables, grown by augmenting paths.
 
     ``equation_of[v]`` is the equation that variable ``v`` is assigned to, or -1. After a failed
-    `augment`, ``colored_equations`` and ``colored_variables`` are what the search has reached: the
+    `augment`, ``colored_equations`` and ``colored_variables`` hold all that the search has reached: the
     smallest set of equations that has too few variables (Pantelides 1988, Duff 1981).
     """
 
@@ -76,10 +76,10 @@ def match(incidence: Incidence, n_variables: int) -> list[int]:
 
 @dataclass
 class DifferentialStructure:
-    """What index reduction extends: equations, and which variable is another's derivative.
+    """The structure that index reduction extends: equations, and which variable is another's derivative.
 
     ``derivative[v]`` is the derivative of variable ``v`` or -1; ``successor[e]`` the differentiated equation.
-    ``differentiate(e, structure)`` returns the unknowns of the derivative of equation ``e``; it asks
+    ``differentiate(e, structure)`` returns the unknowns of the derivative of equation ``e``; it calls
     `derivative_of` for the variables' derivatives.
     """
 
@@ -109,8 +109,8 @@ def pantelides(structure: DifferentialStructure, max_order: int = 12) -> list[in
     """Differentiate equations until the highest derivatives can be matched (Pantelides 1988).
 
     ``structure`` is extended in place; the return value assigns an equation to every variable (-1: none).
-    The caller has made sure that the structure is not singular; ``max_order`` bounds the differentiations
-    of one equation all the same, above it a RecursionError is raised.
+    The caller has made sure that the structure is not singular. As a safeguard, a RecursionError is raised if one
+    equation is differentiated more than ``max_order`` times.
     """
     s = structure
     highest = [[v for v in row if s.derivative[v] < 0] for row in s.incidence]
@@ -226,8 +226,8 @@ def tear(
 ) -> Torn:
     """Choose tearing variables of a block greedily (Cellier & Kofman 2006, section 7.6).
 
-    Equations with one unknown left that they can be solved for are assigned; when none is left, the
-    variable that stands in most open equations is torn, and of these one that is ``better``.
+    Equations that can be solved for their one remaining unknown are assigned; when there are none, the variable that
+    occurs in most open equations is torn. Ties go to a variable that is ``better``.
     """
     equations_of: list[list[int]] = [[] for _ in range(n_variables)]
     for e, row in enumerate(incidence):
@@ -277,7 +277,7 @@ def tear(
 
 @dataclass(frozen=True)
 class Singularity:
-    """Where a structure is singular (Dulmage & Mendelsohn 1958): what is over- and what is underdetermined."""
+    """The overdetermined and underdetermined parts of a structure (Dulmage & Mendelsohn 1958)."""
 
     equations: tuple[int, ...]
     """Equations of the overdetermined part."""

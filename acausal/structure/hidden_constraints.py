@@ -1,9 +1,9 @@
-"""Hidden constraints: equations that, taken together, say something about states alone.
+"""Hidden constraints: combinations of equations that constrain states alone.
 
-Two capacitors side by side say ``c1.v = p - n`` and ``c2.v = p - n``. By its structure this determines the
-potentials p and n; in truth it ties the voltages to each other. Where unknowns stand with constant factors, such
-combinations are found: first modulo a prime, for parameters without relations, then exactly. Each takes the place of
-one of its equations, so that index reduction sees it. (For factors that are integers: Otter & Elmqvist 2017,
+Two capacitors in parallel have the equations ``c1.v = p - n`` and ``c2.v = p - n``. Structurally these determine the
+potentials p and n; in fact they tie the voltages to each other. Where unknowns have constant factors, such
+combinations are found: first modulo a prime, for parameters without relations, then exactly. Each replaces one of its
+equations, so that index reduction sees it. (For factors that are integers: Otter & Elmqvist 2017,
 "Transformation of Differential Algebraic Array Equations to Index One Form".)
 """
 
@@ -23,17 +23,17 @@ from acausal.structure.rank import cancelling, prune_singletons
 
 PRIME = 2**61 - 1
 RESIDUES = sp.GF(PRIME)
-Columns = dict[int, int]
-"""Unknowns, and the columns that they stand in."""
+ColumnByUnknown = dict[int, int]
+"""Unknown -> its column."""
 Part = tuple[Statement, sp.Expr, tuple[int, ...], tuple[int, ...]]
-"""A template, its factor, the slots of variables that are kept, and in what slot of the sum each parameter goes."""
+"""A template, its factor, the slots of variables that are kept, and the slot of the sum for each parameter."""
 
 
 def expose_constraints(system: Equations) -> dict[int, list[int]]:
-    """Replace equations that follow from others, but for what they say about states, by just that.
+    """Replace equations that, combined with others, constrain states alone by that constraint.
 
     Returns:
-        For every equation that was replaced the others that it was combined with.
+        For every replaced equation, the others that it was combined with.
     """
     highest = _highest(system)
     residue = cache(lambda parameter: RESIDUES(Random(parameter).randrange(1, PRIME)))
@@ -48,10 +48,10 @@ def expose_constraints(system: Equations) -> dict[int, list[int]]:
     return found
 
 
-def _highest(system: Equations) -> dict[int, Columns]:
-    """The unknowns without derivative of every equation in which all of them have constant factors."""
+def _highest(system: Equations) -> dict[int, ColumnByUnknown]:
+    """The unknowns without a derivative of every equation, if all of them have constant factors there."""
     derivative, known = system.structure.derivative, system.known
-    found: dict[int, Columns] = {}
+    found: dict[int, ColumnByUnknown] = {}
     for e, (template, row) in enumerate(zip(system.template, system.variables, strict=True)):
         columns = {v: c for c, v in enumerate(row) if derivative[v] < 0 and v not in known}
         if columns and (template.coefficients() or _are_constant(template, columns.values())):
@@ -65,7 +65,7 @@ def _are_constant(template: Statement, columns: Iterable[int]) -> bool:
 
 @cache
 def _factor(template: Statement, column: int) -> Any:
-    """What the slot is multiplied by, if it is a number or a rational function of parameters, else None."""
+    """The slot's factor if it is a number or a rational function of parameters, else None."""
     if not template.is_solvable(column):
         return None
     factor = template.partial(column)
@@ -75,7 +75,7 @@ def _factor(template: Statement, column: int) -> Any:
 
 
 def _residues(
-    system: Equations, equation: int, columns: Columns, residue: Callable[[int], Any]
+    system: Equations, equation: int, columns: ColumnByUnknown, residue: Callable[[int], Any]
 ) -> dict[int, Any]:
     """The factors of unknowns modulo the prime."""
     template = system.template[equation]
@@ -99,7 +99,7 @@ def _parameters(system: Equations, equations: dict[int, Any]) -> list[int]:
 
 
 def _exactly(
-    system: Equations, rows: dict[int, Columns], numbers: dict[int, int]
+    system: Equations, rows: dict[int, ColumnByUnknown], numbers: dict[int, int]
 ) -> list[dict[int, sp.Expr]]:
     """Factors with which these equations cancel, if there are any: polynomials in ``_symbol(number)``."""
     coefficients: dict[int, dict[int, Any]] = {}

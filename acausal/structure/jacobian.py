@@ -29,7 +29,7 @@ def partials(
 ) -> np.ndarray:
     """Partial derivatives with respect to one slot, for all rows of ``variables`` and ``parameters``.
 
-    Where one is not finite, or depends on a callable parameter, it is some number other than zero.
+    One that is not finite, or depends on a callable parameter, is replaced by some number other than zero.
     """
     expression = template.partial(column)
     if expression.is_Number:

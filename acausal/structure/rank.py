@@ -1,4 +1,4 @@
-"""Independent rows and columns of a sparse matrix: where the structure promises too much, numbers decide."""
+"""Independent rows and columns of a sparse matrix: numbers decide where the structure alone is too optimistic."""
 
 from __future__ import annotations
 
@@ -22,9 +22,8 @@ Column = dict[int, float]
 def choose_columns(matrix: Any, candidates: Sequence[int]) -> tuple[list[int], list[int]]:
     """One column for every row, as early as possible in ``candidates``, so that they are independent.
 
-    The structure is asked first; only where its choice turns out to be singular, in a connected part of rows
-    and candidates, the part's columns are taken by elimination, greedily in their order (which is optimal:
-    independent columns are a matroid).
+    The structure decides first. If its choice is singular in a connected part of rows and candidates, the columns of
+    that part are chosen by elimination, greedily in their order (which is optimal: independent columns are a matroid).
 
     Returns:
         The columns in order of ``candidates``, and the rows that depend on others.
@@ -87,9 +86,9 @@ def singular(rows: Sequence[int], columns: Sequence[int], values: Sequence[float
 
 
 def prune_singletons(incidence: Mapping[int, Iterable[int]]) -> list[int]:
-    """The rows that are left when those with a column of their own go, one after the other.
+    """The rows that are left when those with a column of their own are removed, one after the other.
 
-    The others stand in no combination of rows that cancels.
+    The removed rows are not part of any combination of rows that cancels.
     """
     holders: dict[int, dict[int, None]] = {}
     for name, row in incidence.items():
@@ -108,7 +107,7 @@ def prune_singletons(incidence: Mapping[int, Iterable[int]]) -> list[int]:
 
 
 def cancelling(rows: Mapping[int, Mapping[int, Any]]) -> list[dict[int, Any]]:
-    """Combinations of rows that cancel: factors by row. Each ends with a row that stands in no other.
+    """Combinations of rows that cancel: factors by row. Each ends with a row that is in no other.
 
     Exact for the numbers of any field (fractions, say, or residues of a prime).
     """

@@ -1,6 +1,6 @@
 """Reduce: aliases, index reduction, state selection and solving order of a flat model.
 
-The result says which variables are states, and in which order and from which equations all others follow.
+The result lists the states, and in which order and from which equations all other variables follow.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree, eliminate_aliases
-from acausal.structure.blocks import Step, order_steps
+from acausal.structure.blocks import SolvingStep, order_steps
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
@@ -33,7 +33,7 @@ class ReducedModel:
         states: nodes of the states, in order of declaration.
         rates, rate_signs: for every state the node of its derivative, and its sign.
         inputs: nodes of the inputs; derivatives of inputs, where the equations need them, follow.
-        input_orders: for every input, which one it derives from and how often it is differentiated.
+        input_orders: for every input, the one that it is a derivative of, and how often it is differentiated.
         input_signs: for every input the sign of its node.
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
@@ -51,7 +51,7 @@ class ReducedModel:
     base: Integers
     derivative: Integers
     derivative_sign: Integers
-    steps: tuple[Step, ...]
+    steps: tuple[SolvingStep, ...]
 
     def resolve(self, node: int) -> tuple[int, int]:
         """Representative of a node and the node's sign relative to it."""
@@ -63,7 +63,7 @@ class ReducedModel:
     def start_members(self) -> tuple[Integers, Integers]:
         """For every node the variable whose start it takes (itself if it has no name), and the sign.
 
-        Of a node's names a fixed one counts most, then one whose start was given, then the node's own.
+        Of a node's names, one with a fixed start takes precedence, then one whose start was given, then the node's own.
         """
         model, n = self.model, self.model.n_variables
         node, sign = self.aliases.representative[:n], self.aliases.sign[:n]
@@ -131,7 +131,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
     variable_of = graph.match(incidence, n_nodes)
     if len(incidence) != len(unknowns) or min(variable_of, default=0) < 0:
         raise StructureError(
-            f"after index reduction {len(incidence)} equations face {len(unknowns)} unknowns; "
+            f"after index reduction {len(incidence)} equations remain for {len(unknowns)} unknowns; "
             "the model has constraints that contradict or repeat each other"
         )
     blocks = graph.order_blocks(incidence, variable_of, n_nodes)

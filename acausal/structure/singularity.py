@@ -22,8 +22,8 @@ def explain_singularity(
     """A sentence about a structurally singular model, or None for a sound one.
 
     A variable and its derivatives count as one unknown (``chains``), so that constraints between states,
-    which index reduction resolves, are not mistaken for singularities. ``combined`` tells what equations an
-    equation was put together from, besides its own.
+    which index reduction resolves, are not mistaken for singularities. ``combined`` lists the equations that an
+    equation was combined with.
     """
     collapsed = [list(dict.fromkeys(chains[v] for v in row if v in chains)) for row in incidence]
     bottoms = list(dict.fromkeys(chains.values()))
@@ -63,7 +63,7 @@ def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
 
 
 def equation_name(model: FlatModel, origin: tuple[str, int]) -> str:
-    """Where an equation, given by its text and the component that states it, belongs."""
+    """The component and text of an equation, for messages."""
     text, component = origin
     if component < 0:
         return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({text})"

@@ -1,4 +1,4 @@
-"""Sparse loops: algebraic loops of so many unknowns that only arrays and sparse matrices can hold them."""
+"""Sparse loops: algebraic loops with too many unknowns for expressions, stored as arrays and sparse matrices."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class SparseGroup:
 
 @dataclass(frozen=True)
 class LinearRows:
-    """Equations ``sum(factors * nodes) = 0``, all in one list: ``rows`` tells which equation a term belongs to.
+    """Equations ``sum(factors * nodes) = 0``, all in one list: ``rows`` is the equation that each term belongs to.
 
     Attributes:
         origins: of every equation, for messages.
@@ -49,11 +49,11 @@ class LinearRows:
 
 @dataclass(frozen=True)
 class SparseLoop:
-    """Large algebraic loops of one level, solved together: their unknowns, and as many equations.
+    """Large algebraic loops of one level, solved as one: their unknowns, and as many equations.
 
     Attributes:
         groups: equations in order of rows; ``sums``: those that come after, by row among them.
-        pattern: where the entries of the Jacobian stand: group by group and slot by slot, then those of the sums.
+        pattern: positions of the Jacobian's entries: group by group and slot by slot, then those of the sums.
     """
 
     unknowns: Integers
@@ -73,13 +73,13 @@ class SparseLoop:
 
     @property
     def externals(self) -> Integers:
-        """What the equations read besides the unknowns."""
+        """The variables that the equations read besides the unknowns."""
         read = [*(g.variables.ravel() for g in self.groups), self.sums.nodes]
         nodes = np.unique(np.concatenate(read))
         return nodes[self.places(nodes) < 0]
 
     def places(self, nodes: Integers) -> Integers:
-        """Where nodes stand among the unknowns (-1: they do not)."""
+        """The positions of nodes among the unknowns (-1: not an unknown)."""
         return _places(self.unknowns, nodes)
 
 
@@ -130,7 +130,7 @@ def _places(unknowns: Integers, nodes: Integers) -> Integers:
 
 
 def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[SparseGroup, ...]:
-    """The equations that are more than sums, by template and by the slots that are unknown."""
+    """The equations that are not sums, by template and by the slots that are unknown."""
     found: dict[tuple[Statement, tuple[int, ...]], list[int]] = {}
     for e in equations:
         template = system.template[e]

@@ -17,10 +17,10 @@ DEFAULT = float(STATE_SELECT.index("default"))
 
 
 def select_states(system: Equations) -> list[int]:
-    """Choose dummy derivatives (Mattsson & Soderlind 1993), sparing the variables most wanted as states.
+    """Choose dummy derivatives (Mattsson & Soderlind 1993) and keep the most preferred variables as states.
 
-    The differentiated constraints determine the dummies if their Jacobian has full rank. Numbers decide that: first
-    those at which the model starts, as far as they are given, then random ones.
+    The differentiated constraints determine the dummies if their Jacobian has full rank. This is decided numerically:
+    first at the model's start values, as far as they are given, then at random values.
 
     Raises:
         StructureError: if the constraints depend on each other.
@@ -79,10 +79,10 @@ def _points(system: Equations) -> tuple[Point, Point]:
 def _preference(
     system: Equations, antecedent: dict[int, int]
 ) -> Callable[[int], tuple[float, int]]:
-    """How much a node is preferred as a state: by `stateSelect`, then the earlier declared.
+    """How much a node is preferred as a state: by `stateSelect`, then by order of declaration.
 
-    The variables that it derives from become states with it, so the average along that chain counts; of a node's
-    names the one with the highest preference.
+    The variables that it is a derivative of become states with it, so the average along that chain counts; of a node's
+    names, the one with the highest preference counts.
     """
     n = system.model.n_variables
     representative = system.aliases.representative

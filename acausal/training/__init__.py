@@ -1,8 +1,8 @@
 """Train: the networks and parameters of a model learn from a record.
 
 In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit` or an `Ensemble`, which answer further questions.
-It may know every room below; none of them knows it. Inside, `objective` is what to minimise, `optimizers` how, and
-`uncertainty` how sure the result is; only `objective` knows how records are laid out.
+It may import every room below; none of them imports it. Inside, `objective` defines what to minimise, `optimizers` how,
+and `uncertainty` computes how certain the result is; only `objective` depends on the layout of records.
 """
 
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble

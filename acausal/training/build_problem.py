@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 VARIES = 1e-12
-"""A target that varies by less, relative to its size, is constant."""
+"""A target that varies by less than this, relative to its size, counts as constant."""
 
 
 def build_problem(
@@ -50,7 +50,7 @@ def build_problem(
         options: how to train.
 
     Raises:
-        DataError: if the data do not serve the training.
+        DataError: if the data are not sufficient for the training.
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     chosen = _networks(options.train, params)
@@ -62,7 +62,7 @@ def build_problem(
         )
     _check_targets(system, targets)
     if len(data) < 2:
-        raise DataError("The record has less than two samples.")
+        raise DataError("The record has fewer than two samples.")
     cut = sequences(data, options.sequence_length, options.batch_size, options.subsample)
     missing = [n for n in system.states if n not in data.signals]
     shooting = options.x0 == "fit"
@@ -149,11 +149,11 @@ def _substeps(data: Data, dt: float | None) -> int:
         return 1
     longest = data.sample_time if data.uniform else float(np.max(np.diff(data.time)))
     if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
-        raise TrainingError(f"dt={dt!r} is no step; give a positive time in seconds.")
+        raise TrainingError(f"dt={dt!r} is not a step; give a positive time in seconds.")
     n = max(1, round(longest / dt)) if data.uniform else int(np.ceil(longest / dt - 1e-6))
     if data.uniform and abs(longest / dt - n) > 1e-6 * n:
         raise TrainingError(
-            f"dt={dt:g} s is no whole part of the data's sample time, {longest:g} s: "
+            f"dt={dt:g} s does not divide the data's sample time, {longest:g} s: "
             f"choose {longest / n:g} s, or resample the data."
         )
     return n

@@ -1,4 +1,4 @@
-"""Checkpoints: a training in a file, from which it goes on as if it had never stopped."""
+"""Checkpoints: a training in a file, from which it continues as if it had never stopped."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from acausal.training.optimizers.trainer import State
 KIND = "checkpoint of a training, version 3"
 
 EARLIER = ("checkpoint of a training, version 1", "checkpoint of a training, version 2")
-"""What earlier versions of acausal wrote: names in them differ."""
+"""The kinds of earlier versions of acausal, with other names in them."""
 
 LOG = "log {}: "
 """Prefix of the names of a training log's columns in a file."""
 
 
-class Kept(NamedTuple):
+class StoredBest(NamedTuple):
     """The best of a training: `acausal.training.member.Best` without its simulation, which can be repeated."""
 
     loss: float
@@ -36,7 +36,7 @@ class Kept(NamedTuple):
 
 
 class Snapshot(NamedTuple):
-    """All that a training needs to go on from between two updates.
+    """Everything that a training needs to continue after an update.
 
     Attributes:
         leg: of the strategy, by number; ``before``: updates done in the legs before it.
@@ -49,7 +49,7 @@ class Snapshot(NamedTuple):
     leg: int
     before: int
     state: State
-    bests: tuple[Kept, ...]
+    bests: tuple[StoredBest, ...]
     evaluated: int
     seconds: float
     compiling: float
@@ -68,7 +68,7 @@ class Stored(NamedTuple):
 
     Attributes:
         path: where from.
-        leg: in which it was written.
+        leg: the leg in which it was written.
         columns: of each training's log.
         arrays: of the snapshot, by name.
     """
@@ -88,14 +88,14 @@ class Stored(NamedTuple):
 
 
 def place(path: str | Path) -> Path:
-    """The file of a checkpoint: itself, or in a folder, which is made."""
+    """The file of a checkpoint; if a folder is given, a file in it. Folders are created."""
     path = Path(path)
     file = path if path.suffix == ".safetensors" else path / "checkpoint.safetensors"
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise TrainingError(
-            f"The folder of checkpoint '{file}' cannot be made: {reason(error)}."
+            f"The folder of checkpoint '{file}' cannot be created: {reason(error)}."
         ) from error
     return file
 
@@ -110,17 +110,19 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
     if about.get("kind") in EARLIER:
         raise DataError(
             f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
-            "or begin anew with another file."
+            "or start again with another file."
         )
     if about.get("kind") != KIND:
-        raise DataError(f"'{path}' is no {KIND}, but: {about.get('kind', 'it does not say what')}.")
+        raise DataError(
+            f"'{path}' is not a {KIND}, but: {about.get('kind', 'it does not say what')}."
+        )
     theirs = about["fingerprint"]
     names = [*fingerprint, *(n for n in theirs if n not in fingerprint)]
     differ = [n for n in names if fingerprint.get(n) != theirs.get(n)]
     if differ:
         raise DataError(
             f"Checkpoint '{path}' is of another training: {listing(differ)} differ. "
-            "Resume with the arguments it was begun with, or name another file."
+            "Resume with the arguments it was started with, or name another file."
         )
     prefixes = [LOG.format(k) for k in range(int(about["members"]))]
     columns = tuple(
@@ -136,7 +138,7 @@ def keeping(path: Path | None, every: float, fingerprint: Mapping[str, str]) -> 
     """Write checkpoints: at once, then at intervals of ``every`` seconds, and at the end, also after an error.
 
     Raises:
-        TrainingError: if the first one cannot be written. When a later one can't, this warns and goes on.
+        TrainingError: if the first one cannot be written. If a later one cannot, this warns and continues.
     """
     if path is None:
         yield lambda snapshot, logs: None

@@ -1,4 +1,4 @@
-"""Ensembles: the same training from several seeds, and what their results disagree on."""
+"""Ensembles: the same training from several seeds, and the spread of their results."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 class Ensemble:
     """The results of trainings that differ in their seed alone.
 
-    Their spread shows what the record and the training leave open: standard deviations are those of further trainings,
-    estimated from these. The spread does not show what is wrong for all of them, such as a law that overfits the
-    record's noise: see `Fit.confidence`.
+    Their spread shows what the record and the training leave open; standard deviations are estimates for further
+    trainings. The spread does not show errors that all of them share, such as a law that overfits the record's noise:
+    see `Fit.confidence`.
 
     Attributes:
         fits: one for each member.
@@ -48,7 +48,7 @@ class Ensemble:
     def laws(self) -> dict[str, Band]:
         """By network, mean and standard deviation of what the members have learned.
 
-        Over the values of the first argument that all have seen; other arguments are held at their mean.
+        Over the values of the first argument that occurred in all trainings; other arguments are held at their mean.
         """
         return {name: self._law(name) for name in self.fits[0].seen}
 
@@ -93,7 +93,7 @@ class Ensemble:
 
     @property
     def best(self) -> Fit:
-        """The member with the lowest loss over what was held out, else over the whole record."""
+        """The member with the lowest loss over the held-out samples, else over the whole record."""
         return min(self.fits, key=lambda fit: fit.score)
 
     def report(self, folder: str | Path, title: str = "Ensemble") -> Path:
@@ -148,7 +148,7 @@ def ensemble(
 
     Arguments:
         system, data, targets: as of `acausal.fit`.
-        members: how many.
+        members: number of trainings.
         params: where to start: the numbers of all members, whose networks come from their own seeds; or all
             parameters of each member, which then differ only in their networks.
         seed: of the first member; the others follow by one each.
@@ -161,7 +161,7 @@ def ensemble(
     """
     need_compiled(system, "ensemble")
     if not isinstance(members, int | np.integer) or members < 2:
-        raise TrainingError(f"members={members!r}; an ensemble has two at least.")
+        raise TrainingError(f"members={members!r}; an ensemble has at least two.")
     chosen = FitOptions.of("ensemble", options)
     if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")

@@ -1,6 +1,6 @@
-"""Fingerprints: what a training is made of, as digests that are the same in every process.
+"""Fingerprints: digests of the inputs of a training, the same in every process.
 
-Arrays, numbers, words and names count as they stand. A function counts as the program that JAX makes of it (StableHLO),
+Arrays, numbers, words and names count by value. A function counts as the program that JAX makes of it (StableHLO),
 so that a checkpoint is refused where a constant or a helper that the function uses has changed, and accepted where only
 names or places of code have.
 
@@ -33,7 +33,7 @@ from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Leg
 
 DERIVED = ("context", "shooting", "mesh")
-"""Fields of a problem that follow from the others, or say only where to compute it."""
+"""Fields of a problem that follow from the others, or only choose the devices."""
 
 ARGUMENTS = {
     "networks": "train", "records": "data", "substeps": "dt", "sequences": "sequence_length, batch_size or subsample",
@@ -49,10 +49,10 @@ def fingerprint(
     held: HeldOut | None,
     signals: Mapping[str, np.ndarray],
 ) -> dict[str, str]:
-    """A digest of everything that decides how trainings go, by argument of `acausal.fit`.
+    """A digest of everything that determines the course of trainings, by argument of `acausal.fit`.
 
     Arguments:
-        problem: with what the first training starts from.
+        problem: the problem, with the start of the first training.
         legs: of the strategy.
         seeds: one for each training.
         others: where all but the first training start.
@@ -110,7 +110,7 @@ def _outputs(problem: Problem) -> str:
 
 
 def _loss(problem: Problem) -> str:
-    """With its gradient, for which a function may have rules of its own."""
+    """The loss and its gradient, for which a function may have rules of its own."""
     y, sigma = jnp.zeros((2, len(problem.targets))), jnp.zeros(len(problem.targets))
     return program(jax.value_and_grad(problem.loss), y, y, sigma)
 
@@ -121,9 +121,9 @@ def _regularizer(problem: Problem, regularizer: Callable[..., Any]) -> str:
 
 
 def _optimizer(leg: Leg) -> str:
-    """How the optimizer of a leg begins, and an update of it.
+    """The start of a leg's optimizer, and one update.
 
-    Both depend on the shapes of what is trained: where those change, so does this.
+    Both depend on the shapes of the trained arrays: if these change, so does the digest.
     """
     optimizer = leg.trainer.optimizer
 
@@ -136,7 +136,7 @@ def _optimizer(leg: Leg) -> str:
             value=_squares(trainable),
             grad=gradient,
             value_fn=_squares,
-            curvature=jnp.zeros((count, count)),
+            hessian=jnp.zeros((count, count)),
         )
 
     start = leg.objective.start()
@@ -152,7 +152,7 @@ def _squares(tree: Any) -> jax.Array:
 
 
 def digest(thing: Any) -> str:
-    """A digest of what a thing is made of, down to numbers and arrays."""
+    """A digest of a thing's parts, down to numbers and arrays."""
     total = hashlib.sha256()
     for piece in _pieces(thing, ()):
         total.update(len(piece).to_bytes(8, "little"))
@@ -190,7 +190,7 @@ def _number(number: Any) -> bytes:
 
 @functools.singledispatch
 def _parts(thing: Any) -> Sequence[Any] | str:
-    """What a thing is made of: other things, or a text. A function has its name: `program` tells what it does."""
+    """The parts of a thing: other things, or a text. For a function this is its name; `program` covers its content."""
     if dataclasses.is_dataclass(thing) and not isinstance(thing, type):
         return [(f.name, getattr(thing, f.name)) for f in dataclasses.fields(thing)]
     if callable(thing) and hasattr(thing, "__qualname__"):

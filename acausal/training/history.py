@@ -1,4 +1,4 @@
-"""The history of a training: what every update reports, and the losses over the whole record now and then."""
+"""The history of a training: the report of every update, and the losses over the whole record at intervals."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class History:
         modifiers: by parameter, its change before the update, as of `acausal.Fit.modifiers`.
         seconds: time since the start of the training at the end of each update.
         full_loss: loss over the whole record, (epochs done, loss) in rows.
-        validation_loss: loss over what is held out, likewise; no rows without validation.
+        validation_loss: loss over the held-out samples, likewise; no rows without validation.
         divergences: what diverged and was left out.
     """
 
@@ -65,12 +65,12 @@ class History:
 
 
 class Evaluation(NamedTuple):
-    """What was found between two updates.
+    """The losses between two updates.
 
     Attributes:
         epoch: updates done.
         loss: over the whole record.
-        validation: loss over what is held out; NaN where nothing is.
+        validation: loss over the held-out samples; NaN without validation.
     """
 
     epoch: int
@@ -79,7 +79,7 @@ class Evaluation(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """What a `Log` holds at some moment.
+    """The content of a `Log` at some moment.
 
     Attributes:
         chunks: columns of some updates each, by name.
@@ -99,7 +99,7 @@ EVALUATIONS = "evaluations"
 
 
 class LogEntry(Protocol):
-    """What some updates report, with a leading axis: see `acausal.training.optimizers.trainer.Entry`."""
+    """The report of some updates, with a leading axis: see `acausal.training.optimizers.trainer.Entry`."""
 
     @property
     def loss(self) -> Float[Array, " n"]:
@@ -186,7 +186,7 @@ class Log:
         return new
 
     def evaluated(self, loss: float, validation: float) -> None:
-        """Add a loss over the whole record, and over what is held out."""
+        """Add a loss over the whole record, and over the held-out samples."""
         self.evaluations.append(Evaluation(self.epochs, loss, validation))
 
     @property
@@ -200,7 +200,7 @@ class Log:
         return Rows(tuple(self._chunks), tuple(self.evaluations))
 
     def go_on(self, columns: Mapping[str, np.ndarray]) -> None:
-        """Begin this empty log with what another one had collected: its ``rows().columns()``.
+        """Fill this empty log with the content of another one: its ``rows().columns()``.
 
         Raises:
             DataError: if they are not the columns of such a log.

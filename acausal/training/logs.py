@@ -1,6 +1,6 @@
-"""Logs that other programs read: observers of a training that write what it reports.
+"""Logs for other programs: observers that write the reports of a training.
 
-A log that goes on after a break replaces what it had of the updates that are made again.
+A log that is continued after a break replaces the entries of updates that are repeated.
 """
 
 from __future__ import annotations
@@ -24,21 +24,21 @@ SCALARS: dict[str, Callable[[Progress], float]] = {
     "seconds_per_epoch": lambda p: p.seconds_per_epoch,
     "diverged": lambda p: len(p.divergences),
 }
-"""What is written: the last update's loss, the lowest loss over the whole record, the time since the start and for an
-update, and in how many updates since the last report something diverged."""
+"""The columns: the last update's loss, the lowest loss over the whole record, the time since the start and per update,
+and the number of updates since the last report in which something diverged."""
 
 
 class CsvLog:
     """An observer that writes a line of a CSV file at every report: ``epoch`` and `SCALARS`.
 
-    A training that begins replaces the file, one that is resumed goes on in it. A line that cannot be written is
-    warned of once, and stops nothing.
+    A new training replaces the file, a resumed one continues it. If a line cannot be written, this warns once, and the
+    training continues.
 
     Arguments:
-        path: the file; folders are made.
+        path: the file; folders are created.
 
     Raises:
-        DataError: if there is a file that is no such log.
+        DataError: if the file exists and is not such a log.
         TrainingError: if the file cannot be written.
     """
 
@@ -53,7 +53,7 @@ class CsvLog:
         except OSError as error:
             raise TrainingError(f"Log '{self.path}' cannot be written: {reason(error)}.") from error
         if before and before[0] != ["epoch", *SCALARS]:
-            raise DataError(f"'{self.path}' is no log of a training: name another file.")
+            raise DataError(f"'{self.path}' is not the log of a training: name another file.")
 
     def __call__(self, progress: Progress) -> None:
         """Write a line."""
@@ -72,7 +72,7 @@ class CsvLog:
                 )
 
     def _begin(self, epoch: int) -> None:
-        """Keep the lines of earlier updates alone, before the first line."""
+        """Keep only the lines of earlier updates, before the first line is written."""
         if self._begun:
             return
         whole = [row for row in _lines(self.path)[1:] if len(row) == 1 + len(SCALARS)]
@@ -85,7 +85,7 @@ class TensorBoardLog:
     """An observer that writes `SCALARS` for TensorBoard at every report, over the epoch.
 
     Arguments:
-        folder: what ``tensorboard --logdir`` gets; it is made.
+        folder: the folder for ``tensorboard --logdir``; it is created.
 
     Raises:
         TrainingError: if tensorboardX is not installed (``pip install 'acausal[tensorboard]'``).

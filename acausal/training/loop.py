@@ -1,4 +1,4 @@
-"""The loop of a training: chunks of updates, evaluations in between, an end by plan or by Ctrl-C."""
+"""The loop of a training: chunks of updates with evaluations in between, until the planned end or Ctrl-C."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Int, PRNGKeyArray
 
 from acausal.errors import TrainingError
-from acausal.training.checkpoint import Keep, Kept, Snapshot, Stored
+from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
 from acausal.training.history import Divergence, History, Log
 from acausal.training.member import Best, Member, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
@@ -34,21 +34,21 @@ from acausal.training.progress import Observer, Progress
 from acausal.training.strategy import Leg
 
 REPORT_EVERY = 0.5
-"""Seconds between two reports to the observers, about."""
+"""Approximate seconds between two reports to the observers."""
 
 REJECTIONS = 50
-"""So many updates rejected in a row end a training."""
+"""A training ends after this many rejected updates in a row."""
 
 
 @dataclass(frozen=True, eq=False)
 class Trained:
-    """How a training ended.
+    """The end of a training.
 
     Attributes:
         best: its best state.
-        last: what was trained, as the last update or evaluation had it.
-        history: what happened.
-        seconds: all of it; ``compiling``: of which in XLA's compiler; ``updating``: of which in updates.
+        last: what was trained, after the last update or evaluation.
+        history: the training, update by update.
+        seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
         interrupted: whether the user ended it.
     """
 
@@ -71,9 +71,9 @@ def train(
     stored: Stored | None = None,
     held: HeldOut | None = None,
 ) -> tuple[Trained, ...]:
-    """Train leg by leg, each from where the one before was best, or until the user interrupts.
+    """Train leg by leg, each from the best state of the one before, until the last one ends or the user interrupts.
 
-    Several trainings of one problem go through one program. A leg ends when it has ended for all of them.
+    Several trainings of one problem share one program. A leg ends when it has ended for all of them.
 
     Arguments:
         problem: evaluated over the whole record; the best evaluation is chosen where nothing is held out.
@@ -81,13 +81,13 @@ def train(
         legs: what to minimise and how.
         keys: sources of all batches, one for each training.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
-        keep: called with all that is needed to go on from there, before the first update and after every few.
-        stored: where to go on from; by default from the start.
+        keep: called with all that is needed to continue, before the first update and after every few.
+        stored: the checkpoint to continue from; by default, training starts anew.
         held: what is held out; the best is the one with the lowest loss over it.
 
     Raises:
         TrainingError: if `REJECTIONS` updates in a row had to be rejected.
-        DataError: if what was stored is of another training.
+        DataError: if the checkpoint belongs to another training.
     """
     run = _Run(problem, legs, keys, observers, keep, held)
     interrupted = False
@@ -143,7 +143,7 @@ class _Run:
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
         """Restore a training; returns its leg and the trainer's state."""
         validation = None if self.members[0].held is None else 0.0
-        bests = tuple(Kept(0.0, validation, 0, start) for start in starts)
+        bests = tuple(StoredBest(0.0, validation, 0, start) for start in starts)
         state = self._begin(stored.leg, starts)
         like = Snapshot(stored.leg, 0, state, bests, 0, 0.0, 0.0, 0.0)
         snapshot = replicate(stored.snapshot(like), self.mesh)
@@ -171,7 +171,7 @@ class _Run:
         return stacked(begins)
 
     def follow(self, i: int, state: State) -> None:
-        """Make all updates of a leg that are not done yet."""
+        """Do the remaining updates of a leg."""
         leg = self.legs[i]
         objective = replicate(leg.objective, self.mesh)
         self._keep(i, state)
@@ -224,16 +224,16 @@ class _Run:
         return new
 
     def _keep(self, leg: int, state: State) -> None:
-        """Hand out all that is needed to go on from here."""
+        """Pass all that is needed to continue from here to ``keep``."""
         seconds = time.perf_counter() - self.began
-        bests = tuple(Kept(*m.best[:-1]) for m in self.members)
+        bests = tuple(StoredBest(*m.best[:-1]) for m in self.members)
         snapshot = Snapshot(
             leg, self.before, state, bests, self.evaluated, seconds, self.compiling, self.updating
         )
         self.keep(snapshot, tuple(m.log.rows() for m in self.members))
 
     def evaluate(self, trainable: Trainable) -> None:
-        """Let every member keep the better of its trainable and its best so far."""
+        """Evaluate the trainable of every member, which keeps it if it is the best so far."""
         if self.evaluated == self.done:
             return
         self.evaluated = self.done
@@ -242,7 +242,7 @@ class _Run:
         self.last = trainable
 
     def _is_over(self, leg: Leg, state: State) -> bool:
-        """Whether a leg has nothing more to find, or found nothing better for too long, for any member."""
+        """Whether a leg has converged, or has not improved for too long, for all members."""
         ended = unstacked(converged(state), len(self.members))
         patience = math.inf if leg.patience is None else leg.patience
         return all(
@@ -259,7 +259,7 @@ def _advance(
 
 
 def _entry(leg: Leg, best: Trainable) -> Trainable:
-    """Where a leg begins: at the best up to now, with as many initial states as it has sequences."""
+    """The start of a leg: the best up to now, with as many initial states as the leg has sequences."""
     needed = leg.objective.start().states
     if needed is None or best.states is None:
         return best

@@ -1,4 +1,4 @@
-"""A member: one of the trainings that one program makes; mostly there is only one."""
+"""A member: one of the trainings in one program; usually there is only one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Best(NamedTuple):
 
     Attributes:
         loss: over the whole record; infinite if the model diverges there.
-        validation: loss over what is held out, likewise; ``None`` without validation.
+        validation: loss over the held-out samples, likewise; ``None`` without validation.
         epoch: updates done.
         trainable: what was trained.
         simulated: one simulation of the whole record.
@@ -43,7 +43,7 @@ class Best(NamedTuple):
 
 
 class Member:
-    """One training while it runs: what happened to it, and the best of it.
+    """One training while it runs: its log, and its best state.
 
     Arguments:
         problem: what is evaluated over the whole record.
@@ -71,7 +71,7 @@ class Member:
             self.best = new
 
     def evaluations_without_improvement(self, since: int) -> int:
-        """How many evaluations since the best, or since some update if that is later, found nothing better."""
+        """How many evaluations there were since the best one, or since some update if that is later."""
         begin = max(since, self.best.epoch)
         return sum(evaluation.epoch > begin for evaluation in self.log.evaluations)
 

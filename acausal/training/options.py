@@ -1,7 +1,7 @@
 """The options of a training: their names, types, defaults and meanings, written once for `fit` and `ensemble`.
 
-`FitOptions` is what all of the training reads. `FitKeywords` repeats names and types, because a type checker takes the
-keywords of a function from a `TypedDict` alone; a test compares the two.
+All files of the room read `FitOptions`. `FitKeywords` repeats names and types, because a type checker takes the
+keywords of a function only from a `TypedDict`; a test compares the two.
 """
 
 from __future__ import annotations
@@ -148,11 +148,11 @@ class FitOptions:
 
     @staticmethod
     def of(function: str, given: Mapping[str, Any]) -> FitOptions:
-        """The options from the keywords that a function of the user's was given; to be called in that function.
+        """The options from the keywords of a public function; to be called in that function.
 
         Raises:
-            TypeError: for a keyword that there is not, or an option under its old and its new name.
-            TrainingError: for a value that no training could have.
+            TypeError: for an unknown keyword, or an option under both its old and its new name.
+            TrainingError: for a value that does not fit any training.
         """
         known = [f.name for f in fields(FitOptions)]
         options: dict[str, Any] = {}
@@ -164,7 +164,7 @@ class FitOptions:
                 if new in given:
                     raise TypeError(f"{function}: '{name}' is the old name of '{new}'; give one.")
                 warnings.warn(
-                    f"{function}(..., {name}=) is now called {new}=; the old name will go.",
+                    f"{function}(..., {name}=) is now called {new}=; the old name will be removed.",
                     DeprecationWarning,
                     stacklevel=3,
                 )
@@ -172,15 +172,15 @@ class FitOptions:
         return FitOptions(**options)
 
     def __post_init__(self) -> None:
-        """What can be checked without a model and data.
+        """Check what can be checked without a model and data.
 
         Raises:
-            TrainingError: for what fits no training.
+            TrainingError: for a value that does not fit any training.
         """
         for function in (*self.penalties, *self.all_observers):
             if not callable(function):
                 raise TrainingError(
-                    f"{function!r:.80} is called in the training, and is no function."
+                    f"{function!r:.80} is not a function, but the training calls it."
                 )
         for name in self.parts:
             if name not in UPDATES:
@@ -191,7 +191,7 @@ class FitOptions:
             raise TrainingError(f"evaluate_every={self.evaluate_every}; give one update or more.")
         if self.optimizer is not None and not hasattr(self.optimizer, "update"):
             raise TrainingError(
-                f"optimizer={self.optimizer!r:.80} is none of optax; give one such as optax.adam(0.01)."
+                f"optimizer={self.optimizer!r:.80} is not an optax optimizer; give one such as optax.adam(0.01)."
             )
         self._check_updates()
 
@@ -208,7 +208,7 @@ class FitOptions:
 
     @cached_property
     def penalties(self) -> tuple[Regularizer, ...]:
-        """The regularizers, also where one alone is given."""
+        """The regularizers, also if a single one is given."""
         given = self.regularizers
         return (given,) if callable(given) else tuple(given)
 
@@ -236,7 +236,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def documented(function: Function) -> Function:
-    """The same function, whose signature and documentation at run time name every option: for `help` and notebooks."""
+    """The same function with every option in its signature and documentation at run time, for `help` and notebooks."""
     signature = inspect.signature(function)
     own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
     options = inspect.signature(FitOptions).parameters.values()

@@ -1,4 +1,4 @@
-"""The result of a training, and what can be asked of it."""
+"""The result of a training, and further analyses of it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from acausal.data import Data
 from acausal.errors import TrainingError, nearest
 from acausal.networks import remove_offset
 from acausal.reporting import (
-    Law,
+    LearnedLaw,
     Page,
     add_divergences,
     add_laws,
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What a network was called with over the record, in one simulation with the trained parameters.
+    """Statistics of a network's arguments over the record, in one simulation with the trained parameters.
 
     Attributes:
         mean: of every argument.
@@ -69,18 +69,18 @@ class Fit:
         params: its trained parameters: a flat dict with networks and physical values.
         loss: over one simulation of the whole record, every point of it; infinite if the model diverges there.
         loss_before: the same before training.
-        validation_loss: of ``params``, over what was held out; ``None`` where nothing was.
-        best_epoch: updates after which ``params`` were reached: those of the lowest loss over what was held out,
+        validation_loss: of ``params``, over the held-out samples; ``None`` without validation.
+        best_epoch: updates after which ``params`` were reached: those of the lowest loss over the held-out samples,
             else over the whole record, among all evaluations.
         x0: the state at the record's start, by name.
         modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
             absolute, p̃ − p.
         predicted: the targets in one simulation of the record.
         arguments: by network, what it was called with in that simulation.
-        seen: by network, the statistics of that.
+        seen: by network, the statistics of these arguments.
         history: the training, update by update.
-        seconds: what all of it took, of which ``compile_seconds`` in XLA's compiler.
-        seconds_per_epoch: what an update took on average.
+        seconds: total time; ``compile_seconds``: the part in XLA's compiler.
+        seconds_per_epoch: average time of an update.
         interrupted: whether the user ended it early.
         problem, trained: the training problem and what was trained, for further questions.
     """
@@ -106,7 +106,7 @@ class Fit:
 
     @property
     def score(self) -> float:
-        """The loss by which the best was chosen: over what was held out, else over the whole record."""
+        """The loss by which the best was chosen: over the held-out samples, else over the whole record."""
         return self.loss if self.validation_loss is None else self.validation_loss
 
     def confidence(self) -> Confidence:
@@ -157,7 +157,7 @@ class Fit:
         return values[:: max(1, len(values) // most)]
 
     def distill(self, network: str, sigmas: float = 2.0, **options: Any) -> Distilled:
-        """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of what it has seen.
+        """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of its argument in training.
 
         Arguments:
             network: its name, such as ``"damper.net"``.
@@ -168,7 +168,7 @@ class Fit:
         return distill(self.params[network], float(low[0]), float(high[0]), **options)
 
     def _known(self, network: str) -> str:
-        """The name of a trained network, or a sentence about another one."""
+        """The name of a trained network; any other name is refused with a sentence."""
         if network not in self.seen:
             raise TrainingError(
                 f"There is no trained network '{network}': {nearest(network, self.seen)}"
@@ -202,7 +202,7 @@ class Fit:
             add_residuals(page, self.residuals())
         else:
             page.text(
-                "The trained model diverges over the record; nothing can be said of what it has learned."
+                "The trained model diverges over the record; what it has learned cannot be assessed."
             )
         add_divergences(page, self.history.divergences)
         return page.write(Path(folder) / "index.html")
@@ -226,9 +226,9 @@ class Fit:
             rows.append((name, value, written(name, change, "+.3g", unit), sigma))
         return rows
 
-    def with_bands(self, bands: Mapping[str, Band]) -> dict[str, Law]:
-        """Learned laws as reports show them: bands over what their networks have seen."""
-        return {n: Law(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
+    def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
+        """Learned laws as reports show them: bands over their networks' arguments in training."""
+        return {n: LearnedLaw(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""

@@ -49,12 +49,12 @@ class Leg(NamedTuple):
 
 
 class _Kind(NamedTuple):
-    """How a kind of leg is made.
+    """A kind of leg.
 
     Attributes:
         objective: from the problem.
         optimizer: ``None`` where the user chooses it.
-        evaluate: what the optimizer needs at a point.
+        evaluate: computes the derivatives that the optimizer needs.
     """
 
     objective: Callable[[Problem], Problem | EquationError]
@@ -68,7 +68,7 @@ KINDS = {
     "whole_record": _Kind(over_whole_record, lbfgs),
     "gauss_newton": _Kind(gauss_newton, levenberg_marquardt, with_gauss_newton_hessian),
 }
-"""What a training can consist of; their names and numbers of updates are in `UPDATES` of the options."""
+"""The kinds of legs; their names and numbers of updates are in `UPDATES` of the options."""
 
 
 def legs(problem: Problem, options: FitOptions, limit: float) -> tuple[Leg, ...]:

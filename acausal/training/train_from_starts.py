@@ -35,7 +35,7 @@ DIVERGED = 1e3
 """A sequence whose normalised error is larger has diverged."""
 
 EXACT = 1e-100
-"""A loss at which a model follows its record to the last bit, and nothing moves."""
+"""A loss at which a model follows its record to roundoff, so that nothing needs to change."""
 
 
 def train_from_starts(
@@ -47,7 +47,7 @@ def train_from_starts(
     seeds: Sequence[int],
     params: Sequence[Mapping[str, Any]],
 ) -> tuple[Fit, ...]:
-    """Train from several starts; what is not trained is as the first parameters have it.
+    """Train from several starts; parameters that are not trained are those of the first start.
 
     Arguments:
         system, data, targets: as of `acausal.fit`.
@@ -97,7 +97,7 @@ def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
     for name in problem.networks:
         if _shape(params[name]) != _shape(problem.params[name]):
             raise TrainingError(
-                f"The networks '{name}' that are trained together are not alike: give all of them one architecture."
+                f"The networks '{name}' of the members differ in architecture: give all of them the same."
             )
     networks = {name: params[name] for name in problem.networks}
     return replace(problem, params={**problem.params, **networks})
@@ -111,7 +111,7 @@ def _shape(network: PyTree) -> PyTree:
 def _checkpoint(
     options: FitOptions, identity: Mapping[str, str]
 ) -> tuple[Path | None, checkpoints.Stored | None]:
-    """Where to write checkpoints, and the one to go on from."""
+    """Where to write checkpoints, and the one to continue from."""
     if options.checkpoint is None:
         if options.resume:
             raise TrainingError("resume=True needs a checkpoint to go on from: checkpoint='...'.")
@@ -122,13 +122,13 @@ def _checkpoint(
     if not options.resume:
         raise TrainingError(
             f"There is a checkpoint '{file}' already: resume=True goes on from it; "
-            "to begin anew, remove it or name another file."
+            "to start again, remove it or name another file."
         )
     return file, checkpoints.read(file, identity)
 
 
 def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
-    """What a user should know of a training, a sentence each."""
+    """Warnings about a training, one sentence each."""
     diverged, epochs = trained.history.divergences, trained.history.epochs
     if diverged:
         yield (
@@ -148,7 +148,7 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
 
 
 def _unmoved(start: Trainable, end: Trainable) -> list[str]:
-    """The networks and parameters that are as they were, to the last bit."""
+    """The networks and parameters that have not changed by a single bit."""
     before, after = ({**t.networks, **t.modifiers} for t in (start, end))
     return [
         name

@@ -18,7 +18,7 @@ from acausal.errors import UnitError, shortened
 from acausal.flattening import Binding, EquationGroup, FlatModel, Integers, Layout, Statement, tiled
 from acausal.modeling import Declaration, Module
 from acausal.units.dimensions import SECOND, Dimension, described, dimension
-from acausal.units.infer import Finding, Signature, Slots, examine
+from acausal.units.infer import Finding, Signature, SlotDimensions, examine
 
 MAX_LISTED = 12
 
@@ -131,7 +131,7 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         yield f"{first}{more}: {wrong}"
 
 
-def _slots(group: EquationGroup, measures: _Measures) -> Slots:
+def _slots(group: EquationGroup, measures: _Measures) -> SlotDimensions:
     """The slots of a template with their dimensions; all instances of a group have the same units."""
     template = group.template
     slots: list[tuple[sp.Symbol, Dimension | Signature | None]] = []
@@ -146,7 +146,7 @@ def _slots(group: EquationGroup, measures: _Measures) -> Slots:
     return tuple(slots)
 
 
-def _hint(template: Statement, slots: Slots, finding: Finding) -> str:
+def _hint(template: Statement, slots: SlotDimensions, finding: Finding) -> str:
     """A likely mend of the equation: another unit of a parameter, or a derivative."""
     own = [(s, d) for s, d in slots if s in template.parameters and "." not in str(s)]
     found: list[str] = []

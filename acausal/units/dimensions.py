@@ -1,8 +1,8 @@
 """Dimensions of units: ``"N.m/rad"`` as exponents of the SI's base units.
 
-The units that models are written in stand in tables here; pint is asked for the others. To take every dimension from
-pint was measured: its import and registry take 0.5 s in every process that compiles a model, whereas the 75 units of
-the library are read here in 5 ms, and the quarter vehicle is checked in 1.3 ms. The tests compare the tables with pint.
+Tables here hold the usual units of models; the others come from pint. To use pint for all of them would be slow: its
+import and registry take 0.5 s in every process that compiles a model, whereas the 75 units of the library are read here
+in 5 ms, and the quarter vehicle is checked in 1.3 ms. The tests compare the tables with pint.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ def _no_unit(text: str, meant: str | None = None) -> UnitError:
 
 
 def _symbol(symbol: str, text: str) -> Dimension:
-    """The dimension of a symbol in a text; pint is asked, but what it takes for something unlikely is refused."""
+    """The dimension of a symbol in a text; symbols that pint reads as an unlikely unit are refused."""
     known = _known(symbol)
     if known is not None:
         return known

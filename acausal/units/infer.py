@@ -24,7 +24,7 @@ from acausal.modeling import ModuleCall, Prescribed, time
 from acausal.units.dimensions import NUMBER, SECOND, Dimension, described
 
 MAX_CASES = 64
-"""Cases of one expression that are checked one by one; of more, the expression as a whole."""
+"""The most cases of one expression that are checked one by one; with more, the expression is checked as a whole."""
 
 MAX_SMALL = 12
 """The largest numerator and denominator of a small number."""
@@ -38,7 +38,7 @@ class Signature:
     result: Dimension | None = None
 
 
-Slots = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
+SlotDimensions = tuple[tuple[sp.Symbol, Dimension | Signature | None], ...]
 """Every symbol, or those that are known, with its dimension."""
 
 
@@ -51,7 +51,7 @@ class Finding:
 
 
 @lru_cache(maxsize=4096)
-def examine(expression: sp.Expr, slots: Slots) -> Finding | None:
+def examine(expression: sp.Expr, slots: SlotDimensions) -> Finding | None:
     """The first term, comparison or argument of a function that has the wrong dimension; None if there is none.
 
     Numbers in the branches of cases may have a dimension of their own. Therefore an expression with cases is right if
@@ -98,7 +98,7 @@ class _Unlike(Exception):  # noqa: N818 (a finding, not an error)
 
 
 def is_small(number: Any) -> bool:
-    """Whether a number is made of 2, 1/2, 0.5, pi and the like: 9.81 and 1000 may be constants of nature."""
+    """Whether a number is a pure factor such as 2, 1/2, 0.5 or pi; 9.81 and 1000 may be constants of nature."""
     ratios = (
         (n.p, n.q) if n.is_Rational else float(n).as_integer_ratio()
         for n in number.atoms(sp.Number)
@@ -160,7 +160,7 @@ def _quoted(term: Any) -> str:
 
 # -- rules: one for each kind of expression ------------------------------------------------------------
 
-Rule = Callable[[_Walk, Any], Dimension | None]
+DimensionRule = Callable[[_Walk, Any], Dimension | None]
 
 
 def _alike(walk: _Walk, expression: Any) -> Dimension | None:
@@ -245,7 +245,7 @@ def _call(walk: _Walk, expression: Any) -> Dimension | None:
     return found
 
 
-RULES: dict[type, Rule] = {
+RULES: dict[type, DimensionRule] = {
     sp.Add: _alike,
     sp.Mul: _product,
     sp.Pow: _power,
@@ -262,5 +262,5 @@ RULES: dict[type, Rule] = {
 
 
 @cache
-def _rule(kind: type) -> Rule:
+def _rule(kind: type) -> DimensionRule:
     return next(RULES[k] for k in kind.__mro__ if k in RULES)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @cache
 def registry() -> pint.UnitRegistry[Any]:
-    """The unit registry; made, and pint imported, where the first unit needs it: that takes half a second."""
+    """The unit registry. Pint is imported and the registry made on first use, as this takes half a second."""
     import pint
 
     known = pint.UnitRegistry(cache_folder=None)

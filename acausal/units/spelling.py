@@ -10,7 +10,7 @@ import re
 from fractions import Fraction
 from functools import cache
 
-Factors = tuple[tuple[str, Fraction], ...]
+UnitFactors = tuple[tuple[str, Fraction], ...]
 """Symbols and their exponents, in the order of the text."""
 
 TOKEN = re.compile(
@@ -29,7 +29,7 @@ class SpellingError(ValueError):
 
 
 @cache
-def factors_of(text: str) -> Factors:
+def factors_of(text: str) -> UnitFactors:
     """The factors of a unit; none for ``"1"``.
 
     Raises:
@@ -57,7 +57,7 @@ class _Reader:
             at = match.end()
         self.tokens.reverse()
 
-    def product(self) -> Factors:
+    def product(self) -> UnitFactors:
         """Factors with ``.``, ``*`` or ``/`` between them, from the left."""
         found = self._factor()
         while self.tokens and (op := self.tokens[-1]["op"]) in (".", "*", "/"):
@@ -66,7 +66,7 @@ class _Reader:
             found += tuple((s, -power) for s, power in right) if op == "/" else right
         return found
 
-    def _factor(self) -> Factors:
+    def _factor(self) -> UnitFactors:
         token = self.tokens.pop() if self.tokens else None
         if token is None:
             raise SpellingError(self.text)

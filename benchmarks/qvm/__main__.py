@@ -101,10 +101,10 @@ def main() -> None:
             ratios |= {f"{name}_vs_{rival}": result.ratio for rival, result in raced.items()}
             cpu |= {f"{name}_vs_{rival}": result.cpu for rival, result in raced.items()}
             if "c" in raced:
-                cells[choice][key] = _told(raced["c"])
+                cells[choice][key] = _seconds(raced["c"])
         if "c" in others:
             for name, run in others.items():
-                cells[name][key] = _told(race(run, others["c"]))
+                cells[name][key] = _seconds(race(run, others["c"]))
     _show(cells, cores)
     print(json.dumps({"ratio": _rounded(ratios), "cpu_ratio": _rounded(cpu)}))
 
@@ -128,7 +128,7 @@ def _check(title: str, one: Gradient, other: Gradient, kind: Any) -> None:
         sys.exit(f"{title}: its gradient differs by {off:.1e} from the framework's.")
 
 
-def _told(result: Result) -> str:
+def _seconds(result: Result) -> str:
     return f"{result.seconds * 1e3:.3g} ms = {result.ratio:.2f} x C ({result.cpu:.2f})"
 
 

@@ -23,7 +23,7 @@ def friction(v: Any) -> Any:
 
 
 @pytest.mark.parametrize(
-    ("law", "interval", "terms", "slopes"),
+    ("law", "interval", "terms", "derivatives"),
     [
         (lambda v: 30 * jnp.tanh(v / 0.002) + 150 * v, (-0.3, 0.3), 2, {0.1: 150}),
         (friction, (-0.3, 0.3), 3, {0.2: 150}),
@@ -34,12 +34,14 @@ def friction(v: Any) -> Any:
     ],
     ids=["coulomb", "stribeck", "progressive", "outflow", "diode", "hardening"],
 )
-def test_laws_of_physics_are_found_again(law, interval, terms, slopes):
+def test_laws_of_physics_are_found_again(law, interval, terms, derivatives):
     found = ac.distill(law, *interval)
     assert len(found.formula.terms) == terms
     assert found.relative_error < 1e-4
-    for at, slope in slopes.items():
-        assert float(sp.diff(found.expression, X).subs(X, at)) == pytest.approx(slope, rel=1e-3)
+    for at, derivative in derivatives.items():
+        assert float(sp.diff(found.expression, X).subs(X, at)) == pytest.approx(
+            derivative, rel=1e-3
+        )
 
 
 def test_formula_expression_and_search_agree():
@@ -106,7 +108,7 @@ def test_the_law_of_an_energy_is_distilled():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "sentence"),
+    ("chosen", "sentence"),
     [
         ({"low": 1.0, "high": 1.0}, "distill: 1 to 1 is not an interval; give low < high."),
         ({"terms": 0}, "distill: terms=0; a formula has at least one."),
@@ -115,8 +117,8 @@ def test_the_law_of_an_energy_is_distilled():
         ({"network": lambda x: jnp.log(x)}, "distill: the network is not finite everywhere"),
     ],
 )
-def test_mistakes_get_one_sentence(wishes, sentence):
-    given = {"network": lambda x: 2 * x, "low": -1.0, "high": 1.0} | wishes
+def test_mistakes_get_one_sentence(chosen, sentence):
+    given = {"network": lambda x: 2 * x, "low": -1.0, "high": 1.0} | chosen
     with pytest.raises(ac.TrainingError) as error:
         ac.distill(**given)
     assert str(error.value).startswith(sentence)

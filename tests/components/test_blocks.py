@@ -191,7 +191,7 @@ def test_every_class_has_as_many_equations_as_unknowns(name):
 
 
 def test_a_reset_is_refused():
-    with pytest.raises(ac.DeclarationError, match="use_reset=True is none of False"):
+    with pytest.raises(ac.DeclarationError, match="use_reset=True must be one of False"):
         blocks.Integrator(use_reset=True)
 
 

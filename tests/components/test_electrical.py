@@ -344,8 +344,8 @@ class Cut(ac.Component):
 
 def test_a_circuit_cut_by_signals_behaves_as_the_whole():
     system = ac.compile(Cut())
-    slope = system.vector_field(0.0, [3.0], [], system.parameters())
-    assert float(slope[0]) == pytest.approx(-3.0 / (4.0 * 2.0))
+    derivative = system.vector_field(0.0, [3.0], [], system.parameters())
+    assert float(derivative[0]) == pytest.approx(-3.0 / (4.0 * 2.0))
 
 
 # -- characteristics ---------------------------------------------------------------------------------

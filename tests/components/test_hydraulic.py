@@ -125,7 +125,7 @@ def test_a_head_keeps_levels_apart(run):
 
 
 def test_an_orifice_lets_flow_pass_in_both_directions():
-    """The same law mirrored, and with a finite slope at rest."""
+    """The same law mirrored, and with a finite derivative at rest."""
 
     class Hole(ac.Component):
         def __init__(self):

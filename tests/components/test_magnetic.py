@@ -219,15 +219,15 @@ def test_materials_saturate():
             assert found[f"tubes[{i}].V_m"] == pytest.approx(0.01 * B / (mu_0 * mu_r))
 
 
-def test_a_saturating_tube_has_a_slope_everywhere():
+def test_a_saturating_tube_has_a_derivative_everywhere():
     system = ac.compile(Tubes(mag.Cuboid(material=mag.M350_50A())))
     packed, x = system.pack(), jnp.zeros(0)
-    slope = jax.jit(
+    derivative = jax.jit(
         jax.grad(lambda Phi: system.observe("tubes[1].V_m", 0.0, x, jnp.stack([Phi]), packed))
     )
-    assert float(slope(0.0)) == pytest.approx(0.01 / (mu_0 * 1210 * 1e-4))
-    assert np.isfinite(slope(1e-4))
-    assert float(slope(2e-4)) > 0
+    assert float(derivative(0.0)) == pytest.approx(0.01 / (mu_0 * 1210 * 1e-4))
+    assert np.isfinite(derivative(1e-4))
+    assert float(derivative(2e-4)) > 0
 
 
 def test_shapes_have_their_permeance():
@@ -360,11 +360,11 @@ def test_forces_follow_from_the_change_of_permeance():
     s, l, h = 0.004, 0.003, 1e-6
     found = values(Gap(*lengths), names, (s,))
     for i, length in enumerate(lengths.values(), start=1):
-        slope = mu_0 * (length(l + h) - length(l - h)) / (2 * h) * (-1 if i == 6 else 1)
+        derivative = mu_0 * (length(l + h) - length(l - h)) / (2 * h) * (-1 if i == 6 else 1)
         assert found[f"tubes[{i}].l"] == pytest.approx(l)
         assert found[f"tubes[{i}].G_m"] == pytest.approx(mu_0 * length(l))
         assert found[f"tubes[{i}].Phi"] == pytest.approx(50 * mu_0 * length(l))
-        assert found[f"tubes[{i}].F_m"] == pytest.approx(50**2 / 2 * slope, rel=1e-5)
+        assert found[f"tubes[{i}].F_m"] == pytest.approx(50**2 / 2 * derivative, rel=1e-5)
         assert found[f"tubes[{i}].flange.f"] == -found[f"tubes[{i}].F_m"]
         assert found[f"tubes[{i}].support.f"] == found[f"tubes[{i}].F_m"]
 

@@ -36,7 +36,7 @@ def test_a_monotone_characteristic_rises_whatever_its_weights() -> None:
         np.testing.assert_allclose(np.diff(y[-15:], 2), 0, atol=1e-9)
 
 
-def test_a_fresh_characteristic_may_start_with_a_slope() -> None:
+def test_a_fresh_characteristic_may_start_with_a_derivative() -> None:
     options = {"monotone": True, "activation": "tanh", "input_scale": 0.5, "output_scale": 2.0}
     system = ac.compile(Sensor(neural.Characteristic(width=4, depth=1, start=3.0, **options)))
     net = system.parameters(0)["curve.net"]

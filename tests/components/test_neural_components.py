@@ -229,8 +229,8 @@ def test_the_quarter_vehicle_is_the_papers(vehicle):
     expected = [v_b, force / 350, v_w, (tyre - force) / 90, 0.3]
     dx = vehicle.vector_field(0.0, x, jnp.asarray([0.3]), params)
     assert np.allclose(dx, jnp.stack([jnp.asarray(e) for e in expected]))
-    slope = jax.grad(lambda p: vehicle.vector_field(0.0, x, jnp.asarray([0.3]), p)[1])
-    gradient = eqx.filter(slope(params), eqx.is_array)["spring_nn.net"]
+    derivative = jax.grad(lambda p: vehicle.vector_field(0.0, x, jnp.asarray([0.3]), p)[1])
+    gradient = eqx.filter(derivative(params), eqx.is_array)["spring_nn.net"]
     direct = jax.grad(lambda net: net(z_s) / 350)(params["spring_nn.net"])
     for a, b in zip(jax.tree.leaves(gradient), jax.tree.leaves(direct), strict=True):
         assert np.allclose(a, b)
@@ -345,7 +345,7 @@ def test_reversing_an_odd_element_changes_nothing():
 
 
 def test_a_network_is_differentiated_by_index_reduction():
-    """A mass at a position that a network gives: its speed is the network's slope."""
+    """A mass at a position that a network gives: its speed is the network's derivative."""
 
     class Follower(ac.Component):
         def __init__(self):

@@ -156,9 +156,9 @@ def test_energy_in_every_domain(domain: str) -> None:
 def test_what_is_divided_by_starts_near_its_scales(element: Any) -> None:
     """A fresh coil of almost no inductance would make its circuit stiff."""
     net = element._fresh(jax.random.key(0))
-    slopes = jax.vmap(jax.grad(law_of(net)))(jnp.linspace(-4, 4, 9))
-    assert (slopes >= 3).all()
-    assert (slopes <= 6).all()
+    derivatives = jax.vmap(jax.grad(law_of(net)))(jnp.linspace(-4, 4, 9))
+    assert (derivatives >= 3).all()
+    assert (derivatives <= 6).all()
 
 
 def test_heat_flows_from_hot_to_cold() -> None:
@@ -315,7 +315,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: neural.Compliance(electrical.Pin, passive=True),
         "passive=True is for laws that rise where something is stored; say monotone=True, too",
     ),
-    "limits alone": (lambda: neural.Resistance(limits=1.0), "say how by extrapolation='linear'"),
+    "limits alone": (lambda: neural.Resistance(limits=1.0), "such as extrapolation='linear'"),
     "limits without zero": (
         lambda: neural.Resistance(passive=True, extrapolation="linear", limits=(0.1, 1.0)),
         "needs zero between its limits",
@@ -328,19 +328,19 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: neural.Resistance(extrapolation="linear", limits=(1.0, -1.0)),
         "the first must be less than the second",
     ),
-    "floor": (lambda: neural.Resistance(floor=0.1), "say monotone=True, too"),
+    "floor": (lambda: neural.Resistance(floor=0.1), "also give monotone=True"),
     "negative floor": (lambda: neural.Resistance(monotone=True, floor=-1), "give zero or more"),
     "activation": (
         lambda: neural.Resistance(monotone=True, activation="silu"),
-        "activation 'silu' is not made for a monotone network; take one of relu, tanh",
+        "activation 'silu' does not suit a monotone network; choose one of relu, tanh",
     ),
     "steps": (
         lambda: neural.Compliance(energy=True, activation="relu"),
-        "'relu' is not made for an energy",
+        "'relu' does not suit an energy",
     ),
     "concave": (
         lambda: neural.Compliance(energy=True, convex=True, activation="tanh"),
-        "'tanh' is not made for a convex energy; take one of softplus, elu",
+        "'tanh' does not suit a convex energy; choose one of softplus, elu",
     ),
     "typing error": (
         lambda: neural.Resistance(activation="rely"),
@@ -348,7 +348,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
     ),
     "bowl": (
         lambda: neural.Compliance(energy=True, passive=True, extrapolation="linear"),
-        "a passive energy may turn downwards",
+        "a passive energy may decrease beyond its limits",
     ),
     "own network": (
         lambda: neural.Resistance(passive=True, odd=True, net=lambda key: None),
@@ -379,8 +379,11 @@ REFUSED: dict[str, tuple[Any, str]] = {
         lambda: neural.MultiportCompliance((tl.Flange, fluid.FlowPort)),
         "give ports of one domain",
     ),
-    "recipe": (lambda: Law(extrapolation="square"), "'square' is none of 'saturating', 'linear'"),  # pyright: ignore[reportArgumentType]
-    "curved": (lambda: Energy(floor=0.1), "say convex=True, too"),
+    "recipe": (
+        lambda: Law(extrapolation="square"),
+        "'square' must be one of 'saturating', 'linear'",
+    ),  # pyright: ignore[reportArgumentType]
+    "curved": (lambda: Energy(floor=0.1), "also give convex=True"),
     "several inputs": (
         lambda: Energy(inputs=2, convex=True, extrapolation="linear"),
         "is for energies of one input",

@@ -194,7 +194,7 @@ def test_a_missing_parameter_is_named():
 
 
 def test_an_option_outside_of_its_choices_is_refused():
-    with pytest.raises(ac.DeclarationError, match="reg='Cubic' is none of 'Exp'"):
+    with pytest.raises(ac.DeclarationError, match="reg='Cubic' must be one of 'Exp'"):
         tl.SignForce(f_nominal=1, v0=1, reg="Cubic")
 
 

@@ -41,9 +41,9 @@ def test_cubic_is_exact_for_parabolas_and_smooth(ts):
     signal = ac.Signal(ts, 3 * ts**2 - ts + 1, "cubic")
     np.testing.assert_allclose(at(signal, t), 3 * t**2 - t + 1, atol=1e-12)
     wave = ac.Signal(ts, np.sin(4 * ts), "cubic")
-    slope = jax.vmap(jax.grad(wave))
+    derivative = jax.vmap(jax.grad(wave))
     inner = jnp.asarray(ts[1:-1])
-    np.testing.assert_allclose(slope(inner - 1e-9), slope(inner + 1e-9), atol=1e-5)
+    np.testing.assert_allclose(derivative(inner - 1e-9), derivative(inner + 1e-9), atol=1e-5)
 
 
 def test_cubic_converges_faster_than_linear():

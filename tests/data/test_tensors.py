@@ -28,7 +28,7 @@ def test_trees_come_back_as_they_were():
         assert a is b or np.array_equal(*(tensors._stored(x) for x in (a, b)))
     with pytest.raises(ac.DataError, match=r"^it lacks 'x':"):
         tensors.filled_like({"x": 1.0}, {}, "it")
-    with pytest.raises(ac.DataError, match=r"^it has '.*' besides"):
+    with pytest.raises(ac.DataError, match=r"^it also has '.*':"):
         tensors.filled_like({}, {"x": np.zeros(1)}, "it")
     with pytest.raises(ac.DataError, match=r"as float64\[2\], but here it is float64\[3\]"):
         tensors.filled_like({"x": np.zeros(3)}, {"x": np.zeros(2)}, "it")
@@ -50,12 +50,12 @@ def test_parameters_come_back_as_they_were(saved: Path):
 
 
 class Line(eqx.Module):
-    slope: float
+    factor: float
     layers: list[Any]
     function: Any = eqx.field(static=True)
 
     def __call__(self, x: Any) -> Any:
-        return self.slope * x
+        return self.factor * x
 
 
 def test_networks_of_the_users_own(tmp_path: Path):
@@ -73,7 +73,7 @@ def test_networks_of_the_users_own(tmp_path: Path):
 @pytest.mark.parametrize(
     ("model", "sentence"),
     [
-        (lambda: plain(), "has 'extra.net.biases[0]', "),
+        (lambda: plain(), "also has 'extra.net.biases[0]', "),
         (lambda: learned().parameters() | {"spring.k": 1.0}, "lacks 'spring.k': it belongs to another model."),
         (lambda: learned().parameters() | {"extra.net": ac.MLP(width=4, key=0)},
          "has 'extra.net.weights[0]' as float64[8, 1], but here it is float64[4, 1]: it belongs to another model."),
@@ -96,7 +96,9 @@ def test_files_that_cannot_be_read_or_written(
     with pytest.raises(ac.DataError, match=r"cannot be written: No such file or directory\.$"):
         ac.save_params({}, tmp_path / "none" / "a.safetensors")
     tensors.write_arrays(tmp_path / "a.safetensors", {}, {"kind": "something else"})
-    with pytest.raises(ac.DataError, match=r"has no parameters of a model, .* but: something else"):
+    with pytest.raises(
+        ac.DataError, match=r"does not hold parameters of a model, .* but: something else"
+    ):
         ac.load_params(tmp_path / "a.safetensors", learned())
 
     def fail(descriptor: int) -> None:

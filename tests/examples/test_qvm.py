@@ -51,8 +51,8 @@ def test_the_road_is_rough_as_the_norm_says() -> None:
     power = np.abs(np.fft.rfft(height * np.hanning(len(height)))) ** 2
     frequency = np.fft.rfftfreq(len(height), time[1] - time[0])
     band = (frequency > 0.5) & (frequency < 20)
-    slope = np.polyfit(np.log(frequency[band]), np.log(power[band]), 1)[0]
-    assert slope == pytest.approx(-2.0, abs=0.3)
+    exponent = np.polyfit(np.log(frequency[band]), np.log(power[band]), 1)[0]
+    assert exponent == pytest.approx(-2.0, abs=0.3)
 
 
 def test_the_ride_is_the_papers(measured: Ride) -> None:

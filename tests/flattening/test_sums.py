@@ -122,8 +122,8 @@ def test_gradients_pass_through_large_nodes():
     system = ac.compile(Star(MANY, lambda k: el.Conductor(G=1.0 * k), el.Capacitor(C=2.0)))
     x = jnp.linspace(-1.0, 1.0, len(system.states))
     packed = system.pack()
-    slope = jax.jacfwd(lambda x: system.vector_field(0.0, x, None, packed))(x)
-    row = slope[system.states.index("center.v")]
+    derivative = jax.jacfwd(lambda x: system.vector_field(0.0, x, None, packed))(x)
+    row = derivative[system.states.index("center.v")]
     by_name = dict(zip(system.states, row.tolist(), strict=True))
     assert by_name["c[3].v"] == pytest.approx(3.0 / 2.0)
     assert by_name["center.v"] == pytest.approx(-sum(range(1, MANY + 1)) / 2.0)

@@ -275,8 +275,8 @@ def test_gradients_with_respect_to_starts_that_are_parameters():
             self.s = Start(self.s_start**2, fixed=True)
 
     system = ac.compile(model(m=Free(m=1.0)))
-    slope = jax.jacobian(lambda s: system.initial_state({"m.s_start": s}))(jnp.array(3.0))
-    assert slope.tolist() == [6.0, 0.0]
+    derivative = jax.jacobian(lambda s: system.initial_state({"m.s_start": s}))(jnp.array(3.0))
+    assert derivative.tolist() == [6.0, 0.0]
 
 
 def test_under_jit_nothing_is_raised():
@@ -304,8 +304,10 @@ def hanging_system():
 def test_at_rest(hanging_system):
     at_rest = hanging_system.initial_state(u0=[2.0], steady=True)
     np.testing.assert_allclose(at_rest, [1.5, 0.0], atol=1e-12)
-    slope = jax.jacfwd(lambda f: hanging_system.initial_state(u0=jnp.array([f]), steady=True))(2.0)
-    np.testing.assert_allclose(slope, [0.25, 0.0], atol=1e-12)
+    derivative = jax.jacfwd(lambda f: hanging_system.initial_state(u0=jnp.array([f]), steady=True))(
+        2.0
+    )
+    np.testing.assert_allclose(derivative, [0.25, 0.0], atol=1e-12)
 
 
 def test_some_states_at_rest(hanging_system):

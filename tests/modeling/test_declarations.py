@@ -87,7 +87,7 @@ def test_a_vector_is_no_side_of_an_equation():
 
 
 def test_start_checks_its_state_preference():
-    with pytest.raises(ac.DeclarationError, match="state='perfer' is none of never, avoid"):
+    with pytest.raises(ac.DeclarationError, match="state='perfer' must be one of never, avoid"):
         ac.Start(1.0, state="perfer")
 
 
@@ -103,11 +103,11 @@ def test_a_module_call_differentiates_by_counting_orders():
     part = Part()
     call = part.net(part.x)
     assert isinstance(call, ModuleCall)
-    slope = sp.diff(call, part.x)
-    assert slope == ModuleCall(call.args[0], sp.Tuple(1), part.x)
-    assert sp.diff(slope, part.x) == ModuleCall(call.args[0], sp.Tuple(2), part.x)
+    derivative = sp.diff(call, part.x)
+    assert derivative == ModuleCall(call.args[0], sp.Tuple(1), part.x)
+    assert sp.diff(derivative, part.x) == ModuleCall(call.args[0], sp.Tuple(2), part.x)
     assert sp.diff(call, part.k) == 0
-    assert str(slope) == "net'(x)"
+    assert str(derivative) == "net'(x)"
 
 
 def test_a_module_call_obeys_the_chain_rule_per_argument():

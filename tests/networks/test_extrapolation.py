@@ -16,9 +16,9 @@ LIMITS = (-0.5, 0.7)
 
 
 def looked_at(function: Callable[..., Any]) -> tuple[np.ndarray, ...]:
-    """Value, slope and curvature at all inputs."""
-    slope = jax.grad(function)
-    found = (jax.jit(jax.vmap(f))(X) for f in (function, slope, jax.grad(slope)))
+    """Value, derivative and second derivative at all inputs."""
+    derivative = jax.grad(function)
+    found = (jax.jit(jax.vmap(f))(X) for f in (function, derivative, jax.grad(derivative)))
     return tuple(np.asarray(y) for y in found)
 
 
@@ -45,12 +45,12 @@ def test_a_law_that_softens_goes_on_along_its_tangent() -> None:
 
 
 @pytest.mark.parametrize("how", ["saturating", "linear", "cubic"])
-def test_the_slope_of_an_energy_goes_on_as_a_law(how: Any) -> None:
+def test_the_derivative_of_an_energy_goes_on_as_a_law(how: Any) -> None:
     law, whole = Continued(duffing, *LIMITS, how), ContinuedEnergy(energy, *LIMITS, how)
-    values, slopes, _ = looked_at(law)
+    values, derivatives, _ = looked_at(law)
     _, forces, stiffness = looked_at(whole)
     np.testing.assert_allclose(forces, values, rtol=1e-12)
-    np.testing.assert_allclose(stiffness, slopes, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(stiffness, derivatives, rtol=1e-12, atol=1e-12)
 
 
 def test_a_passive_law_that_falls_goes_on_level() -> None:

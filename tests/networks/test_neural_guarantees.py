@@ -109,13 +109,13 @@ def weighted(recipe: Any, dtype: str, seed: int, exponent: float, kind: str) -> 
 
 @functools.cache
 def compiled(recipe: Any) -> Any:
-    """Law, slope and curvature of the networks, and the energy if there is one, at many inputs."""
+    """Law, derivative and curvature of the networks, and the energy if there is one, at many inputs."""
 
     def at(net: Any, x: Any, T: Any) -> Any:
         others = (T,) * recipe.secondary
-        slope = jax.grad(lambda x: law_of(net)(x, *others))
-        curvature = jax.grad(slope)
-        return law_of(net)(x, *others), slope(x), curvature(x), net(x, *others)
+        derivative = jax.grad(lambda x: law_of(net)(x, *others))
+        curvature = jax.grad(derivative)
+        return law_of(net)(x, *others), derivative(x), curvature(x), net(x, *others)
 
     return eqx.filter_jit(
         lambda nets, x, T: eqx.filter_vmap(lambda net: jax.vmap(lambda a, b: at(net, a, b))(x, T))(
@@ -156,7 +156,7 @@ def padded(x: np.ndarray, n: int = 32) -> np.ndarray:
 
 
 def looked_at(recipe: Any, nets: Any, drawn: list[float], T: float, dtype: str) -> Any:
-    """Inputs, law, slope, curvature and energy there; bounds of rounding errors."""
+    """Inputs, law, derivative, curvature and energy there; bounds of rounding errors."""
     x = padded(points(drawn)).astype(dtype)
     found = [np.asarray(a) for a in compiled(recipe)(nets, x, np.full_like(x, T))]
     assert all(a.dtype == dtype for a in found)
@@ -180,14 +180,14 @@ def test_laws(name: str, dtype: str) -> None:
     @given(weights=weights, drawn=inputs, T=st.floats(-1e3, 1e3))
     def check(weights: Any, drawn: Any, T: float) -> None:
         nets = weighted(recipe, dtype, *weights)
-        x, F, slope, _, _, noise = looked_at(recipe, nets, drawn, T, dtype)
+        x, F, derivative, _, _, noise = looked_at(recipe, nets, drawn, T, dtype)
         check_symmetry_and_zero(recipe, nets, x, F, T, noise)
         exact = recipe.passive or recipe.zero_crossing == "exact"
         assert not exact or (F[:, x == 0] == 0).all()
         if recipe.passive:
             assert (F * x >= 0).all()
         if recipe.monotone:
-            assert (slope >= recipe.floor * OUT / SCALE * (np.abs(x) <= HUGE / 2)).all()
+            assert (derivative >= recipe.floor * OUT / SCALE * (np.abs(x) <= HUGE / 2)).all()
             assert (np.diff(F, axis=1) >= -noise[1:] - noise[:-1]).all()
 
     check()
@@ -201,7 +201,7 @@ def test_energies(name: str, dtype: str) -> None:
     @given(weights=weights, drawn=inputs, T=st.floats(-1e3, 1e3))
     def check(weights: Any, drawn: Any, T: float) -> None:
         nets = weighted(recipe, dtype, *weights)
-        x, F, slope, _, W, noise = looked_at(recipe, nets, drawn, T, dtype)
+        x, F, derivative, _, W, noise = looked_at(recipe, nets, drawn, T, dtype)
         check_symmetry_and_zero(recipe, nets, x, F, T, noise)
         uncertain = noise * (SCALE + np.abs(x))
         assert (np.abs(W) <= uncertain)[:, x == 0].all()
@@ -209,7 +209,7 @@ def test_energies(name: str, dtype: str) -> None:
             assert (-uncertain <= W).all()
             assert (F[:, x == 0] == 0).all() or recipe.convex
         if recipe.convex:
-            assert (slope >= recipe.floor * OUT / SCALE).all()
+            assert (derivative >= recipe.floor * OUT / SCALE).all()
             assert (np.diff(F, axis=1) >= -noise[1:] - noise[:-1]).all()
             if recipe.vanishes:
                 assert (F * x >= -uncertain).all()
@@ -221,9 +221,9 @@ def test_what_promises_nothing_keeps_nothing() -> None:
     """The checks above can fail."""
     net = weighted(LAWS["free"], "float64", 0, 0.0, "normal")
     x = np.linspace(-3, 3, 32)
-    F, slope, *_ = (np.asarray(a) for a in compiled(LAWS["free"])(net, x, x))
+    F, derivative, *_ = (np.asarray(a) for a in compiled(LAWS["free"])(net, x, x))
     noise = 10 * np.finfo(float).eps * magnitude(LAWS["free"], net, x)
     assert (F * x < -noise).any()
-    assert (slope < 0).any()
+    assert (derivative < 0).any()
     assert (np.diff(F, axis=1) < -noise[1:] - noise[:-1]).any()
     assert (np.abs(F + F[:, ::-1]) > noise).any()

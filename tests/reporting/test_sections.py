@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 import numpy as np
 
 from acausal.reporting import (
-    Law,
+    LearnedLaw,
     Page,
     add_divergences,
     add_laws,
@@ -72,7 +72,7 @@ def test_every_target_has_a_figure_with_its_unit(tmp_path: Path) -> None:
 
 def test_laws_parameters_and_residuals(tmp_path: Path) -> None:
     page, one = Page("Title"), np.ones(1)
-    law = Law(Curve(TIME, TIME, 0 * TIME), Statistics(0.5 * one, 0.2 * one), TIME[::10])
+    law = LearnedLaw(Curve(TIME, TIME, 0 * TIME), Statistics(0.5 * one, 0.2 * one), TIME[::10])
     add_laws(page, {"net": law})
     add_parameters(page, ("parameter", "value"), [("mass.m", "2 kg")], ["It is known."])
     add_residuals(

@@ -38,7 +38,7 @@ def test_tight_tolerances_cost_few_steps_where_modes_are_fast(name: str) -> None
     assert bool(found.result == dfx.RESULTS.successful)
     v, t = float(found.ys[-1, 0]), 0.05
     assert abs(float(clamped(t, v, 5.0))) < 1e-3 * 10 / 20 / CAPACITY  # all but at rest
-    theirs = solve(dfx.Kvaerno5(), 5.0, 1e-7)  # tolerances of the slope, below its rounding
+    theirs = solve(dfx.Kvaerno5(), 5.0, 1e-7)  # tolerances of the derivative, below its rounding
     assert not bool(theirs.result == dfx.RESULTS.successful)
 
 
@@ -46,14 +46,14 @@ def test_gradients_go_through_implicit_steps() -> None:
     def end(knee: Any) -> Any:
         return solve(solvers.solver_named("kvaerno5"), knee, 1e-7).ys[-1, 0]
 
-    slope = float(jax.grad(end)(5.0))
+    derivative = float(jax.grad(end)(5.0))
     difference = float(end(5.001) - end(4.999)) / 0.002
-    assert slope == pytest.approx(difference, rel=1e-4)
+    assert derivative == pytest.approx(difference, rel=1e-4)
 
 
 @pytest.mark.parametrize("name", ["implicit_euler", "kvaerno3"])
 def test_fixed_steps_far_beyond_the_fastest_mode_are_found(name: str) -> None:
-    """With steps of 1 ms the slopes reach 1e7; the state is found to its tolerance all the same."""
+    """With steps of 1 ms the derivatives reach 1e7; the state is found to its tolerance all the same."""
     found = dfx.diffeqsolve(
         dfx.ODETerm(clamped),
         solvers.for_fixed_steps(solvers.solver_named(name)),

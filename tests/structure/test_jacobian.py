@@ -1,4 +1,4 @@
-"""Slopes in numbers, without JAX."""
+"""Partial derivatives in numbers, without JAX."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ x, y, p, q, net = (slot(n) for n in ("x", "y", "p", "q", "net"))
 AT = Point(np.array([2.0, 3.0, -1.0]), np.array([10.0, 20.0]))
 
 
-def slope(residual, column=0):
+def partial(residual, column=0):
     template = Template(residual, (x, y), (0, 0), (p, q), (net,), "stated")
     rows = np.array([[0, 1], [2, 0]])
     return partials(template, column, rows, np.array([[0, 1], [1, 0]]), AT)
@@ -45,11 +45,11 @@ def slope(residual, column=0):
     ],
 )
 def test_partial_derivatives_at_a_point(residual, expected):
-    np.testing.assert_allclose(slope(residual), expected, rtol=1e-14)
+    np.testing.assert_allclose(partial(residual), expected, rtol=1e-14)
 
 
-def test_modules_have_some_slope_but_zero():
-    assert (slope(ModuleCall(net, sp.Tuple(0), x) * y) != 0).all()
+def test_modules_have_a_partial_derivative_other_than_zero():
+    assert (partial(ModuleCall(net, sp.Tuple(0), x) * y) != 0).all()
 
 
 @pytest.mark.parametrize(

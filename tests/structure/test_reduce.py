@@ -425,10 +425,10 @@ def test_a_nonlinear_loop_and_its_implicit_gradient():
 
     i = float(current(2.0, jnp.array(1.5)))
     assert 2 * i + 0.5 * np.log(i / 0.1 + 1) == pytest.approx(1.5, abs=1e-9)
-    slopes = jax.jit(jax.grad(current, argnums=(0, 1)))(2.0, jnp.array(1.5))
+    derivatives = jax.jit(jax.grad(current, argnums=(0, 1)))(2.0, jnp.array(1.5))
     h = 1e-5
     np.testing.assert_allclose(
-        slopes,
+        derivatives,
         [
             (current(2 + h, jnp.array(1.5)) - current(2 - h, jnp.array(1.5))) / (2 * h),
             (current(2.0, jnp.array(1.5 + h)) - current(2.0, jnp.array(1.5 - h))) / (2 * h),

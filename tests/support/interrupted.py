@@ -19,7 +19,7 @@ EPOCHS = (30, 20)
 OPTIMIZER = optax.adam(0.01)  # one and the same, so that JAX compiles once
 
 
-def train(**wishes: Any) -> ac.Fit:
+def train(**chosen: Any) -> ac.Fit:
     """Sequences, then L-BFGS over the whole record; a checkpoint whenever there is a chance."""
     defaults: dict[str, Any] = {
         "strategy": ("sequences", "whole_record"), "epochs": EPOCHS, "evaluate_every": 7,
@@ -27,7 +27,7 @@ def train(**wishes: Any) -> ac.Fit:
         "modifiers": ["mass.m"], "regularizers": [ac.ZeroCrossing()],
         "checkpoint_every": 0.0, "progress": False,
     }  # fmt: skip
-    return ac.fit(learned(), record(end=5.0), "mass.a", **(defaults | wishes))
+    return ac.fit(learned(), record(end=5.0), "mass.a", **(defaults | chosen))
 
 
 def main(path: str, never: str = "-1") -> None:

@@ -125,11 +125,11 @@ def _parameters(system: ac.System, indices: Integers, packed: Packed) -> Array:
 def _along(system: ac.System, packed: Packed, signal: Signal) -> Signal:
     """The derivative of a signal along the vector field."""
 
-    def slope(t: Any, x: Array, u: Array) -> Array:
+    def derivative(t: Any, x: Array, u: Array) -> Array:
         tangents = rates(system.program, Values(t, x, u, packed)), _input_rates(system, u)
         return jax.jvp(signal, (t, x, u), (jnp.ones_like(t), *tangents))[1]
 
-    return slope
+    return derivative
 
 
 def _input_rates(system: ac.System, u: Array) -> Array:

@@ -142,7 +142,7 @@ def test_a_checkpoint_is_not_overwritten_by_another_training(interrupted: Path):
         train(checkpoint=interrupted)
     assert str(error.value) == (
         f"There is a checkpoint '{interrupted}' already: resume=True goes on from it; "
-        "to begin anew, remove it or name another file."
+        "to start again, remove it or name another file."
     )
     assert interrupted.read_bytes() == before
 
@@ -153,7 +153,7 @@ def test_nothing_to_resume():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "names"),
+    ("chosen", "names"),
     [
         ({"seed": 1}, "'params', 'seed'"),
         ({"epochs": (30, 21)}, "'epochs'"),
@@ -167,27 +167,27 @@ def test_nothing_to_resume():
     ],
 )
 def test_a_checkpoint_of_another_training_is_refused(
-    interrupted: Path, wishes: dict[str, Any], names: str
+    interrupted: Path, chosen: dict[str, Any], names: str
 ):
     with pytest.raises(ac.DataError) as error:
-        train(checkpoint=interrupted, resume=True, **wishes)
+        train(checkpoint=interrupted, resume=True, **chosen)
     assert str(error.value) == (
         f"Checkpoint '{interrupted}' is of another training: {names} differ. "
-        "Resume with the arguments it was begun with, or name another file."
+        "Resume with the arguments it was started with, or name another file."
     )
 
 
 def test_states_that_are_no_targets_are_part_of_the_data(tmp_path: Path):
     """Trained states begin where measured ones were, and move relative to that."""
     data = record(end=2.0).select(["mass.a", "mass.s", "push.f"])
-    wishes: dict[str, Any] = {
+    chosen: dict[str, Any] = {
         "x0": "fit", "modifiers": ["mass.m"], "epochs": 2, "checkpoint": tmp_path, "resume": True,
         "progress": False,
     }  # fmt: skip
-    ac.fit(plain(), data, "mass.a", **wishes)
+    ac.fit(plain(), data, "mass.a", **chosen)
     moved = ac.Data(data.time, {**data.signals, "mass.s": data["mass.s"] + 0.1})
     with pytest.raises(ac.DataError, match=r"is of another training: 'data' differ\."):
-        ac.fit(plain(), moved, "mass.a", **wishes)
+        ac.fit(plain(), moved, "mass.a", **chosen)
 
 
 def tampered(path: Path) -> bytes:
@@ -199,10 +199,10 @@ def tampered(path: Path) -> bytes:
 @pytest.mark.parametrize(
     ("spoil", "sentence"),
     [
-        (lambda path: path.read_bytes()[:-100], "is damaged or no safetensors file"),
-        (lambda path: path.read_bytes()[:5], "is damaged or no safetensors file"),
-        (lambda path: b"", "is damaged or no safetensors file"),
-        (lambda path: b"weights: 1, 2, 3, ...", "is damaged or no safetensors file"),
+        (lambda path: path.read_bytes()[:-100], "is damaged or not a safetensors file"),
+        (lambda path: path.read_bytes()[:5], "is damaged or not a safetensors file"),
+        (lambda path: b"", "is damaged or not a safetensors file"),
+        (lambda path: b"weights: 1, 2, 3, ...", "is damaged or not a safetensors file"),
         (tampered, "was changed after it was written: its checksum does not fit."),
     ],
     ids=["truncated", "cut off", "empty", "text", "tampered"],
@@ -225,7 +225,9 @@ def test_files_of_other_kinds_are_refused(tmp_path: Path):
     with pytest.raises(ac.DataError, match="was not written by acausal"):
         train(checkpoint=path, resume=True)
     tensors.write_arrays(path, {"weights": np.zeros(3)}, {"kind": "parameters"})
-    with pytest.raises(ac.DataError, match=r"is no checkpoint of a training, .* but: parameters"):
+    with pytest.raises(
+        ac.DataError, match=r"is not a checkpoint of a training, .* but: parameters"
+    ):
         train(checkpoint=path, resume=True)
 
 
@@ -237,7 +239,7 @@ def test_a_checkpoint_of_an_earlier_version_is_refused(tmp_path: Path):
         train(checkpoint=path, resume=True)
     assert str(error.value) == (
         f"Checkpoint '{path}' was written by an earlier version of acausal: finish the training with that version, "
-        "or begin anew with another file."
+        "or start again with another file."
     )
 
 
@@ -262,7 +264,7 @@ def test_where_nothing_can_be_written_training_does_not_begin(
     with pytest.raises(ac.TrainingError, match=r"cannot be written: Permission denied\."):
         train(checkpoint=tmp_path)
     monkeypatch.setattr(Path, "mkdir", failing(OSError(30, "Read-only file system")))
-    with pytest.raises(ac.TrainingError, match=r"cannot be made: Read-only file system\."):
+    with pytest.raises(ac.TrainingError, match=r"cannot be created: Read-only file system\."):
         train(checkpoint=tmp_path / "run")
 
 
@@ -317,12 +319,12 @@ def test_a_loss_whose_helper_has_changed_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     """The loss itself is the same function."""
-    wishes: dict[str, Any] = {"loss": scaled, "checkpoint": tmp_path, "epochs": 1, "resume": True}
-    train(**wishes)
-    assert train(**wishes).history.epochs == 2
+    chosen: dict[str, Any] = {"loss": scaled, "checkpoint": tmp_path, "epochs": 1, "resume": True}
+    train(**chosen)
+    assert train(**chosen).history.epochs == 2
     monkeypatch.setitem(SCALE, "a", 2.0)
     with pytest.raises(ac.DataError, match=r"is of another training: 'loss' differ\."):
-        train(**wishes)
+        train(**chosen)
 
 
 SCALE = {"a": 1.0}

@@ -64,16 +64,16 @@ def test_bands_hold_the_truth_as_often_as_they_say():
 
 
 def test_standard_deviations_are_those_of_repeated_measurements():
-    found, told = [], []
+    found: list[list[float]] = []
     for seed in range(12):
         fit = ac.fit(
             plain(), noisy(seed, 0.0), "mass.a", x0="model", strategy="whole_record",
             epochs=25, modifiers=["mass.m", "spring.c"], solver="rk4", progress=False,
         )  # fmt: skip
         found.append(list(fit.modifiers.values()))
-    told = list(fit.confidence().parameters.values())
-    np.testing.assert_allclose(np.std(found, axis=0), told, rtol=0.6)
-    assert np.all(np.abs(np.mean(found, axis=0)) < 3 * np.asarray(told) / np.sqrt(12) + 1e-5)
+    expected = list(fit.confidence().parameters.values())
+    np.testing.assert_allclose(np.std(found, axis=0), expected, rtol=0.6)
+    assert np.all(np.abs(np.mean(found, axis=0)) < 3 * np.asarray(expected) / np.sqrt(12) + 1e-5)
 
 
 def coloured(seed: int, keep: float = 0.9) -> ac.Data:
@@ -96,8 +96,8 @@ def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure
     ]  # fmt: skip
     sure = [fit.confidence() for fit in fits[:3]]
     found = np.std([list(fit.modifiers.values()) for fit in fits], axis=0, ddof=1)
-    told = np.mean([list(s.parameters.values()) for s in sure], axis=0)
-    np.testing.assert_allclose(told, found, rtol=0.5)
+    expected = np.mean([list(s.parameters.values()) for s in sure], axis=0)
+    np.testing.assert_allclose(expected, found, rtol=0.5)
     assert all(s.alike["mass.a"] > 4 for s in sure)
     assert "which count as one here" in sure[0].summary()[-1]
 
@@ -163,17 +163,17 @@ def test_what_no_target_depends_on_is_told_of():
             "other.push.f": data["push.f"],
         },
     )
-    told = (
+    expected = (
         r"^Training did not move 'other\.extra\.net', 'other\.mass\.m': no target depends on it\."
     )
-    with pytest.warns(UserWarning, match=told):
+    with pytest.warns(UserWarning, match=expected):
         fit = ac.fit(
             ac.compile(Beside()), twice, "one.mass.a", x0="model", strategy="whole_record", epochs=5,
             modifiers={"one.mass.m": 0.2, "other.mass.m": 0.2}, progress=False,
         )  # fmt: skip
     summary = fit.confidence().summary()
     assert summary[0].startswith("'one.mass.m' is known to ±")
-    assert summary[1].startswith("The data tell nothing of 'other.mass.m'")
+    assert summary[1].startswith("The data say nothing about 'other.mass.m'")
 
 
 # -- residuals ---------------------------------------------------------------------------------------

@@ -60,7 +60,7 @@ def test_a_band_is_the_quantile_of_independent_errors():
     band = fit.conformal(noisy, 0.9, x0="model")
     assert band.width["mass.a"] == pytest.approx(1.645, abs=0.1)
     assert band.independent["mass.a"] > 0.5 * len(data)
-    with pytest.raises(ac.DataError, match=r"^level=1 is no share of the samples"):
+    with pytest.raises(ac.DataError, match=r"^level=1 is not a share of the samples"):
         fit.conformal(noisy, 1.0)
     with pytest.raises(ac.DataError, match=r"too few for level=0\.99: take a longer one"):
         fit.conformal(noisy.between(0, 0.5), 0.99)

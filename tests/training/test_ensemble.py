@@ -144,13 +144,13 @@ def test_the_page_shows_bands(tmp_path: Path):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"members": 1}, "members=1; an ensemble has two at least."),
-        ({"members": 2.5}, "members=2.5; an ensemble has two at least."),
+        ({"members": 1}, "members=1; an ensemble has at least two."),
+        ({"members": 2.5}, "members=2.5; an ensemble has at least two."),
         ({"devices": jax.devices()}, "An ensemble is trained on one device: leave out devices=."),
         ({"params": [{}]}, "There are 1 params for 3 members."),
         (
             {"params": [learned().parameters() | {"extra.net": ac.MLP(width=w, key=0)} for w in (4, 5, 6)]},
-            "The networks 'extra.net' that are trained together are not alike: give all of them one architecture.",
+            "The networks 'extra.net' of the members differ in architecture: give all of them the same.",
         ),
     ],
     ids=["alone", "no number", "devices", "too few", "architectures"],

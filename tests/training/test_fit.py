@@ -21,9 +21,9 @@ from tests.support.slow_machine import slow_down
 CUBIC = 80.0
 
 
-def problem(system=None, data=None, targets=("mass.a",), **wishes):
+def problem(system=None, data=None, targets=("mass.a",), **chosen):
     system = learned() if system is None else system
-    options = FitOptions(**({"sequence_length": 0.5, "batch_size": 4} | wishes))
+    options = FitOptions(**({"sequence_length": 0.5, "batch_size": 4} | chosen))
     data = (record() if data is None else ac.Data.of(data)).for_system(system)
     return build_problem(system, data, targets, system.parameters(0), options)
 
@@ -46,7 +46,7 @@ def test_nrmse_of_a_perfect_prediction_has_a_gradient():
 
 
 @pytest.mark.parametrize(
-    "wishes",
+    "chosen",
     [
         {},
         {"sequence_length": None, "batch_size": 1},
@@ -54,8 +54,8 @@ def test_nrmse_of_a_perfect_prediction_has_a_gradient():
     ],
     ids=["sequences", "whole", "points, substeps, modifiers"],
 )
-def test_the_gradient_of_the_loss_is_that_of_differences(wishes):
-    posed = problem(regularizers=(ac.ZeroCrossing(), ac.SmallCorrection()), **wishes)
+def test_the_gradient_of_the_loss_is_that_of_differences(chosen):
+    posed = problem(regularizers=(ac.ZeroCrossing(), ac.SmallCorrection()), **chosen)
     start, batch = posed.start(), posed.draw(jax.random.key(3))
     start = jax.tree.map(lambda a: a + 0.1, start)  # no modifier at zero
 
@@ -333,7 +333,7 @@ def test_too_many_rejections_end_the_training():
 def test_a_gradient_that_is_not_finite_is_rejected():
     def poison(params, context):
         m = params["mass.m"]
-        return jnp.where(m > 1.99, jnp.sqrt(m - m), 0.0)  # zero, with an infinite slope
+        return jnp.where(m > 1.99, jnp.sqrt(m - m), 0.0)  # zero, with an infinite derivative
 
     with pytest.raises(ac.TrainingError, match="the gradient is not finite"):
         ac.fit(plain(), record(), "mass.a", modifiers=["mass.m"], regularizers=[poison],
@@ -411,7 +411,7 @@ def test_outputs_alone_suffice_for_the_whole_record():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "kind", "sentence"),
+    ("chosen", "kind", "sentence"),
     [
         ({"data": ["mass.a", "push.f"]}, ac.DataError,
          ("The data lack 'mass.s', 'mass.v': sequences start from measured states. "
@@ -420,22 +420,22 @@ def test_outputs_alone_suffice_for_the_whole_record():
         ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1}, ac.DataError,
          ("The data lack 'mass.v', with which the record starts: "
           "give x0={'mass.v': ...}, or x0='model' for the model's start values.")),
-        ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is no state of the model: did you mean 'mass.v'?"),
+        ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is not a state of the model: did you mean 'mass.v'?"),
         ({"x0": {"mass.s": float("nan")}}, ac.DataError, "x0: 'mass.s' is nan; give a finite number."),
         ({"x0": {"mass.s": "rest"}}, ac.DataError, "x0: 'mass.s' is 'rest'; give a finite number."),
-        ({"x0": "modle"}, ac.DataError, "x0='modle' is no way to start here: did you mean 'model'?"),
+        ({"x0": "modle"}, ac.DataError, "x0='modle' is not an initial state: did you mean 'model'?"),
         ({"data": ["mass.a", "mass.s", "mass.v"]}, ac.DataError, "The data lack 'push.f', an input of the model."),
         ({"targets": ("spring.f",)}, ac.DataError, "The data lack 'spring.f', a target of the training."),
         ({"sequence_length": 100.0}, ac.DataError,
          "sequence_length=100 s is 10000 samples; the record has 2001 at 0.01 s."),
         ({"sequence_length": float("nan")}, ac.DataError,
-         "sequence_length=nan is no length; give seconds, or None for all."),
+         "sequence_length=nan is not a length; give seconds, or None for all."),
         ({"batch_size": 2.5}, ac.DataError, "batch_size=2.5; give a whole number of sequences."),
         ({"sequence_length": None}, ac.DataError,
          "batch_size=4 needs a sequence_length in seconds, shorter than the record."),
-        ({"subsample": 1.5}, ac.DataError, "subsample=1.5 is no fraction of the points; give a number in (0, 1]."),
+        ({"subsample": 1.5}, ac.DataError, "subsample=1.5 is not a fraction of the points; give a number in (0, 1]."),
         ({"dt": 0.003}, ac.TrainingError,
-         "dt=0.003 s is no whole part of the data's sample time, 0.01 s: choose 0.00333333 s, or resample the data."),
+         "dt=0.003 s does not divide the data's sample time, 0.01 s: choose 0.00333333 s, or resample the data."),
         ({"train": ["extra.nets"]}, ac.TrainingError,
          "There is no network 'extra.nets' to train: did you mean 'extra.net'?"),
         ({"modifiers": ["mass.k"]}, ac.TrainingError,
@@ -453,10 +453,10 @@ def test_outputs_alone_suffice_for_the_whole_record():
          "'push.f': a target is what the model computes, not its input."),
     ],
 )  # fmt: skip
-def test_mistakes_get_one_sentence(wishes, kind, sentence):
-    data = record().select(wishes.pop("data", record().signals))
+def test_mistakes_get_one_sentence(chosen, kind, sentence):
+    data = record().select(chosen.pop("data", record().signals))
     with pytest.raises(kind) as error:
-        problem(data=data, **wishes)
+        problem(data=data, **chosen)
     assert str(error.value) == sentence
 
 

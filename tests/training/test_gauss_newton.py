@@ -1,4 +1,4 @@
-"""Gauss-Newton: slopes and curvatures of simulations, damped steps, and trainings that use them."""
+"""Gauss-Newton: gradients and Hessians of simulations, damped steps, and trainings that use them."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ from tests.support.slow_machine import slow_down
 QUIET: dict[str, Any] = {"progress": False}
 
 
-# -- slopes ------------------------------------------------------------------------------------------
+# -- derivatives -------------------------------------------------------------------------------------
 
 
 def quartic(predicted: Any, measured: Any, sigma: Any) -> Any:
     return jnp.mean(((predicted - measured) / sigma) ** 4)
 
 
-def posed(**wishes: Any) -> Problem:
+def posed(**chosen: Any) -> Problem:
     """The learned oscillator, all that can be trained in it, and a second model beside it."""
     system = learned()
     options = FitOptions(
-        modifiers=["mass.m", "spring.c"], gamma=0.5, parameter_spread={"spring.d": 0.2}, x0="fit", **wishes
+        modifiers=["mass.m", "spring.c"], gamma=0.5, parameter_spread={"spring.d": 0.2}, x0="fit", **chosen
     )  # fmt: skip
     problem = build_problem(
         system, record(end=2.0), ("mass.a", "mass.s"), system.parameters(0), options
@@ -45,12 +45,12 @@ def posed(**wishes: Any) -> Problem:
 
 
 @pytest.mark.parametrize(
-    "wishes",
+    "chosen",
     [{}, {"loss": quartic}, {"regularizers": (ac.ZeroCrossing(1.0),)}],
     ids=["nrmse", "another loss", "regularizer"],
 )
-def test_both_ways_give_one_gradient(wishes: dict[str, Any]):
-    problem = posed(**wishes)
+def test_both_ways_give_one_gradient(chosen: dict[str, Any]):
+    problem = posed(**chosen)
     at = jax.tree.map(lambda a: a + 0.01, problem.start())
     batch = problem.draw(jax.random.key(0))
     back, forth = (
@@ -59,21 +59,23 @@ def test_both_ways_give_one_gradient(wishes: dict[str, Any]):
     )
     assert float(forth.total) == pytest.approx(float(back.total), rel=1e-12)
     np.testing.assert_allclose(forth.losses, back.losses, rtol=1e-12)
-    a, b = (ravel_pytree(slope.gradient)[0] for slope in (forth, back))
+    a, b = (ravel_pytree(found.gradient)[0] for found in (forth, back))
     np.testing.assert_allclose(a, b, rtol=1e-8, atol=1e-10 * float(jnp.abs(b).max()))
 
 
-def test_the_curvature_of_root_mean_squares_is_that_of_their_squares():
+def test_the_hessian_of_root_mean_squares_is_that_of_their_squares():
     """``J' J / ℓ``, of normalised errors, by finite differences of the predictions."""
     problem = posed()
     start, unravel = ravel_pytree(problem.start())
     predict = jax.jit(lambda z: problem.predictions(unravel(z)))
     rows = np.random.default_rng(0).choice(len(start), 4, replace=False)
     h = 1e-5
-    slopes = [(predict(start.at[i].add(h)) - predict(start.at[i].add(-h))) / (2 * h) for i in rows]
+    derivatives = [
+        (predict(start.at[i].add(h)) - predict(start.at[i].add(-h))) / (2 * h) for i in rows
+    ]
     at = predict(start)
     losses = jax.vmap(problem.compare)(at)
-    J = jnp.stack(slopes) / problem.sigma
+    J = jnp.stack(derivatives) / problem.sigma
     expected = jnp.einsum("imnk,jmnk,m->ij", J, J, 1 / losses) / (problem.samples * len(at))
     found = eqx.filter_jit(with_gauss_newton_hessian)(
         problem, problem.start(), problem.draw(jax.random.key(0))
@@ -95,7 +97,7 @@ def descend(residuals: Callable[[Any], Any], start: Any, updates: int) -> Any:
         r, J = residuals(x), jax.jacfwd(residuals)(x)
         value = jnp.where(jnp.isfinite(r).all(), 0.5 * r @ r, jnp.inf)
         J, r = (jnp.where(jnp.isfinite(value), a, 0.0) for a in (J, r))
-        moves, state = method.update(J.T @ r, state, x, value=value, curvature=J.T @ J)
+        moves, state = method.update(J.T @ r, state, x, value=value, hessian=J.T @ J)
         return x + moves, state
 
     x, state = start, method.init(start)
@@ -118,8 +120,8 @@ def test_it_takes_back_steps_to_where_there_is_no_value():
     np.testing.assert_allclose(state.point, 0.04, rtol=1e-4)
 
 
-def test_it_ends_where_nothing_can_be_told():
-    """Two parameters of which only the sum matters: a curvature without an inverse."""
+def test_it_ends_where_the_hessian_is_singular():
+    """Two parameters of which only the sum matters: a Hessian without an inverse."""
     state = descend(lambda x: jnp.stack([x.sum() - 1.0, 2 * x.sum() - 1.0]), jnp.zeros(2), 20)
     assert bool(state.converged)
     assert float(state.point.sum()) == pytest.approx(0.6, rel=1e-6)
@@ -128,12 +130,12 @@ def test_it_ends_where_nothing_can_be_told():
 # -- trainings ---------------------------------------------------------------------------------------
 
 
-def parameters(**wishes: Any) -> ac.Fit:
+def parameters(**chosen: Any) -> ac.Fit:
     """A training of an oscillator's parameters, from wrong ones, from an acceleration alone."""
     wrong = {**plain().parameters(), "spring.c": 1.3 * C, "mass.m": 1.5, "spring.d": 1.4}
     return ac.fit(
         plain(), true().select(["mass.a", "push.f"]), "mass.a", params=wrong, gamma=0.9, x0="fit",
-        modifiers=["spring.c", "mass.m", "spring.d"], strategy="gauss_newton", **QUIET, **wishes,
+        modifiers=["spring.c", "mass.m", "spring.d"], strategy="gauss_newton", **QUIET, **chosen,
     )  # fmt: skip
 
 
@@ -184,8 +186,8 @@ def test_what_does_not_fit_into_memory_is_refused():
     )
 
 
-def test_a_saddle_is_no_end():
-    """From where the curvature is indefinite, as a penalty's may be, to the minimum at (0, 1)."""
+def test_a_saddle_is_not_an_end():
+    """From where the Hessian is indefinite, as a penalty's may be, to the minimum at (0, 1)."""
 
     def loss(p: Any) -> Any:
         return 2 + p[0] ** 2 / 2 + p[1] ** 4 / 4 - p[1] ** 2 / 2
@@ -193,8 +195,8 @@ def test_a_saddle_is_no_end():
     method, point = levenberg_marquardt(), jnp.array([0.05, 0.3])
     state = method.init(point)
     for _ in range(40):
-        told = {"value": loss(point), "curvature": jax.hessian(loss)(point)}
-        step, state = method.update(jax.grad(loss)(point), state, point, **told)
+        extra = {"value": loss(point), "hessian": jax.hessian(loss)(point)}
+        step, state = method.update(jax.grad(loss)(point), state, point, **extra)
         if state.converged:
             break
         point = point + step

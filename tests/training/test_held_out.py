@@ -28,12 +28,12 @@ def noisy() -> ac.Data:
     return ac.Data(data.time, {**data.signals, "mass.a": a})
 
 
-def train(**wishes: Any) -> ac.Fit:
+def train(**chosen: Any) -> ac.Fit:
     defaults: dict[str, Any] = {
         "sequence_length": 0.2, "batch_size": 3, "epochs": EPOCHS, "evaluate_every": EVERY,
         "optimizer": OPTIMIZER, "validation": 0.4, "patience": PATIENCE, "progress": False,
     }  # fmt: skip
-    return ac.fit(learned(), noisy(), "mass.a", **(defaults | wishes))
+    return ac.fit(learned(), noisy(), "mass.a", **(defaults | chosen))
 
 
 @cache
@@ -156,22 +156,22 @@ def test_it_is_drawn(tmp_path: Path):
 
 
 @pytest.mark.parametrize(
-    ("wishes", "sentence"),
+    ("chosen", "sentence"),
     [
         ({"validation": 1.2}, "validation=1.2 of 501 samples leaves -100 to train on; give a"),
         ({"validation": 0.001}, "validation=0.001 of 501 samples leaves 500 to train on; give a"),
         (
             {"validation": float("nan")},
-            "validation=nan is no fraction; give a number between 0 and 1.",
+            "validation=nan is not a fraction; give a number between 0 and 1.",
         ),
         ({"validation": np.float32(1.5)}, "validation=1.5 of 501 samples leaves -251 to train on"),
         ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'mass.s'"),
         ({"patience": 0}, "patience=0; at least one evaluation is needed."),
     ],
 )
-def test_mistakes_get_one_sentence(wishes: dict[str, Any], sentence: str):
+def test_mistakes_get_one_sentence(chosen: dict[str, Any], sentence: str):
     with pytest.raises((ac.DataError, ac.TrainingError)) as error:
-        train(**wishes)
+        train(**chosen)
     assert str(error.value).startswith(sentence)
 
 

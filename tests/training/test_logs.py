@@ -65,7 +65,7 @@ def test_other_files_are_not_overwritten(tmp_path: Path):
     path = tmp_path / "data.csv"
     path.write_text("time,x\n0,1\n")
     with pytest.raises(
-        ac.DataError, match=r"data.csv' is no log of a training: name another file\."
+        ac.DataError, match=r"data.csv' is not the log of a training: name another file\."
     ):
         ac.CsvLog(path)
     assert path.read_text() == "time,x\n0,1\n"
@@ -84,7 +84,7 @@ def test_a_csv_file_that_cannot_grow_stops_nothing(tmp_path: Path, monkeypatch: 
         patch.setattr(Path, "open", fail)
         with pytest.warns(UserWarning, match=r"at epoch 2: No space left on device\. The training"):
             log(report(2))
-        log(report(3))  # told once
+        log(report(3))  # one warning
     log(report(4))
     assert read(tmp_path / "log.csv")["epoch"].tolist() == [1, 4]
 

@@ -38,11 +38,11 @@ def test_eigenvalues_have_the_gradient_of_differences():
         order = jnp.lexsort((im, re))
         return weights[0] @ re[order] + weights[1] @ im[order]
 
-    slopes = jax.grad(total)(A)
+    derivatives = jax.grad(total)(A)
     for i, j in ((0, 0), (1, 4), (5, 2)):
         step = jnp.zeros((6, 6)).at[i, j].set(1e-6)
         difference = (total(A + step) - total(A - step)) / 2e-6
-        assert float(slopes[i, j]) == pytest.approx(float(difference), rel=1e-6)
+        assert float(derivatives[i, j]) == pytest.approx(float(difference), rel=1e-6)
 
 
 def test_a_free_mass_has_a_gradient():
@@ -93,14 +93,14 @@ def test_the_gradient_of_a_penalty_is_that_of_differences():
 
     gradient = jax.grad(total)(arrays)
     direction = jax.tree.map(lambda a: jax.random.normal(jax.random.key(1), a.shape), arrays)
-    slope = sum(
+    rate = sum(
         jax.tree.leaves(jax.tree.map(lambda g, d: jnp.sum(g * d), gradient, direction)),
         jnp.zeros(()),
     )
     ends = [
         total(jax.tree.map(lambda a, d, e=e: a + e * d, arrays, direction)) for e in (1e-6, -1e-6)
     ]
-    assert float(slope) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
+    assert float(rate) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
 
 
 def test_a_sensor_that_lags_makes_no_instability():

@@ -39,9 +39,9 @@ def test_training_starts_at_the_value_and_can_move_both_ways(kind: Any, value: f
         return float(found.apply({"p": value}, {"p": jnp.asarray(delta)})["p"])
 
     assert moved(0.0) == value
-    slope = float(jax.grad(lambda d: found.apply({"p": value}, {"p": d})["p"])(0.0))
-    assert slope == pytest.approx((moved(1e-6) - moved(-1e-6)) / 2e-6, rel=1e-6)
-    assert slope != 0
+    derivative = float(jax.grad(lambda d: found.apply({"p": value}, {"p": d})["p"])(0.0))
+    assert derivative == pytest.approx((moved(1e-6) - moved(-1e-6)) / 2e-6, rel=1e-6)
+    assert derivative != 0
     assert (moved(1.0) - value) * (moved(-1.0) - value) < 0
     change = float(found.changes({"p": jnp.asarray(0.7)})["p"])
     assert float(found.changed({"p": value}, {"p": change})["p"]) == moved(0.7)
@@ -102,18 +102,18 @@ def test_an_offset_is_found_from_zero_and_a_damping_within_its_bounds():
 
 
 def test_a_bound_is_where_training_ends_that_wants_beyond():
-    """The record's damping is 1 N s/m. A user is told of it, and that no deviation says how well it is known."""
-    told = (
+    """The record's damping is 1 N s/m. A warning names it, and says that no deviation can be given."""
+    expected = (
         r"^'spring\.d' has run into the limit of its modifier, \+0\.25 N\.s/m: let it move further"
     )
-    with pytest.warns(UserWarning, match=told):
+    with pytest.warns(UserWarning, match=expected):
         fit = ac.fit(
             plain(), record(cubic=0.0, end=5.0), "mass.a", strategy="whole_record", epochs=40,
             params={"spring.d": 0.25}, progress=False,
             modifiers={"spring.d": ac.Bounded(0.0, 0.5), "spring.c": 0.2},
         )  # fmt: skip
     assert 0.499 < fit.params["spring.d"] <= 0.5
-    assert fit.confidence().summary()[0].endswith("How well it is known cannot be said.")
+    assert fit.confidence().summary()[0].endswith("Its standard deviation cannot be given.")
 
 
 @pytest.mark.parametrize(

@@ -40,7 +40,7 @@ class Learner(ac.Component):
 
 @eqx.filter_jit
 def looked_at(params: dict[str, Any]) -> dict[str, tuple[jax.Array, ...]]:
-    """Law, slope and value of every network."""
+    """Law, derivative and value of every network."""
     found: dict[str, tuple[jax.Array, ...]] = {}
     for name in ("spring.net", "damper.net", "hysteresis.net", "hysteresis.memory"):
         net = params[name]
@@ -62,12 +62,12 @@ def check(params: dict[str, Any]) -> None:
     found = jax.tree.map(np.asarray, looked_at(params))
     assert all(np.isfinite(a).all() for arrays in found.values() for a in arrays)
     for name in ("spring.net", "hysteresis.net"):
-        law, slope, energy = found[name]
-        assert (slope >= 0).all()
+        law, derivative, energy = found[name]
+        assert (derivative >= 0).all()
         assert (energy >= -1e-12 * (1 + PLACES**2)).all()
         assert (law * PLACES >= -1e-12 * (1 + PLACES**2)).all()
-    law, slope, _ = found["damper.net"]
-    assert (slope >= 0).all()
+    law, derivative, _ = found["damper.net"]
+    assert (derivative >= 0).all()
     assert (law * PLACES >= 0).all()
     assert (np.abs(law[:61] + law[60::-1]) <= 1e-12).all()
     assert (found["hysteresis.memory"][2] >= 0.1).all()

@@ -88,19 +88,19 @@ class Bowl(eqx.Module):
 
 
 @pytest.mark.parametrize(
-    ("value", "told"),
+    ("value", "expected"),
     [
         (True, "epoch 1: the sequence from t = 0 s diverged; update rejected"),
         (False, "epoch 1: the gradient is not finite; update rejected"),
     ],
 )
-def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, told: str):
+def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, expected: str):
     """The first step, of length 0.1, leads beyond the edge."""
     trainer = Trainer(ac.lbfgs(), 1e3, lambda objective, x: {})
     state = begin(trainer, jnp.asarray(0.95), jax.random.key(0))
     state, rows = advance(Bowl(1.02, value), trainer, state, jnp.asarray(20))
     log = Log(np.zeros(1), (), ())
-    assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [told]
+    assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [expected]
     assert int(state.rejected) == 0
     assert float(state.optimizer.point[0]) == pytest.approx(1.0, abs=1e-9)
 
@@ -259,7 +259,7 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
 
 
 @pytest.mark.parametrize(
-    ("wishes", "sentence"),
+    ("chosen", "sentence"),
     [
         ({"strategy": "equation_eror"}, "No strategy 'equation_eror': did you mean 'equation_error'?"),
         ({"strategy": "equation_error", "data": ["mass.a", "push.f"]},
@@ -270,20 +270,20 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
           "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out.")),
         ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('sequences',): give one number, or one for each part."),
         ({"epochs": 0}, "epochs=0; at least one is needed."),
-        ({"dt": "0.01"}, "dt='0.01' is no step; give a positive time in seconds."),
+        ({"dt": "0.01"}, "dt='0.01' is not a step; give a positive time in seconds."),
         ({"epochs": 2.5}, "epochs=2.5; give a whole number of updates."),
         ({"evaluate_every": 0}, "evaluate_every=0; give one update or more."),
-        ({"optimizer": "adam"}, "optimizer='adam' is none of optax; give one such as optax.adam(0.01)."),
-        ({"regularizers": [0.1]}, "0.1 is called in the training, and is no function."),
-        ({"observers": [0.1]}, "0.1 is called in the training, and is no function."),
+        ({"optimizer": "adam"}, "optimizer='adam' is not an optax optimizer; give one such as optax.adam(0.01)."),
+        ({"regularizers": [0.1]}, "0.1 is not a function, but the training calls it."),
+        ({"observers": [0.1]}, "0.1 is not a function, but the training calls it."),
         ({"optimizer": ac.lbfgs(), "sequence_length": 0.5},
          ("L-BFGS compares losses of the same data, and every batch holds others: take the whole record "
           "(sequence_length=None), or strategy=('sequences', 'whole_record') with another optimizer.")),
     ],
 )  # fmt: skip
-def test_mistakes_get_one_sentence(wishes: dict[str, Any], sentence: str):
-    data = record(end=2.0).select(wishes.pop("data", record().signals))
-    targets = wishes.pop("targets", "mass.a")
+def test_mistakes_get_one_sentence(chosen: dict[str, Any], sentence: str):
+    data = record(end=2.0).select(chosen.pop("data", record().signals))
+    targets = chosen.pop("targets", "mass.a")
     with pytest.raises(ac.TrainingError) as error:
-        ac.fit(learned(), data, targets, x0="model", **QUIET, **wishes)
+        ac.fit(learned(), data, targets, x0="model", **QUIET, **chosen)
     assert str(error.value) == sentence

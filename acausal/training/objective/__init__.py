@@ -1,1 +1,1 @@
-"""What is minimised: losses of predictions over a record, and penalties."""
+"""The objective of a training: losses of predictions over a record, and penalties."""

@@ -1,4 +1,4 @@
-"""Where a model is over its record before training, and what networks are called with there."""
+"""The trajectory of a model over its record before training, and the arguments of its networks along it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Context, Trajectory
 
 SAMPLES = 1000
-"""At most so many samples of the record are in the context of regularizers, evenly spread."""
+"""The most samples of the record in the context of regularizers; they are evenly spread."""
 
 
 def context(problem: Problem) -> Context:
-    """What regularizers may know besides the parameters.
+    """The arguments of regularizers besides the parameters.
 
     Raises:
         TrainingError: if states are not measured, and the model diverges.

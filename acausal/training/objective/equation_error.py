@@ -19,15 +19,14 @@ from acausal.training.objective.smoothing import smoothed
 from acausal.training.objective.trainable import Trainable
 
 SAMPLES = 5000
-"""At most so many samples of the record count, evenly spread."""
+"""The most samples of the record that count; they are evenly spread."""
 
 
 class EquationError(eqx.Module):
     """The loss of targets that are observed in the measured states and inputs, sample by sample.
 
-    It costs next to nothing, but what noise is left in the states biases it, as it is taken for the truth: a good
-    place to start from. It sees what targets depend on at an instant (an acceleration shows a force; a position
-    does not).
+    It costs next to nothing and gives a good start, but it is biased by the noise that remains in the states. It
+    depends only on what determines targets at an instant (an acceleration depends on a force; a position does not).
 
     Attributes:
         problem: the model and the data.

@@ -1,4 +1,4 @@
-"""Held out: samples that never move the training, and how well the model predicts them."""
+"""Held-out samples: they are never trained on, but show how well the model predicts."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ Validation = float | Data | Mapping[str, ArrayLike] | None
 
 
 class HeldOut(eqx.Module):
-    """What is held out of a training.
+    """The held-out samples of a training.
 
     Attributes:
-        problem: a record that ends with the samples held out; what is before them leads the simulation to them.
+        problem: a record that ends with the held-out samples; the simulation runs through the samples before them.
         first: index of the first of them.
     """
 
@@ -34,16 +34,16 @@ class HeldOut(eqx.Module):
     first: int = eqx.field(static=True)
 
     def loss(self, trainable: Trainable) -> Float[Array, ""]:
-        """The loss over the samples held out, in one simulation of their record."""
+        """The loss over the held-out samples, in one simulation of their record."""
         predicted = self.problem.simulate(trainable).y
         return self.problem.compare(predicted, slice(self.first, None))
 
 
 def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | None]:
-    """What to train on; and the record that ends with what is held out, with the index at which that begins.
+    """The record to train on; and the record that ends with the held-out samples, with the index of their first.
 
     Raises:
-        DataError: for a fraction that leaves no two samples for either.
+        DataError: for a fraction that leaves fewer than two samples for either.
     """
     if validation is None:
         return data, None
@@ -51,7 +51,7 @@ def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | 
         return data, (Data.of(validation), 0)
     share = float(validation)
     if not np.isfinite(share):
-        raise DataError(f"validation={share} is no fraction; give a number between 0 and 1.")
+        raise DataError(f"validation={share} is not a fraction; give a number between 0 and 1.")
     first = len(data) - round(share * len(data))
     if not 2 <= first <= len(data) - 2:
         raise DataError(
@@ -62,13 +62,13 @@ def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | 
 
 
 def hold_out(problem: Problem, kept: tuple[Data, int] | None, x0: InitialState) -> HeldOut | None:
-    """What judges a problem's training, from the result of `split`.
+    """The held-out samples that decide which state of a training is best, from the result of `split`.
 
     The end of the record is predicted in one simulation from the record's start. Another record starts as ``x0``
     says; where that is trained, from its own measured states.
 
     Raises:
-        DataError: if the record does not have what that needs.
+        DataError: if the record lacks signals for that.
     """
     if kept is None:
         return None

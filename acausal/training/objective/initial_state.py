@@ -1,4 +1,4 @@
-"""The state at which a record starts, as a user says it."""
+"""The state at which a record starts, as the user gives it."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " 
     """The state at a record's start as ``x0`` says; ``None`` as the model starts.
 
     Raises:
-        DataError: for another word, a name that is no state, a value that is no number, or a state that is neither
-            in the data nor in ``x0``.
+        DataError: for another word, a name that is not a state, a value that is not a number, or a state that is
+            neither in the data nor in ``x0``.
     """
     if x0 == "model":
         return None
     if isinstance(x0, str) and x0 != "data":
-        raise DataError(f"x0='{x0}' is no way to start here: {nearest(x0, ('data', 'model'))}")
+        raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, ('data', 'model'))}")
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
     for name, value in given.items():
         if name not in system.states:
             raise DataError(
-                f"x0: '{name}' is no state of the model: {nearest(name, system.states)}"
+                f"x0: '{name}' is not a state of the model: {nearest(name, system.states)}"
             )
         if not isinstance(value, Real | np.ndarray | Array) or not np.isfinite(value).all():
             raise DataError(f"x0: '{name}' is {value!r}; give a finite number.")

@@ -1,8 +1,8 @@
 """Regularizers of a model's modes: the eigenvalues of its linearizations along the record.
 
-Each takes the model as linear about states of the record and penalises eigenvalues that are where they should not be:
-a law cannot buy accuracy at an instant with an instability. The eigenvalues of frozen linearizations prove nothing
-about large motions, but where they are bad, simulations drift or blow up.
+Each linearizes the model about states of the record and penalises eigenvalues in the wrong place, so that a law cannot
+gain accuracy at an instant by instability. The eigenvalues of frozen linearizations prove nothing about large motions,
+but where they are bad, simulations drift or diverge.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from acausal.errors import TrainingError, nearest
 from acausal.training.objective.regularizers import Context, Trajectory
 
 TINY = 1e-12
-"""The least eigenvalue [1/s], or scalar product of eigenvectors, that anything is divided by."""
+"""The smallest eigenvalue [1/s], or scalar product of eigenvectors, that is used as a divisor."""
 
 
 class Modal(eqx.Module):
@@ -41,7 +41,7 @@ class Modal(eqx.Module):
     states: tuple[str, ...] | None = eqx.field(static=True, default=None)
 
     def excess(self, re: Float[Array, " n"], im: Float[Array, " n"]) -> Float[Array, " n"]:
-        """By how much eigenvalues ``re + j im`` [1/s] are where they should not be; 0 where they may be."""
+        """How far eigenvalues ``re + j im`` [1/s] are outside of the allowed region; 0 within it."""
         raise NotImplementedError
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
@@ -115,7 +115,7 @@ def jacobians(
 
 @jax.custom_jvp
 def eigenvalues(A: Float[Array, "n n"]) -> tuple[Float[Array, " n"], Float[Array, " n"]]:
-    """Real and imaginary parts of a real matrix's eigenvalues; on a CPU alone.
+    """Real and imaginary parts of a real matrix's eigenvalues; only on a CPU.
 
     Derivatives are ``dλ = wᴴ dA v / wᴴ v`` with left and right eigenvectors (J. Magnus: On differentiating eigenvalues
     and eigenvectors, Econometric Theory 1, 1985). Where an eigenvalue is defective there are none: 0 is taken.

@@ -1,4 +1,4 @@
-"""Parameters that are trained besides networks: how each moves with a free variable δ, which starts at 0."""
+"""Trained parameters besides networks: how each changes with a free variable δ, which starts at 0."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from acausal.errors import TrainingError, nearest
 
 REACHED = 0.99
-"""A parameter that has come so far of the way to a limit has run into it."""
+"""A parameter has reached a limit when it has gone this fraction of the way."""
 
 Scalar = Float[Array, ""]
 Number = Any
@@ -24,7 +24,7 @@ Number = Any
 
 
 class Modifier(Protocol):
-    """How a parameter p may move."""
+    """How a parameter p may change."""
 
     @property
     def unit(self) -> str:
@@ -44,11 +44,11 @@ class Modifier(Protocol):
         ...
 
     def limit(self, value: float, change: float) -> float | None:
-        """The limit of changes that this change has as good as reached, or ``None``."""
+        """The limit that this change has practically reached, or ``None``."""
         ...
 
     def refusal(self, value: float) -> str | None:
-        """Why a parameter cannot move this way and what to do instead, or ``None`` if it can."""
+        """Why a parameter cannot change this way, and what to do instead; ``None`` if it can."""
         ...
 
 
@@ -180,7 +180,7 @@ class Bounded(_Absolute):
 
 
 def _reached(change: float, low: float, high: float) -> float | None:
-    """The limit that a change from 0 has reached, all but a hundredth of the way."""
+    """The limit that a change from 0 has reached, except for the last hundredth of the way."""
     return next((end for end in (low, high) if change / end > REACHED), None)
 
 

@@ -29,10 +29,10 @@ class ParameterSpread(eqx.Module):
     names: tuple[str, ...] = eqx.field(static=True)
     shifts: Float[Array, "n_models n_parameters"]
 
-    def each(
+    def over_models(
         self, function: Callable[[dict[str, Any]], Float[Array, " ..."]], params: dict[str, Any]
     ) -> Float[Array, "n_models ..."]:
-        """A function of every model, whose parameters lie about the given ones."""
+        """A function evaluated for every model; their parameters lie about the given ones."""
         if not self.names:
             return function(params)[None]
 
@@ -46,7 +46,7 @@ class ParameterSpread(eqx.Module):
         self, loss: Callable[[dict[str, Any]], Float[Array, " ..."]], params: dict[str, Any]
     ) -> Float[Array, " ..."]:
         """The mean loss of these models."""
-        return jnp.mean(self.each(loss, params), axis=0)
+        return jnp.mean(self.over_models(loss, params), axis=0)
 
 
 def parameter_spread(
@@ -68,6 +68,8 @@ def parameter_spread(
             raise TrainingError(
                 f"The spread of '{name}' is {deviation}; give a positive deviation of a number."
             )
-    each = np.diag([float(d) for d in chosen.values()])
+    deviations = np.diag([float(d) for d in chosen.values()])
     alone = np.zeros((1, len(chosen)))
-    return ParameterSpread(tuple(chosen), jnp.asarray(np.concatenate([alone, each, -each])))
+    return ParameterSpread(
+        tuple(chosen), jnp.asarray(np.concatenate([alone, deviations, -deviations]))
+    )

@@ -1,6 +1,6 @@
-"""What training minimises: the loss of a model's predictions over sequences of its records, and penalties.
+"""The objective of a training: the loss of a model's predictions over sequences of its records, and penalties.
 
-A training has records; today there is one. Only this room indexes them: other files ask the problem.
+A training has records; today there is one. Only this room indexes them; other files use the problem's methods.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ class Problem(eqx.Module):
         shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
         regularizers: penalties by name.
-        context: what regularizers may know.
-        solver, substeps: how a step from sample to sample is made.
+        context: the arguments of regularizers besides the parameters.
+        solver, substeps: the scheme, and the number of its steps from sample to sample.
         dtype: the precision of steps; of weights and losses it is double.
         mesh: devices that share batches, if any.
     """
@@ -75,7 +75,7 @@ class Problem(eqx.Module):
 
     @property
     def _record(self) -> Record:
-        """The one record. Whoever adds more of them begins here."""
+        """The one record. To support several, start here."""
         (record,) = self.records
         return record
 
@@ -122,7 +122,7 @@ class Problem(eqx.Module):
     def residuals(
         self, predicted: Float[Array, "n_samples n_targets"]
     ) -> Float[Array, "n_samples n_targets"]:
-        """What predictions of the whole record leave over: measured less predicted."""
+        """The residuals of predictions of the whole record: measured less predicted."""
         return self.measured - predicted
 
     def compare(
@@ -272,7 +272,7 @@ class Problem(eqx.Module):
     def predictions(self, trainable: Trainable) -> Float[Array, "n_models n_samples n_targets"]:
         """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
-        return self.parameter_spread.each(lambda p: self.predict(trainable, p), params)
+        return self.parameter_spread.over_models(lambda p: self.predict(trainable, p), params)
 
     # -- simulation ----------------------------------------------------------------------------------
 

@@ -15,7 +15,7 @@ from acausal.simulation import Samples, Steps, over_steps
 
 
 class Record(eqx.Module):
-    """N samples of a model's inputs, targets and states. A step begins at every sample; the last one leads nowhere.
+    """N samples of a model's inputs, targets and states. A step begins at every sample; the last step is not used.
 
     Attributes:
         steps: N steps with the inputs.
@@ -86,9 +86,9 @@ class Batch(eqx.Module):
     points: Int[Array, "batch n_points"] | None
 
     def without(self, bad: Bool[Array, " batch"]) -> Batch:
-        """The batch with some sequences (a mask) left out: repetitions of a good one in their place.
+        """The batch with some sequences (a mask) replaced by a good one with weight zero.
 
-        Their gradients would be undefined even if multiplied by a weight of zero.
+        The gradients of diverged sequences would be undefined even if multiplied by a weight of zero.
         """
         good = jnp.argmin(bad)
         replaced = jax.tree.map(lambda a: jnp.where(_column(bad, a), a[good], a), self)
@@ -128,7 +128,7 @@ class Sequences(eqx.Module):
 
     @property
     def always_alike(self) -> bool:
-        """Whether all batches hold the same."""
+        """Whether all batches are equal."""
         complete = self.whole or (self.side_by_side and self.batch_size == self.parts)
         return complete and self.points is None
 
@@ -177,7 +177,9 @@ def sequences(
         DataError: for a length, size or fraction that does not fit the record.
     """
     if seconds is not None and not np.isfinite(seconds):
-        raise DataError(f"sequence_length={seconds} is no length; give seconds, or None for all.")
+        raise DataError(
+            f"sequence_length={seconds} is not a length; give seconds, or None for all."
+        )
     n = len(data) if seconds is None else round(seconds / data.sample_time)
     if not 2 <= n <= len(data):
         raise DataError(
@@ -193,6 +195,6 @@ def sequences(
         return Sequences(len(data), n, batch_size, None)
     if not 0 < fraction <= 1:
         raise DataError(
-            f"subsample={fraction:g} is no fraction of the points; give a number in (0, 1]."
+            f"subsample={fraction:g} is not a fraction of the points; give a number in (0, 1]."
         )
     return Sequences(len(data), n, batch_size, max(1, round(fraction * n)))

@@ -1,4 +1,4 @@
-"""Regularizers: penalties that a training minimises along with the loss.
+"""Regularizers: penalties that a training minimises besides the loss.
 
 A regularizer is any callable ``(params, context) -> scalar`` that JAX can trace. Outputs of networks are
 taken relative to their ``output_scale``, so that weights are pure numbers. For a network that is an energy, the law
@@ -28,7 +28,7 @@ Network = Callable[..., Any]
 
 
 class Trajectory(eqx.Module):
-    """Where a model is over the record: as measured, else as it was before training.
+    """The trajectory of a model over the record: as measured, else as simulated before training.
 
     Attributes:
         system: the model.
@@ -42,7 +42,7 @@ class Trajectory(eqx.Module):
 
 
 class Context(eqx.Module):
-    """What a regularizer may know besides the parameters.
+    """The arguments of a regularizer besides the parameters.
 
     Attributes:
         networks: names of the networks that are trained.
@@ -97,8 +97,8 @@ class ZeroCrossing(eqx.Module):
 class SmallCorrection(eqx.Module):
     """Networks should add as little as the data allow: ``weight · Σ mean F²`` over the record.
 
-    A prior that fixes what data leave open. In the quarter vehicle, say, one factor on all masses, the tyre and
-    the suspension's force changes no acceleration; only the smallest correction picks one.
+    This prior decides what the data leave open. In the quarter vehicle, for example, a common factor on all masses, the
+    tyre and the suspension's force changes no acceleration; the smallest correction selects one.
 
     Attributes:
         weight: of the mean square output, relative to the output's scale.

@@ -14,7 +14,7 @@ DEGREE = 3
 
 
 def smoothed(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
-    """A signal with evenly spaced samples, without the part of its noise that can be told apart.
+    """A signal with evenly spaced samples, without the part of its noise that can be distinguished from it.
 
     A cubic polynomial is fitted to the samples around each one (A. Savitzky, M. Golay, 1964). The window is the one
     that predicts samples best from their neighbours (generalized cross-validation: P. Craven, G. Wahba, 1979).

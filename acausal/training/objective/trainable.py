@@ -1,4 +1,4 @@
-"""What an optimizer moves, and what a simulation of it gives."""
+"""The arrays that an optimizer changes, and the result of simulating with them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from acausal.training.objective.modifiers import Modifiers
 
 
 class Trainable(eqx.Module):
-    """What an optimizer moves: a pytree of floating-point arrays.
+    """The arrays that an optimizer changes: a pytree of floating-point arrays.
 
     Attributes:
         networks: the arrays of every network that is trained, by name.

@@ -1,1 +1,1 @@
-"""How it is minimised: optimizers, and one update of a training."""
+"""Optimizers, and one update of a training."""

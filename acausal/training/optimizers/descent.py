@@ -1,4 +1,4 @@
-"""Descent: what optimizers have in common that compare losses of the same data."""
+"""Descent: the common part of optimizers that compare losses of the same data."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from jaxtyping import Array, Bool, Float
 
 
 class DescentMethod(optax.GradientTransformationExtraArgs):
-    """An optimizer that compares losses of the same data, and returns from a worse point by itself.
+    """An optimizer that compares losses of the same data, and goes back from a worse point by itself.
 
     Its state is a `Descent`.
     """

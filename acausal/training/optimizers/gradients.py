@@ -16,7 +16,7 @@ from acausal._jax import value_and_jacobian
 Scalar = Float[Array, ""]
 
 
-class Batch(Protocol):
+class WeightedBatch(Protocol):
     """Sequences of a record."""
 
     @property
@@ -81,15 +81,15 @@ Evaluate = Callable[..., Evaluated]
 
 
 def total(
-    objective: Objective, trainable: PyTree, batch: Batch
+    objective: Objective, trainable: PyTree, batch: WeightedBatch
 ) -> tuple[Scalar, tuple[Float[Array, " batch"], dict[str, Scalar]]]:
-    """What is minimised; the losses and penalties that it consists of."""
+    """The total to minimise; and the losses and penalties in it."""
     losses = objective.losses(trainable, batch)
     penalties = objective.penalties(trainable)
     return jnp.average(losses, weights=batch.weight) + _sum(penalties), (losses, penalties)
 
 
-def with_gradient(objective: Objective, trainable: PyTree, batch: Batch) -> Evaluated:
+def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch) -> Evaluated:
     """The gradient alone, in reverse mode."""
     evaluate = jax.value_and_grad(lambda tree: total(objective, tree, batch), has_aux=True)
     (value, (losses, penalties)), gradient = evaluate(trainable)
@@ -97,7 +97,7 @@ def with_gradient(objective: Objective, trainable: PyTree, batch: Batch) -> Eval
 
 
 def with_gauss_newton_hessian(
-    objective: LeastSquares, trainable: PyTree, batch: Batch
+    objective: LeastSquares, trainable: PyTree, batch: WeightedBatch
 ) -> Evaluated:
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 

@@ -81,10 +81,10 @@ def lbfgs(memory: int = 60) -> DescentMethod:
             point, infinite, none, no, none, zero, zero, zero, infinite, count, rows, rows, count
         )
 
-    def update(updates: Any, state: Any, params: Any = None, **told: Any) -> Any:
+    def update(updates: Any, state: Any, params: Any = None, **extra: Any) -> Any:
         point, unravel = ravel_pytree(params)
         gradient, _ = ravel_pytree(updates)
-        state = _after_trial(state, point, told["value"], gradient)
+        state = _after_trial(state, point, extra["value"], gradient)
         return unravel(state.point + state.step * state.direction - point), state
 
     return DescentMethod(init, update)

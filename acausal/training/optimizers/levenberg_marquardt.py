@@ -3,7 +3,7 @@
 ``python -m benchmarks.optimizers`` finds seven parameters of the quarter vehicle with it and with
 `optimistix.LevenbergMarquardt` (0.1.0). Both are within 1e-6 of the lowest loss after 5 to 9 updates, optimistix one or
 two later; it ends after 11 to 30 updates, ours after 6 to 9. Besides, optimistix takes residuals and their Jacobian,
-where this takes a gradient and a Hessian, which penalties can add to, also with negative curvature.
+where this takes a gradient and a Hessian, which penalties can add to, even where the Hessian is indefinite.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Damped(Descent):
 def levenberg_marquardt() -> DescentMethod:
     """Steps ``-(H + λ)⁻¹ g`` with a damping λ that follows the ratio of the actual to the predicted decrease.
 
-    An update takes the loss (`value=...`), the gradient and an approximate Hessian (`curvature=...`) at one point. A
+    An update takes the loss (`value=...`), the gradient and an approximate Hessian (`hessian=...`) at one point. A
     point that lowers the loss becomes the best; otherwise the next trial is a shorter step from the best point. So the
     parameters between two updates may be worse than the best up to now. An infinite loss counts as too long a step.
 
@@ -68,10 +68,10 @@ def levenberg_marquardt() -> DescentMethod:
             point, jnp.full_like(zero, jnp.inf), none, no, square, none, zero, zero, zero + GROWTH
         )
 
-    def update(updates: Any, state: Any, params: Any = None, **told: Any) -> Any:
+    def update(updates: Any, state: Any, params: Any = None, **extra: Any) -> Any:
         point, unravel = ravel_pytree(params)
         gradient, _ = ravel_pytree(updates)
-        state = _after_trial(state, point, told["value"], gradient, told["curvature"])
+        state = _after_trial(state, point, extra["value"], gradient, extra["hessian"])
         return unravel(state.point + state.step - point), state
 
     return DescentMethod(init, update)

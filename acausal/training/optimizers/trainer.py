@@ -1,7 +1,7 @@
-"""How training moves: updates of an optimizer, many in one compiled program, of one training or of several.
+"""Updates of an optimizer, many in one compiled program, for one training or for several.
 
-The trainer knows nothing of models. It asks an objective for batches, losses and penalties, takes gradients, and keeps
-a sequence that diverges from spoiling the weights or the optimizer's state.
+The trainer knows nothing about models. It gets batches, losses and penalties from an objective, computes gradients, and
+leaves out sequences that diverge, so that they spoil neither the weights nor the optimizer's state.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from acausal.training.optimizers.gradients import (
 )
 
 UPDATES_PER_CALL = 128
-"""The most updates that one call of the compiled program makes."""
+"""The most updates in one call of the compiled program."""
 
 Tree = TypeVar("Tree")
 
@@ -50,12 +50,12 @@ class State(eqx.Module):
 
 
 class Entry(eqx.Module):
-    """What is logged of an update; with a leading axis, of many.
+    """The log of an update; with a leading axis, of many.
 
     Attributes:
         loss: mean loss of the batch's sequences that count, without penalties.
         penalties: by name.
-        logged: what was logged of the trainable, see `Trainer`.
+        logged: the values logged from the trainable, see `Trainer`.
         diverged: how many sequences were left out; ``first``: where the first of them starts (a sample's index).
         rejected: whether the update was rejected, or was a trial that L-BFGS takes back.
     """
@@ -74,7 +74,7 @@ class Trainer(NamedTuple):
     Attributes:
         optimizer: any optax optimizer.
         limit: a sequence with a larger loss has diverged.
-        log: (objective, trainable) -> what of the trainable to log at every update.
+        log: (objective, trainable) -> values to log at every update.
         evaluate: gives the losses and the derivatives that the optimizer needs.
     """
 
@@ -91,7 +91,7 @@ def begin(trainer: Trainer, trainable: PyTree, key: PRNGKeyArray) -> State:
 
 
 def converged(state: State) -> Bool[Array, "*trainings"]:
-    """Whether the optimizer has nothing more to find; for several trainings, of each."""
+    """Whether the optimizer has converged; for several trainings, one value each."""
     if isinstance(state.optimizer, Descent):
         return state.optimizer.converged
     return jnp.zeros_like(state.epoch, bool)
@@ -106,15 +106,15 @@ def advance(
     *,
     side_by_side: bool = False,
 ) -> tuple[State, Entry]:
-    """Make updates until ``until`` of them are done, at most `UPDATES_PER_CALL`, or until the optimizer converged.
+    """Do updates until ``until`` of them are done, at most `UPDATES_PER_CALL`, or until the optimizer has converged.
 
     Arguments:
         objective: what to minimise.
         trainer: how.
         state: of one training, or of several with a leading axis.
         until: updates, the same for all of them.
-        side_by_side: whether several trainings are mapped over, as suits an accelerator. A processor is faster one
-            after the other: networks with weights of their own each are many small products of matrices.
+        side_by_side: whether to map over several trainings, which is faster on an accelerator. A CPU is faster with
+            one after the other, because networks with different weights are many small matrix products.
 
     Returns:
         The new state, and a log with room for `UPDATES_PER_CALL` entries of which the first are filled; where there
@@ -168,7 +168,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
         value=jnp.where(usable, found.total, jnp.inf),
         grad=gradient,
         value_fn=lambda trainable: total(objective, trainable, batch)[0],
-        **({} if hessian is None else {"curvature": hessian}),
+        **({} if hessian is None else {"hessian": hessian}),
     )
     moved = optax.apply_updates(state.trainable, steps)
     accepted = _finite(moved) & (usable | _takes_back(optimizer))
@@ -190,8 +190,8 @@ def evaluate_healthy(
 ) -> tuple[PyTree, Evaluated, Bool[Array, " batch"]]:
     """Losses and derivatives of the sequences that do not diverge; their batch, and a mask of those that do.
 
-    Where some diverge, all is computed a second time without them: in a loop, so that the program holds it once and a
-    healthy batch pays nothing.
+    If some diverge, everything is computed again without them: in a loop, so that the program contains it only once and
+    a healthy batch costs nothing extra.
     """
 
     def evaluate(batch: PyTree) -> Evaluated:

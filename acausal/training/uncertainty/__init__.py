@@ -1,1 +1,1 @@
-"""How sure a result is: laws' and parameters' confidence, prediction bands, residuals."""
+"""The uncertainty of a result: confidence of laws and parameters, prediction bands, residuals."""

@@ -1,9 +1,6 @@
-"""Laws that may change by small bumps over what their networks have seen."""
+"""Laws that may change by small bumps over their networks' arguments in training."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
-from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -12,12 +9,10 @@ from jax.scipy.special import erf
 from jaxtyping import Array, Float
 
 from acausal.networks import EnergyLaw
+from acausal.training.objective.regularizers import Network
 
 BUMPS, SIGMAS = 12, 3.0
 """Bumps of each law, evenly over so many sigmas of its inputs to either side."""
-
-Network = Callable[..., Any]
-"""A module that is called with scalars."""
 
 
 class Bumped(eqx.Module):

@@ -1,10 +1,10 @@
 """Confidence: how well the record determines learned laws and parameters.
 
-A law is given the freedom to change by small bumps over what it has seen; parameters may change, too, and so may the
-state at the start where it was trained. The sensitivity of the whole simulation to all of them gives the Fisher
-information, whose inverse is their covariance: a Laplace approximation in the space of functions, independent of how
-many weights a network has. Details of a law that are narrower than a bump, half a standard deviation of its input, do
-not show. Samples whose residuals are correlated count for less than one each.
+A law may change by small bumps over the range of its argument in training; trained parameters may change, too, and so
+may a trained initial state. The sensitivity of the whole simulation to all of them gives the Fisher information, whose
+inverse is their covariance: a Laplace approximation in the space of functions, independent of the number of weights of
+a network. It does not resolve details of a law that are narrower than a bump, half a standard deviation of its input.
+Samples with correlated residuals count for less than one each.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ INDISTINGUISHABLE = 0.98
 """The data can hardly distinguish two parameters with a correlation above this."""
 
 UNKNOWN = 0.9
-"""The data tell nothing of a parameter whose standard deviation is above this part of the prior one."""
+"""The data say nothing about a parameter whose standard deviation is above this part of the prior one."""
 
 CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
 
 LEAST_NOISE = 1e-12
-"""The least noise that is considered possible, relative to a target's standard deviation."""
+"""The smallest noise that is considered possible, relative to a target's standard deviation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +65,8 @@ class Confidence:
 
     Attributes:
         laws: by network, the law and its standard deviation.
-        parameters: by name, the standard deviation of trained parameters, relative to their values, or absolute
-            where `Fit.modifiers` is.
+        parameters: by name, the standard deviation of trained parameters, relative to their values; absolute if
+            their change in `Fit.modifiers` is absolute.
         correlation: between the parameters, in their order.
         noise: standard deviation of the residuals, by target.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
@@ -83,14 +83,14 @@ class Confidence:
     def words(self) -> list[str]:
         """The old name of `summary`."""
         warnings.warn(
-            "Confidence.words() is now called summary(); the old name will go.",
+            "Confidence.words() is now called summary(); the old name will be removed.",
             DeprecationWarning,
             stacklevel=2,
         )
         return self.summary()
 
     def summary(self) -> list[str]:
-        """What all this means, sentence by sentence."""
+        """What all this means, as a list of sentences."""
         names = list(self.parameters)
         confused = [
             f"The data can hardly tell '{names[i]}' from '{names[j]}' (correlation {self.correlation[i, j]:+.3f}): "
@@ -118,7 +118,7 @@ def confidence(
     trainable: Trainable,
     seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
 ) -> Confidence:
-    """How well a record determines what was trained on it.
+    """How well a record determines the laws and parameters that were trained on it.
 
     Residuals that are correlated over τ neighbouring samples have at low frequencies τ times the spectrum of white
     noise, so that each sample counts 1/τ.
@@ -152,7 +152,7 @@ def confidence(
     left, jacobian = _sensitivity(problem, changed, len(deviations))
     if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
-            "The trained model diverges over the record; nothing can be said of it."
+            "The trained model diverges over the record; its confidence cannot be computed."
         )
     noise = np.sqrt(np.mean(left**2, axis=0))
     alike = np.array([correlation_time(column) for column in left.T])
@@ -187,9 +187,9 @@ def _about(
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
-            return f"{at_limit[name]} How well it is known cannot be said."
+            return f"{at_limit[name]} Its standard deviation cannot be given."
         if sigma > UNKNOWN * prior:
-            return f"The data tell nothing of '{name}'; leave it as it was, or measure what depends on it."
+            return f"The data say nothing about '{name}'; leave it as it was, or measure what depends on it."
         deviation = problem.modifiers.written(name, sigma, ".2g", problem.system.unit(name))
         return f"'{name}' is known to ±{deviation} (one sigma)."
 

@@ -37,15 +37,15 @@ class Prediction:
 class Conformal:
     """Bands around the predictions of a trained model, as wide as its errors on a record of their own require.
 
-    They need no noise model, and the model may be wrong. They hold as often as promised on average over time, on
-    records like the one that they were calibrated on: the same excitation, the same sensors. Where a record is rougher
-    than that one, they are too narrow.
+    They need no noise model, and the model may be wrong. On average over time they hold as often as promised, on
+    records like the one that they were calibrated on: the same excitation, the same sensors. They are too narrow for a
+    rougher record.
 
     Attributes:
         level: how often a band should hold the measurement.
         width: from a band's middle to its bounds, by target, in its unit.
         independent: how many independent samples the record is worth, by target; neighbouring samples are correlated.
-        problem, trained: what predicts.
+        problem, trained: the trained model.
     """
 
     level: float
@@ -93,18 +93,18 @@ def conformal(
     """Calibrate bands: the quantile of the errors on a record, with the correction for its finite length.
 
     Split conformal prediction (V. Vovk, A. Gammerman, G. Shafer: Algorithmic Learning in a Random World, Springer
-    2005) takes samples for exchangeable. Those of a record are not; what it is worth is counted in independent samples,
-    by the autocorrelation time of the errors' size, and the quantile is raised as for so many.
+    2005) assumes exchangeable samples. Those of a record are not; the number of independent samples follows
+    from the autocorrelation time of the errors' size, and the quantile is raised as for that number.
 
     Raises:
         DataError: if the record is too short for the level, or lacks what is needed.
     """
     if not 0 < level < 1:
-        raise DataError(f"level={level:g} is no share of the samples; give a number in (0, 1).")
+        raise DataError(f"level={level:g} is not a share of the samples; give a number in (0, 1).")
     _, y, measured = predicted(problem, trained, data, x0)
     errors = np.abs(measured - y)
     if not np.isfinite(errors).all():
-        raise DataError("The trained model diverges over the record; no band holds that.")
+        raise DataError("The trained model diverges over the record; it has no bands.")
     width: dict[str, float] = {}
     independent: dict[str, float] = {}
     for name, column in zip(problem.targets, errors.T, strict=True):

@@ -1,4 +1,4 @@
-"""Residuals: whether they are noise, or still hold something to learn."""
+"""Residuals: are they noise, or is there more to learn from them?"""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from jaxtyping import Float
 from scipy.signal import correlate
 
 LAGS = 50
-"""Lags at which correlations are looked at."""
+"""The largest lag at which correlations are computed."""
 
 CHANCE = 4.0
 """Standard deviations that a correlation may reach by chance; in one of 300 records of white noise a lag has more."""
@@ -29,7 +29,7 @@ class Residuals:
         share: their standard deviation, relative to that of the target.
         own: autocorrelation at the lags 1 to `LAGS` (fewer where N < 4 `LAGS`).
         inputs: by input that is not constant, the correlation with it at the lags −lags to lags.
-        bound: the size of an autocorrelation up to which it is taken for chance.
+        bound: the largest autocorrelation that can be due to chance.
         bounds: the same for the correlations with the inputs, by input.
     """
 
@@ -43,7 +43,7 @@ class Residuals:
 
     @property
     def is_white(self) -> bool:
-        """Whether no autocorrelation is beyond the bound."""
+        """Whether no autocorrelation exceeds the bound."""
         return bool(np.max(np.abs(self.own)) <= self.bound)
 
     @property
@@ -54,7 +54,7 @@ class Residuals:
     def words(self) -> str:
         """The old name of `summary`."""
         warnings.warn(
-            "Residuals.words() is now called summary(); the old name will go.",
+            "Residuals.words() is now called summary(); the old name will be removed.",
             DeprecationWarning,
             stacklevel=2,
         )
@@ -93,9 +93,9 @@ def residuals(
         values: measured less predicted.
         inputs: by name.
 
-    An autocorrelation of N samples of white noise has the variance 1/N. The correlation with an input that has nothing
-    to do with it has ``1/N Σ ρ_k ρ'_k`` over all lags of both autocorrelations (L. Ljung: System Identification,
-    Prentice Hall 1999, section 16.6): slow noise and a slow input look alike by chance.
+    An autocorrelation of N samples of white noise has the variance 1/N. The correlation with an unrelated input has the
+    variance ``1/N Σ ρ_k ρ'_k`` over all lags of both autocorrelations (L. Ljung: System Identification, Prentice Hall
+    1999, section 16.6): slow noise and a slow input look similar by chance.
     """
     lags = max(1, min(LAGS, len(values) // 4))
     own = _correlation(values, values, lags)
