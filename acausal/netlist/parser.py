@@ -10,29 +10,21 @@ from __future__ import annotations
 import dataclasses
 import math
 import operator
-import re
 from collections.abc import Callable
 from typing import Any
 
 import sympy as sp
 
-from acausal.errors import DeclarationError, listing, nearest, shortened
+from acausal.errors import listing, nearest, shortened
 from acausal.modeling import where
+from acausal.netlist.tokens import ExpressionError as ExpressionError, TokenStream
 from acausal.netlist.vocabulary import BARE_CONSTANTS, CONSTANTS, CONVERSIONS, FUNCTIONS, function
 
-MAX_LENGTH = 10_000
 MAX_DEPTH = 60
 MAX_INTEGER = 2**53
 MAX_EXPONENT = 100
 MAX_OPERATIONS = 300
 
-TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    r"|(?P<name>[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?(?:\.[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?)*)"
-    r'|(?P<text>"[^"\\]*")'
-    r"|(?P<op><=|>=|==|<>|[-+*/^(){}\[\],;=<>]))"
-)
-KEYWORDS = ("if", "then", "elseif", "else", "and", "or", "not")
 RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
     "<": operator.lt,
     "<=": operator.le,
@@ -43,10 +35,6 @@ RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
 }
 
 Lookup = Callable[[str], Any]
-
-
-class ExpressionError(DeclarationError):
-    """An expression in a file is malformed; the message holds the expression and the place in it."""
 
 
 def parse(text: str, lookup: Lookup) -> Any:
@@ -79,37 +67,14 @@ def parse_equation(text: str, lookup: Lookup) -> tuple[Any, Any]:
     return left, right
 
 
-class _Reader:
+class _Reader(TokenStream):
     """Recursive descent over the tokens of one text."""
 
     def __init__(self, text: str, lookup: Lookup) -> None:
-        if len(text) > MAX_LENGTH:
-            raise ExpressionError(
-                f"an expression of {len(text)} characters; at most {MAX_LENGTH} are read"
-            )
-        self.text, self.lookup = text, lookup
-        self.tokens = self._tokens()
-        self.position = 0
+        super().__init__(text)
+        self.lookup = lookup
         self.depth = 0
         self.operations = 0
-
-    def _tokens(self) -> list[tuple[str, str]]:
-        found: list[tuple[str, str]] = []
-        at, text = 0, self.text.rstrip()
-        while at < len(text):
-            match = TOKEN.match(text, at)
-            if match is None:
-                raise self.wrong(
-                    f"'{text[at:].strip()[:1]}' is not allowed; numbers, names, + - * / ^ and parentheses are"
-                )
-            kind = str(match.lastgroup)
-            found.append(("op" if match[kind] in KEYWORDS else kind, match[kind]))
-            at = match.end()
-        return found
-
-    def wrong(self, reason: str) -> ExpressionError:
-        """The error, with the text and the reason."""
-        return ExpressionError(f"'{shortened(self.text)}': {reason}")
 
     # -- logic ---------------------------------------------------------------------------------------
 
@@ -118,16 +83,16 @@ class _Reader:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             raise self.wrong(f"nested more than {MAX_DEPTH} deep")
-        value = self._choice() if self._peek() == "if" else self._any()
+        value = self._choice() if self.peek() == "if" else self._any()
         self.depth -= 1
         return value
 
     def _choice(self) -> Any:
-        self._next()
+        self.advance()
         condition = self._truth(self.expression())
         self.take("then")
         value = self.expression()
-        if self._peek() == "elseif":
+        if self.peek() == "elseif":
             self.depth += 1
             if self.depth > MAX_DEPTH:
                 raise self.wrong(f"nested more than {MAX_DEPTH} deep")
@@ -142,30 +107,30 @@ class _Reader:
 
     def _any(self) -> Any:
         value = self._all()
-        while self._peek() == "or":
-            self._next()
+        while self.peek() == "or":
+            self.advance()
             value = self._logical(sp.Or, value, self._all())
         return value
 
     def _all(self) -> Any:
         value = self._negation()
-        while self._peek() == "and":
-            self._next()
+        while self.peek() == "and":
+            self.advance()
             value = self._logical(sp.And, value, self._negation())
         return value
 
     def _negation(self) -> Any:
-        if self._peek() == "not":
-            self._next()
+        if self.peek() == "not":
+            self.advance()
             return self._logical(sp.Not, self._relation())
         return self._relation()
 
     def _relation(self) -> Any:
         left = self._sum()
-        if self._peek() not in RELATIONS:
+        if self.peek() not in RELATIONS:
             return left
         self._count()
-        relation = RELATIONS[self._next()]
+        relation = RELATIONS[self.advance()]
         right = self._sum()
         if isinstance(left, str | bool) and isinstance(right, type(left)):
             if relation not in (sp.Eq, sp.Ne):
@@ -191,29 +156,29 @@ class _Reader:
 
     def _sum(self) -> Any:
         value = self._signed_product()
-        while self._peek() in ("+", "-"):
-            value = self._arithmetic(self._next(), value, self._product())
+        while self.peek() in ("+", "-"):
+            value = self._arithmetic(self.advance(), value, self._product())
         return value
 
     def _signed_product(self) -> Any:
-        if self._peek() in ("+", "-"):
-            return self._arithmetic(self._next(), 0, self._product())
+        if self.peek() in ("+", "-"):
+            return self._arithmetic(self.advance(), 0, self._product())
         return self._product()
 
     def _product(self) -> Any:
         value = self._power()
-        while self._peek() in ("*", "/"):
-            value = self._arithmetic(self._next(), value, self._power())
+        while self.peek() in ("*", "/"):
+            value = self._arithmetic(self.advance(), value, self._power())
         return value
 
     def _power(self) -> Any:
         base = self._primary()
-        if self._peek() != "^":
+        if self.peek() != "^":
             return base
-        self._next()
+        self.advance()
         exponent = (
-            self._arithmetic(self._next(), 0, self._primary())
-            if self._peek() in ("+", "-")
+            self._arithmetic(self.advance(), 0, self._primary())
+            if self.peek() in ("+", "-")
             else self._primary()
         )
         return self._arithmetic("^", base, exponent)
@@ -226,7 +191,7 @@ class _Reader:
         if kind == "text":
             return token[1:-1]
         if kind == "name":
-            return self._call(token) if self._peek() == "(" else self._name(token)
+            return self._call(token) if self.peek() == "(" else self._name(token)
         if token == "(":
             value = self.expression()
             self.take(")")
@@ -305,10 +270,10 @@ class _Reader:
     def _call(self, name: str) -> Any:
         self.take("(")
         given: list[tuple[str, Any]] = []
-        if self._peek() != ")":
+        if self.peek() != ")":
             given.append(self._argument())
-            while self._peek() == ",":
-                self._next()
+            while self.peek() == ",":
+                self.advance()
                 given.append(self._argument())
         self.take(")")
         known = function(name)
@@ -360,46 +325,24 @@ class _Reader:
 
     def _list(self, closing: str) -> list[Any]:
         values: list[Any] = []
-        if self._peek() != closing:
+        if self.peek() != closing:
             values.append(self.expression())
-            while self._peek() == ",":
-                self._next()
+            while self.peek() == ",":
+                self.advance()
                 values.append(self.expression())
         self.take(closing)
         return values
 
     def _matrix(self) -> list[list[Any]]:
         rows: list[list[Any]] = [[self.expression()]]
-        while self._peek() in (",", ";"):
-            if self._next() == ";":
+        while self.peek() in (",", ";"):
+            if self.advance() == ";":
                 rows.append([])
             rows[-1].append(self.expression())
         self.take("]")
         if len({len(row) for row in rows}) > 1:
             raise self.wrong("the rows of the matrix differ in length")
         return rows
-
-    # -- tokens --------------------------------------------------------------------------------------
-
-    def take(self, expected: str) -> None:
-        """Read one operator."""
-        if self._peek() != expected:
-            found = f"'{self._peek()}'" if self._peek() else "the end"
-            raise self.wrong(f"'{expected}' expected, {found} found")
-        self.position += 1
-
-    def expect_end(self) -> None:
-        """Nothing may follow."""
-        if self.position < len(self.tokens):
-            raise self.wrong(f"'{shortened(self._peek())}' is not expected there")
-
-    def _peek(self) -> str:
-        """The text of the next token; empty at the end."""
-        return self.tokens[self.position][1] if self.position < len(self.tokens) else ""
-
-    def _next(self) -> str:
-        self.position += 1
-        return self.tokens[self.position - 1][1]
 
 
 def _is_small(exponent: Any) -> bool:
