@@ -76,7 +76,7 @@ def rows(system: ac.System) -> list[tuple[str, str, str, str, str]]:
             "generate",
             "codegen/",
             "Program",
-            f"{len(program.instructions)} array operations, pure JAX",
+            f"{len(program.instructions)} array instructions, as data that JAX runs",
             f"one f64[{step.size}], with tyre.f",
         ),
         (
