@@ -306,23 +306,21 @@ class System:
 
     def _find(self, name: str) -> tuple[int, int]:
         """Node and sign of a variable or a known derivative."""
-        if name.startswith("der(") and name.endswith(")"):
-            node, sign = self._find(name[4:-1])
-            derivative = int(self.reduced.derivative[node])
-            if derivative < 0:
-                raise ModelError(f"the model does not differentiate '{name[4:-1]}'")
-            sign *= int(self.reduced.derivative_sign[node])
-            node, own = self.reduced.resolve(derivative)
-            return node, sign * own
-        index = self.flat.layout.find_variable(name)
+        inner, order = name, 0
+        while inner.startswith("der(") and inner.endswith(")"):
+            inner, order = inner[4:-1], order + 1
+        index = self.flat.layout.find_variable(inner)
         if index is None:
-            hint = nearest(name, self.variables)
-            if "[0]" in name:
+            hint = nearest(inner, self.variables)
+            if "[0]" in inner:
                 hint = (
-                    f"elements are counted from 1, as in Modelica: '{name.replace('[0]', '[1]')}'?"
+                    f"elements are counted from 1, as in Modelica: '{inner.replace('[0]', '[1]')}'?"
                 )
-            raise ModelError(f"the model has no variable '{name}'; {hint}")
-        return self.reduced.resolve(index)
+            raise ModelError(f"the model has no variable '{inner}'; {hint}")
+        found = self.reduced.resolve_derivative(index, order)
+        if found is None:
+            raise ModelError(f"the model does not differentiate '{name.removeprefix('der(')[:-1]}'")
+        return found
 
     def _find_all(self, names: Sequence[str]) -> tuple[list[int], np.ndarray]:
         """Nodes and signs of variables and known derivatives."""

@@ -13,7 +13,9 @@ from jax import Array
 from acausal.codegen.gather import Gather, Interleaved, One, Runs, Take
 from acausal.codegen.instructions import Arguments
 from acausal.codegen.lower import ModuleValue, collect
+from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.values import Packed, Values
+from acausal.flattening import Integers
 from acausal.modeling import time
 
 Arrays = Sequence[Array]
@@ -32,6 +34,14 @@ def read_arguments(arguments: Arguments, values: Values, arrays: Arrays) -> dict
     filled |= {symbol: read_elements(g, [packed.values]) for symbol, g in arguments.parameters}
     filled |= {symbol: chosen_module(packed, chosen) for symbol, chosen in arguments.modules}
     return filled
+
+
+def read_parameters(layout: ParameterLayout, parameters: Integers | int, packed: Packed) -> Array:
+    """Values of parameters, in the shape of their numbers; zero for those that are folded out of the equations."""
+    position = layout.position[parameters]
+    if not (position >= 0).any():
+        return jnp.zeros(np.shape(parameters), packed.values.dtype)
+    return jnp.where(position >= 0, packed.values[position], 0.0)
 
 
 def chosen_module(packed: Packed, chosen: Sequence[int]) -> ModuleValue:

@@ -22,7 +22,7 @@ from acausal.codegen import (
     evaluate,
     rates,
     read,
-    read_elements,
+    read_parameters,
 )
 from acausal.flattening import Binding, EquationGroup, FlatModel, Integers
 from acausal.modeling import time
@@ -127,9 +127,8 @@ class Conditions:
                 groups.setdefault((b.expression, b.symbols), []).append((row, b.arguments))
         for (expression, symbols), found in groups.items():
             rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
-            position = self.parameters.position[arguments]  # -1: folded, or bound to what is folded
-            found = jnp.where(position >= 0, packed.values[position], 0.0)
-            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, found.T, strict=True))))
+            values = read_parameters(self.parameters, arguments, packed)
+            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, values.T, strict=True))))
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
     def _initial(self, group: EquationGroup, at: Values) -> Array:
@@ -140,13 +139,7 @@ class Conditions:
         ):
             columns[symbol] = self._variables(group.variables[:, i], order, at)
         for i, symbol in enumerate(group.template.parameters):
-            kept = self.parameters.position[group.parameters[:, i]] >= 0
-            found = (
-                read_elements(self.parameters.gather(group.parameters[kept, i]), [at.packed.values])
-                if kept.any()
-                else 0.0
-            )
-            columns[symbol] = jnp.zeros(len(group)).at[np.flatnonzero(kept)].set(found)
+            columns[symbol] = read_parameters(self.parameters, group.parameters[:, i], at.packed)
         for i, symbol in enumerate(group.template.modules):
             columns[symbol] = chosen_module(at.packed, self.parameters.chosen(group.modules[:, i]))
         return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))

@@ -59,6 +59,17 @@ class ReducedModel:
             return int(self.aliases.representative[node]), int(self.aliases.sign[node])
         return node, 1
 
+    def resolve_derivative(self, node: int, order: int) -> tuple[int, int] | None:
+        """As `resolve`, of a node's derivative; None where the model does not differentiate so often."""
+        node, sign = self.resolve(node)
+        for _ in range(order):
+            if (derivative := int(self.derivative[node])) < 0:
+                return None
+            sign *= int(self.derivative_sign[node])
+            node, own = self.resolve(derivative)
+            sign *= own
+        return node, sign
+
     @cached_property
     def start_members(self) -> tuple[Integers, Integers]:
         """For every node the variable whose start it takes (itself if it has no name), and the sign.

@@ -30,7 +30,8 @@ def convert(values: Numbers, given: str, wanted: str, what: str) -> Numbers:
     try:
         is_convertible = dimension(source) == dimension(target)
     except UnitError as e:
-        raise DataError(f"{what}: {e}") from None
+        reason = str(e).replace(f"'{source}'", f"'{given}'")
+        raise DataError(f"{what}: {reason}") from None
     if not is_convertible:
         raise DataError(f"{what} is given in '{given}', which cannot become '{wanted or '1'}'.")
     quantity = registry().Quantity(values, pint_unit(source))

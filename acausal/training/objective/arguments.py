@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
+import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
-from acausal.codegen import ModuleValue, Values, evaluate
+from acausal.codegen import ModuleValue, Values, evaluate, read, read_parameters
 from acausal.errors import ModelError, nearest
 from acausal.flattening import EquationGroup
 from acausal.modeling import ModuleCall, time
@@ -25,13 +26,13 @@ class Call:
 
     Attributes:
         arguments: expressions in the slots of the equation that holds the call.
-        variables: which variable fills a slot, by name.
-        parameters: where in ``Packed.values`` a slot's parameter lies; -1 for one that is folded to zero.
+        variables: which node fills a slot, and with what sign.
+        parameters: which parameter fills a slot.
         modules: which module fills a slot, for calls within the arguments.
     """
 
     arguments: tuple[Any, ...]
-    variables: tuple[tuple[sp.Symbol, str], ...]
+    variables: tuple[tuple[sp.Symbol, tuple[int, int]], ...]
     parameters: tuple[tuple[sp.Symbol, int], ...]
     modules: tuple[tuple[sp.Symbol, int], ...]
 
@@ -63,13 +64,19 @@ def _calls(system: System, target: int) -> Iterator[Call]:
 
 def _slots(system: System, group: EquationGroup, row: int) -> tuple[Any, Any, Any]:
     """What fills the slots of one equation: its variables, parameters and modules."""
-    template, names, layout = group.template, system.flat.layout, system.layout
+    template = group.template
     filled = zip(template.variables, group.variables[row].tolist(), template.orders, strict=True)
-    variables = tuple((s, "der(" * n + names.variable(v) + ")" * n) for s, v, n in filled)
-    positions = layout.position[group.parameters[row]].tolist()
-    chosen = layout.module_of[group.modules[row]].tolist()
-    parameters = tuple(zip(template.parameters, positions, strict=True))
+    variables = tuple((s, _node(system, v, n)) for s, v, n in filled)
+    chosen = system.layout.module_of[group.modules[row]].tolist()
+    parameters = tuple(zip(template.parameters, group.parameters[row].tolist(), strict=True))
     return variables, parameters, tuple(zip(template.modules, chosen, strict=True))
+
+
+def _node(system: System, variable: int, order: int) -> tuple[int, int]:
+    """Node and sign of a variable, or of a derivative of it, that stands in the model's equations."""
+    found = system.reduced.resolve_derivative(variable, order)
+    assert found is not None
+    return found
 
 
 def arguments(system: System, module: str, values: Values) -> Float[Array, "n_calls n_arguments"]:
@@ -85,7 +92,12 @@ def _arguments_of(system: System, call: Call, values: Values) -> Float[Array, " 
     present = {s for a in call.arguments for s in a.free_symbols}
     packed = values.packed
     slots: dict[sp.Symbol, Any] = {time: values.t}
-    slots |= {s: system.read((n,), values)[0] for s, n in call.variables if s in present}
-    slots |= {s: 0.0 if p < 0 else packed.values[p] for s, p in call.parameters if s in present}
+    own = [(s, *found) for s, found in call.variables if s in present]
+    if own:
+        symbols, nodes, signs = zip(*own, strict=True)
+        found = read(system.program, nodes, values) * np.asarray(signs)
+        slots |= dict(zip(symbols, found, strict=True))
+    parameters = [(s, p) for s, p in call.parameters if s in present]
+    slots |= {s: read_parameters(system.layout, p, packed) for s, p in parameters}
     slots |= {s: ModuleValue(packed.modules[m]) for s, m in call.modules}
     return jnp.stack([jnp.asarray(evaluate(a, slots), float) for a in call.arguments])
