@@ -23,7 +23,6 @@ from acausal.codegen.parameters import (
 from acausal.codegen.program import Program as Program
 from acausal.codegen.reading import (
     chosen_module as chosen_module,
-    read_elements as read_elements,
     read_parameters as read_parameters,
 )
 from acausal.codegen.values import Packed as Packed, Values as Values

@@ -50,7 +50,7 @@ def explicit_equations(
         return ()
     writer = _Writer(program, parameters, name)
     states = [writer.symbol((STATES, i)) for i in range(program.sizes[STATES])]
-    places = zip(*writer.places(program.state_rates, len(states)), strict=True)
+    places = writer.places(program.state_rates, len(states))
     rates: list[Any] = [
         sp.Eq(sp.Derivative(state, time), int(sign) * writer.value(place), evaluate=False)
         for state, place, sign in zip(states, places, program.rate_signs, strict=True)
@@ -67,6 +67,7 @@ class _Writer:
         self.program, self.parameters, self.name = program, parameters, name
         self.implicit: list[Any] = []
         self._values: dict[Place, sp.Expr] = {(ZERO, 0): sp.S.Zero}
+        self._places: dict[tuple[int, int], list[Place]] = {}
 
     def symbol(self, place: Place) -> sp.Symbol:
         return sp.Symbol(self.name(int(self.program.nodes[place[0]][place[1]])))
@@ -93,26 +94,25 @@ class _Writer:
 
     # -- where arguments lie ---------------------------------------------------------------------------
 
-    def places(self, gather: Gather, size: int) -> tuple[list[int], list[int]]:
-        """Arrays and rows that a gather reads, for each of ``size`` instances."""
-        source, index = gather.positions(self.program.sizes)
-        return np.broadcast_to(source, size).tolist(), np.broadcast_to(index, size).tolist()
-
-    def _place(self, gather: Gather, size: int, row: int) -> Place:
-        source, index = gather.positions(self.program.sizes)
-        i = row if len(source) == size else 0
-        return int(source[i]), int(index[i])
+    def places(self, gather: Gather, size: int) -> list[Place]:
+        """Where a gather reads, for each of ``size`` instances; looked up once for all of them."""
+        key = id(gather), size  # the program keeps the gathers alive
+        if key not in self._places:
+            source, index = gather.positions(self.program.sizes)
+            arrays, rows = (np.broadcast_to(side, size).tolist() for side in (source, index))
+            self._places[key] = list(zip(arrays, rows, strict=True))
+        return self._places[key]
 
     def _read(self, arguments: Arguments, size: int, row: int) -> list[Place]:
-        return [self._place(g, size, row) for _, g in arguments.variables]
+        return [self.places(g, size)[row] for _, g in arguments.variables]
 
     def _slots(self, arguments: Arguments, size: int, row: int) -> SlotExpressions:
         """What fills the slots of one instance."""
         names: SlotExpressions = {internal_time: time}
         for symbol, gather in arguments.variables:
-            names[symbol] = self._values[self._place(gather, size, row)]
+            names[symbol] = self._values[self.places(gather, size)[row]]
         for symbol, gather in arguments.parameters:
-            names[symbol] = sp.Symbol(self.parameters.name_at[self._place(gather, size, row)[1]])
+            names[symbol] = sp.Symbol(self.parameters.name_at[self.places(gather, size)[row][1]])
         for symbol, chosen in arguments.modules:
             one = chosen[row if len(chosen) == size else 0]
             names[symbol] = sp.Symbol(self.parameters.model.layout.module(one))
@@ -128,8 +128,7 @@ class _Writer:
         self._values[place] = _readable(one.expression.xreplace(names))
 
     def accumulate_needs(self, one: Accumulate, place: Place) -> list[Place]:
-        sources, indices = self.places(one.values, one.terms * one.size)
-        return list(zip(sources, indices, strict=True))[place[1] :: one.size]
+        return self.places(one.values, one.terms * one.size)[place[1] :: one.size]
 
     def accumulate(self, one: Accumulate, place: Place) -> None:
         weights = np.broadcast_to(one.weights, (one.terms, one.size))[:, place[1]].tolist()
@@ -158,8 +157,7 @@ class _Writer:
         del place
         gathers = [(g, f.size) for f in loop.formulas for _, g in f.arguments.variables]
         gathers.append((loop.balances.outer, len(loop.balances.outer_rows)))
-        pairs = [self.places(g, size) for g, size in gathers]
-        return list(dict.fromkeys(p for s, i in pairs for p in zip(s, i, strict=True)))
+        return list(dict.fromkeys(p for g, size in gathers for p in self.places(g, size)))
 
     def sparse_loop(self, loop: SolveSparseLoop, place: Place) -> None:
         own = [self.symbol((place[0], i)) for i in range(loop.size)]
@@ -171,7 +169,7 @@ class _Writer:
                 residual = _readable(formula.residual.xreplace(names))
                 self.implicit.append(sp.Eq(residual, 0, evaluate=False))
         b = loop.balances
-        outer = zip(*self.places(b.outer, len(b.outer_rows)), strict=True)
+        outer = self.places(b.outer, len(b.outer_rows))
         terms: list[list[sp.Expr]] = [[] for _ in b.origins]
         _add(terms, b.rows, b.factors, (own[int(p)] for p in b.places))
         _add(terms, b.outer_rows, b.outer_factors, (self._values[p] for p in outer))

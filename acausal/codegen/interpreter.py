@@ -25,9 +25,7 @@ from acausal.codegen.values import Values
 
 def rates(program: Program, values: Values) -> Float[Array, " n_states"]:
     """Derivatives of the states."""
-    if program.state_rates is None:
-        return jnp.zeros_like(values.x)
-    return _rates(program, values, _run(program, program.state_rates.sources, values))
+    return _rates(program, values, _run(program, program.rate_sources, values))
 
 
 def read(program: Program, nodes: Sequence[int], values: Values) -> Float[Array, " n_nodes"]:
@@ -42,8 +40,7 @@ def rates_and_read(
 ) -> tuple[Float[Array, " n_states"], Float[Array, " n_nodes"]]:
     """Derivatives of the states and values of some nodes; shared values are computed once."""
     wanted = program.gather(nodes)
-    needed = program.state_rates.sources if program.state_rates else ()
-    arrays = _run(program, {*wanted.sources, *needed}, values)
+    arrays = _run(program, {*wanted.sources, *program.rate_sources}, values)
     found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
     return _rates(program, values, arrays), found
 

@@ -52,6 +52,11 @@ class Program:
             source[nodes], index[nodes] = array, np.arange(len(nodes))
         return source, index
 
+    @property
+    def rate_sources(self) -> tuple[int, ...]:
+        """The arrays in which the derivatives of the states are read."""
+        return () if self.state_rates is None else self.state_rates.sources
+
     def gather(self, nodes: Sequence[int]) -> Gather:
         """How the values of some nodes are read."""
         chosen = np.asarray(nodes, dtype=np.int64)

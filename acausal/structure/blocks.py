@@ -89,11 +89,6 @@ def order_steps(
     formulas: _Groups = {}
     large: _Groups = {}
 
-    def collect(
-        groups: _Groups, key: Hashable, make: Callable[[list[Any]], SolvingStep], *new: Any
-    ) -> None:
-        groups.setdefault((level, key), _Pending(level, make)).members.extend(new)
-
     for a, b in itertools.pairwise(bounds):
         equations = order[a:b].tolist()
         level = int(blocks.level[blocks.block[equations[0]]])
@@ -102,23 +97,36 @@ def order_steps(
         template, column = system.template[e], system.variables[e].index(unknowns[0])
         if len(equations) > LARGE:
             pairs = zip(equations, unknowns, strict=True)
-            collect(large, None, partial(sparse_loop, system, parameters=values), *pairs)
+            make = partial(sparse_loop, system, parameters=values)
+            _collect(large, level, None, make, *pairs)
         elif len(equations) > 1 or not template.is_solvable(column):
             for outside in _add_up_outside(system, equations, unknowns):
-                collect(sums, len(outside.terms), _accumulation, outside)
+                _collect(sums, level, len(outside.terms), _accumulation, outside)
             block = block_of(system, equations, unknowns, vanishing)
             make = partial(torn_loop, system, parameters=values)
-            collect(formulas, (block.equations, len(equations)), make, block)
+            _collect(formulas, level, (block.equations, len(equations)), make, block)
         elif (weights := template.weights(column)) is not None:
             terms = [v for i, v in enumerate(system.variables[e]) if i != column]
-            collect(sums, len(terms), _accumulation, _Sum(unknowns[0], terms, weights))
+            _collect(sums, level, len(terms), _accumulation, _Sum(unknowns[0], terms, weights))
         elif (e, column) in vanishing:
             raise StructureError(_no_divisor(system, e, column))
         else:
-            collect(formulas, (template, column), partial(_assignment, system, template, column), e)
+            make = partial(_assignment, system, template, column)
+            _collect(formulas, level, (template, column), make, e)
     groups = [*sums.values(), *formulas.values(), *large.values()]
     steps = [(g.level, g.make(g.members)) for g in groups]
     return tuple(step for _, step in sorted(steps, key=lambda s: s[0]))
+
+
+def _collect(
+    groups: _Groups,
+    level: int,
+    key: Hashable,
+    make: Callable[[list[Any]], SolvingStep],
+    *members: Any,
+) -> None:
+    """Put blocks beside those of the same level and key."""
+    groups.setdefault((level, key), _Pending(level, make)).members.extend(members)
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from acausal.codegen import read_elements
 from acausal.codegen.gather import MAX_RUNS, Interleaved, One, Runs, Take, gather
+from acausal.codegen.reading import read_elements
 
 ARRAYS = [jnp.arange(10.0), jnp.arange(100.0, 120.0), jnp.array(7.0), jnp.arange(5.0) * 10]
 SIZES = [10, 20, 1, 5]
