@@ -200,3 +200,9 @@ def test_the_reference_lists_the_public_names() -> None:
     for name in ("Component", "compile", "simulate", "fit", "ensemble", "diagram"):
         assert not listed[name].is_module
         assert listed[name].has_docstring, f"acausal.{name} has no docstring"
+
+
+def test_the_reference_shows_the_options_of_fit() -> None:
+    page = (ROOT / "docs" / "reference" / "acausal.md").read_text(encoding="utf-8")
+    (members,) = re.findall(r"::: acausal\.training\n    options:\n      members: \[(.*)\]", page)
+    assert "FitOptions" in members.split(", ")
