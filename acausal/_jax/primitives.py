@@ -34,9 +34,10 @@ CALLS = _names(
 """Operations that call a jaxpr. (Rules for derivatives have been applied before.)"""
 
 ELEMENTWISE = _names(
-    "abs acos acosh add add_any and asin asinh atan atan2 atanh cbrt ceil clamp convert_element_type copy cos cosh "
-    "div eq erf exp exp2 expm1 floor ge gt integer_pow is_finite le log log1p logistic lt max min mul ne neg not or "
-    "pow rem round rsqrt select_n sign sin sinh sqrt square stop_gradient sub tan tanh xor"
+    "abs acos acosh add add_any and asin asinh atan atan2 atanh cbrt ceil clamp convert_element_type copy cos "
+    "cosh div eq erf exp exp2 expm1 floor ge gt integer_pow is_finite le log log1p log2 logistic lt max min mul "
+    "ne neg nextafter not one_minus_square or pow rem round rsqrt select_n sign sin sinh sqrt square "
+    "stop_gradient sub tan tanh xor"
 )
 """Operations on each element of arrays of one shape; some of their arguments may be single numbers."""
 
@@ -53,7 +54,7 @@ PARAMETERS: Mapping[str, tuple[str, ...]] = {
     DOT: ("dimension_numbers",),
     PAD: ("padding_config",),
     RESHAPE: ("new_sizes",),
-    SCAN: ("jaxpr", "num_consts", "num_carry", "length", "reverse", "unroll"),
+    SCAN: ("jaxpr", "length", "reverse", "unroll"),
     SLICE: ("start_indices", "limit_indices", "strides"),
     TRANSPOSE: ("permutation",),
 }
@@ -115,9 +116,21 @@ def scan_of(equation: Equation) -> Scan:
     Raises:
         UnknownEquationError: if JAX writes scans in another way.
     """
-    body, n_constants, n_carry, *options = parameters(equation)
-    names = PARAMETERS[SCAN][3:]
-    return Scan(body, n_constants, n_carry, dict(zip(names, options, strict=True)))
+    body, *options = parameters(equation)
+    n_constants, n_carry = _shared_and_carried(equation.params)
+    names = PARAMETERS[SCAN][1:]
+    return Scan(_closed(body), n_constants, n_carry, dict(zip(names, options, strict=True)))
+
+
+def _shared_and_carried(params: Mapping[str, Any]) -> tuple[int, int]:
+    """How many arguments of a scan are constants, and how many are carried."""
+    if "num_consts" in params and "num_carry" in params:  # to JAX 0.11
+        return params["num_consts"], params["num_carry"]
+    try:
+        constants, carry, _ = params["ft_in"].unpack()  # from JAX 0.12: a tree for each kind
+        return len(constants), len(carry)
+    except (KeyError, AttributeError, TypeError, ValueError) as error:
+        raise UnknownEquationError(f"'scan' does not say what it carries ({error})") from error
 
 
 def called(equation: Equation) -> ClosedJaxpr:

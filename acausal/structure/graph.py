@@ -64,10 +64,10 @@ def match(incidence: Incidence, n_variables: int) -> list[int]:
     """A maximum matching: for every equation its variable, or -1 (Hopcroft & Karp 1973)."""
     if not len(incidence):
         return []
-    lengths = np.fromiter((len(row) for row in incidence), dtype=np.int64, count=len(incidence))
-    pointers = np.concatenate([[0], np.cumsum(lengths)])
+    lengths = np.fromiter((len(row) for row in incidence), dtype=np.int32, count=len(incidence))
+    pointers = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
     columns = np.fromiter(
-        (v for row in incidence for v in row), dtype=np.int64, count=int(pointers[-1])
+        (v for row in incidence for v in row), dtype=np.int32, count=int(pointers[-1])
     )
     ones = np.ones(len(columns), dtype=np.int8)
     graph = csr_array((ones, columns, pointers), shape=(len(incidence), n_variables))
@@ -184,9 +184,18 @@ def order_blocks(incidence: Incidence, variable_of: Sequence[int], n_variables: 
     equation, needs = equation[real], needs[real]
     graph = csr_array((np.ones(len(needs), dtype=np.int8), (equation, needs)), shape=(n, n))
     count, label = connected_components(graph, directed=True, connection="strong")
+    label = _numbered_as_met(label, count)
     a, b = label[equation], label[needs]
     outside = a != b
     return Blocks(label, _levels(count, a[outside], b[outside]))
+
+
+def _numbered_as_met(label: np.ndarray, count: int) -> np.ndarray:
+    """Labels in the order of their first members: scipy's own order differs between its versions."""
+    _, first = np.unique(label, return_index=True)
+    number = np.empty(count, dtype=np.int64)
+    number[np.argsort(first)] = np.arange(count)
+    return number[label]
 
 
 def _levels(n: int, later: np.ndarray, earlier: np.ndarray) -> np.ndarray:

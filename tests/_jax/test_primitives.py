@@ -24,7 +24,7 @@ USES = {
     "pad": lambda x: jnp.pad(x, 1),
     "reshape": lambda x: x.reshape(2, 6),
     "scan": lambda x: lax.scan(lambda c, r: (c + r @ x[0], c), 0.0, x),
-    "slice": lambda x: x[1:3, ::2],
+    "slice": lambda x: lax.slice(x, (1, 0), (3, 3), (1, 2)),
     "transpose": lambda x: x.T,
 }
 
@@ -35,6 +35,16 @@ def test_operations_have_the_parameters_that_are_read(name: str) -> None:
     read = [primitives.parameters(e) for e in found if primitives.name_of(e) == name]
     assert read
     assert all(len(values) == len(primitives.PARAMETERS[name]) for values in read)
+
+
+def test_what_a_loop_shares_carries_and_reads_is_told_apart() -> None:
+    def loop(x: jax.Array, gain: jax.Array) -> object:
+        return lax.scan(lambda c, r: ((gain * c[0] + r[0], -c[1]), r[1]), (x[0], gain), (x, x))
+
+    equations = jax.make_jaxpr(loop)(X, X[0]).jaxpr.eqns
+    (scan,) = (e for e in equations if primitives.name_of(e) == primitives.SCAN)
+    found = primitives.scan_of(scan)
+    assert (found.n_constants, found.n_carry, len(scan.invars)) == (1, 2, 5)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,9 @@ import sys
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
+from scipy.sparse.csgraph import connected_components
 
+from acausal.structure import graph
 from acausal.structure.graph import (
     DifferentialStructure,
     Matching,
@@ -227,6 +229,21 @@ def test_blocks_depend_on_lower_levels_only(incidence):
     level = blocks.level[blocks.block]
     for e, row in enumerate(incidence):
         assert all(level[v] < level[e] or same[e, v] for v in row)
+
+
+def test_the_order_does_not_depend_on_scipys_numbers(monkeypatch):
+    """Versions of scipy number the components that they find in different orders."""
+    incidence = [[0], [0, 1, 2], [1, 2], [2, 3], [4]]
+    blocks = order_blocks(incidence, [0, 1, 2, 3, 4], 5)
+
+    def backwards(edges, **how):
+        count, label = connected_components(edges, **how)
+        return count, count - 1 - label
+
+    monkeypatch.setattr(graph, "connected_components", backwards)
+    again = order_blocks(incidence, [0, 1, 2, 3, 4], 5)
+    assert again.block.tolist() == blocks.block.tolist() == [0, 1, 1, 2, 3]
+    assert again.level.tolist() == blocks.level.tolist()
 
 
 # -- tearing --------------------------------------------------------------------------------------------------
