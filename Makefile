@@ -20,11 +20,11 @@ export NO_MKDOCS_2_WARNING := 1
 UV := $(shell command -v uv 2>/dev/null)
 
 .DELETE_ON_ERROR:
-.PHONY: help qvm paper test test-slow lint format types contracts docs wheel check lock clean
+.PHONY: help qvm paper test test-slow test-newest test-lowest test-uv lint format types contracts docs wheel check lock clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | while IFS='	' read -r target what; do \
-		printf '  make %-10s %s\n' "$$target" "$$what"; done
+		printf '  make %-12s %s\n' "$$target" "$$what"; done
 
 qvm: $(READY) ## the quarter vehicle: compile, simulate and train it in a minute or so
 	$(BIN)/python -m examples.qvm
@@ -39,6 +39,17 @@ test: $(READY) ## all tests but the slow ones
 
 test-slow: $(READY) ## the slow tests
 	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow
+
+# Environments of their own, made anew each time: .ci/dependencies.py says how.
+test-newest test-lowest test-uv: export XLA_FLAGS ?= --xla_backend_optimization_level=0
+test-newest: $(READY) ## the tests with the newest dependencies, on the newest Python that is found
+	$(BIN)/python .ci/dependencies.py newest
+
+test-lowest: $(READY) ## the tests with the oldest dependencies that pyproject.toml admits, on Python 3.11
+	$(BIN)/python .ci/dependencies.py lowest
+
+test-uv: $(READY) ## the examples of the pages by `uv run`, which does not read the lock
+	$(BIN)/python .ci/dependencies.py uv
 
 lint: $(READY) ## ruff: rules and format
 	$(BIN)/python -m ruff check .

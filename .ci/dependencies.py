@@ -30,11 +30,14 @@ TESTS = ["-n", "auto", "--maxprocesses", "8", "--dist", "loadfile"]
 
 ASK = """
 import ensurepip, json, platform, sys, venv
-print(json.dumps([sys.version_info[:2], sys.version_info[3] == "final" and platform.python_implementation() == "CPython"]))
+released = sys.version_info[3] == "final" and platform.python_implementation() == "CPython"
+print(json.dumps([sys.version_info[:2], released]))
 """
 
 
 class Interpreter(NamedTuple):
+    """A Python, and where it lies."""
+
     version: tuple[int, int]
     path: Path
 
@@ -52,7 +55,9 @@ def newest(arguments: list[str]) -> int:
     """What `pip install .` takes today."""
     python = max(interpreters(), default=None)
     if python is None or python.version == LOWEST:
-        return skipped("newest", "no Python above 3.11 was found; the locked versions are tested there")
+        return skipped(
+            "newest", "no Python above 3.11 was found; the locked versions are tested there"
+        )
     own = environment("newest", python)
     run(own, "-m", "pip", "install", "--quiet", "--editable", f".[{EXTRA}]")
     return tests(own, python, arguments)
@@ -129,7 +134,17 @@ def environment(name: str, python: Interpreter) -> Path:
 
 def tests(python: Path, made_with: Interpreter, arguments: list[str]) -> int:
     """The tests, after a line that says what they run with."""
-    names = ("jax", "diffrax", "equinox", "optax", "optimistix", "numpy", "scipy", "sympy", "networkx")
+    names = (
+        "jax",
+        "diffrax",
+        "equinox",
+        "optax",
+        "optimistix",
+        "numpy",
+        "scipy",
+        "sympy",
+        "networkx",
+    )
     say = f"from importlib.metadata import version as v; print(*(n + ' ' + v(n) for n in {names!r}), sep=', ')"
     print(f"Python {'.'.join(map(str, made_with.version))} with", end=" ", flush=True)
     run(python, "-c", say)
@@ -143,7 +158,9 @@ def tolerant() -> list[str]:
 
 def copy_checkout(into: Path) -> None:
     """The files of the checkout that git does not ignore."""
-    listed = run("git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", capture=True)
+    listed = run(
+        "git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", capture=True
+    )
     for name in filter(None, listed.split("\0")):
         source = ROOT / name
         if source.exists() or source.is_symlink():

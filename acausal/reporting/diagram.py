@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 
 from acausal.modeling import Component, Connector, Module, owner_and_name
+from acausal.reporting.drawing import pyplot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,8 +41,7 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     Returns:
         The axes drawn on.
     """
-    import matplotlib.pyplot as plt
-
+    plt = pyplot()
     wires = _wires(model)
     positions = _layers(model, wires)
     if ax is None:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, cast
 from jaxtyping import Float
 from numpy import ndarray
 
+from acausal.reporting.drawing import pyplot
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -47,8 +49,8 @@ def plot_over_time(
 
 
 def _new_axes(count: int) -> list[Axes]:
-    from matplotlib import pyplot as plt
-
     size = (7.0, 1.0 + 2.0 * count)
-    _, grid = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
+    _, grid = pyplot().subplots(
+        count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
+    )
     return list(grid[:, 0])

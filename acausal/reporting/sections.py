@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 from jaxtyping import Float
 
+from acausal.reporting.drawing import new_figure
 from acausal.reporting.html import Page
 from acausal.reporting.plot import (
     InputStatistics,
@@ -93,11 +94,9 @@ class DivergedUpdate(Protocol):
 
 def figure(size: tuple[float, float], draw: Callable[[Axes], None]) -> Figure:
     """A figure with one pair of axes."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=size, layout="constrained")
-    draw(figure.subplots())
-    return figure
+    drawn = new_figure(size)
+    draw(drawn.subplots())
+    return drawn
 
 
 def add_losses(page: Page, histories: Mapping[str, Losses]) -> None:

@@ -1,0 +1,43 @@
+"""matplotlib, which is installed on request: results are made and compared without it."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+from acausal.errors import AcausalError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def pyplot() -> ModuleType:
+    """`matplotlib.pyplot`, which keeps the figures that notebooks and windows show.
+
+    Raises:
+        AcausalError: if matplotlib is not installed.
+    """
+    try:
+        from matplotlib import pyplot as plt
+    except ModuleNotFoundError as error:
+        raise _missing(error) from None
+    return plt
+
+
+def new_figure(size: tuple[float, float]) -> Figure:
+    """A figure that no window shows, width and height in inches.
+
+    Raises:
+        AcausalError: if matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ModuleNotFoundError as error:
+        raise _missing(error) from None
+    return Figure(figsize=size, layout="constrained")
+
+
+def _missing(error: ModuleNotFoundError) -> Exception:
+    if (error.name or "").partition(".")[0] != "matplotlib":
+        return error
+    return AcausalError("Drawing needs matplotlib: pip install 'acausal[plot]'.")
