@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import traced
+from acausal.by_name import ByName
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
@@ -43,9 +44,9 @@ class Plan:
     least_squares: bool
 
 
-@dataclass(frozen=True, repr=False)
-class Initialization:
-    """Initial values of the states, and how each was found.
+@dataclass(frozen=True, repr=False, eq=False)
+class Initialization(ByName):
+    """Initial values of the states, and how each was found. ``found["mass.s"]`` is one by name.
 
     Attributes:
         x: the values, shape (n_states,). ``states``: their names.
@@ -60,6 +61,19 @@ class Initialization:
     roles: tuple[str, ...]
     conditions: tuple[str, ...]
     residuals: np.ndarray
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the states."""
+        return self.states
+
+    def _column(self, name: str) -> Float[Array, ""]:
+        if name not in self.states:
+            raise DataError(f"'{name}' is not a state; {nearest(name, self.states)}")
+        return self.x[self.states.index(name)]
+
+    def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, " n_names"]:
+        return jnp.asarray([self._column(n) for n in names])
 
     def __repr__(self) -> str:
         width = max(map(len, self.states), default=0)

@@ -12,13 +12,19 @@ from jax.typing import DTypeLike
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import precision
-from acausal.data import Data, Signal
+from acausal._jax import is_real, precision, traced
+from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, StepLimitError, need_compiled
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
-from acausal.simulation.inputs import evaluate_all, functions_of_time
+from acausal.simulation.inputs import (
+    TimeFunction,
+    announce_derivatives,
+    evaluate_all,
+    functions_of_time,
+    inputs_by_name,
+)
 from acausal.simulation.run import EIGENVALUES, Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
@@ -86,8 +92,10 @@ def simulate(
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     ends = None if dt is None else step_ends(start, end, dt)
-    given = _signals(system, inputs) if isinstance(inputs, Data) else inputs or {}
-    functions = functions_of_time(system.inputs, given, ends)
+    given = inputs_by_name(system, inputs)
+    functions = functions_of_time(system.inputs, given, (start, end), ends)
+    _check_times(kind, ends, saved, functions)
+    announce_derivatives(system.inputs, given)
     packed = system.pack(params)
     u_start = evaluate_all(functions, jnp.asarray([start]))[0]
     x_start = system.initial_state(packed, x0, u_start, start)
@@ -107,13 +115,6 @@ def simulate(
     return simulate_adaptive(run, ts, candidates[-1], rtol, atol, max_steps, adjoint, kind)
 
 
-def _signals(system: System, record: Data) -> dict[str, Signal]:
-    """The inputs among a record's signals as functions of time, in the model's units."""
-    names = [n for n in system.inputs if n in record.signals]
-    converted = record.select(names).for_system(system)
-    return {n: converted.signal(n) for n in names}
-
-
 def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
     """Tsit5, then Kvaerno5 if Tsit5 needs too many steps; Kvaerno5 alone for a model that is stiff at the start."""
     implicit = solvers.solver_named("kvaerno5")
@@ -125,7 +126,7 @@ def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:
     try:
-        start, end = (float(v) for v in t)
+        start, end = (float(v) for v in t) if is_real(t) else ()
     except (TypeError, ValueError):
         raise DataError(f"t={t!r} is not a span of time; give (start, end) in seconds.") from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
@@ -136,6 +137,8 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
 
 
 def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
+    if not is_real(saveat):
+        raise DataError(f"saveat={saveat!r:.60} are not times; give seconds.")
     ts = np.atleast_1d(np.asarray(saveat, float))
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
@@ -143,3 +146,22 @@ def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray
     if len(outside):
         raise DataError(f"saveat has {outside[0]:g} s; give times from {start:g} to {end:g} s.")
     return ts
+
+
+def _check_times(
+    dtype: np.dtype[Any],
+    ends: Float[np.ndarray, " n_ends"] | None,
+    saved: Float[np.ndarray, " n_saved"] | None,
+    functions: tuple[TimeFunction, ...],
+) -> None:
+    """Refuse times that the precision of the steps cannot tell apart."""
+    if ends is not None:
+        for outermost in (ends[:2], ends[-2:]):  # the closest, relative to their size
+            check_resolution(outermost, dtype, "The steps")
+    if dtype == np.float64:
+        return
+    if saved is not None:
+        check_resolution(saved, dtype, "saveat")
+    for function in functions:
+        if isinstance(function, Signal) and not traced(function.ts):
+            check_resolution(np.asarray(function.ts), dtype, "An input")

@@ -171,7 +171,7 @@ def test_interpolation_goes_along_with_the_record():
     ("given", "sentence"),
     [
         ("spline", "The record has interpolation='spline'; choose one of linear, previous, cubic, band-limited."),
-        ({"v": "cubic"}, "There is an interpolation for 'v' but no such signal: known are 'u'."),
+        ({"v": "cubic"}, "There is a choice of interpolation for 'v' but no such signal: known are 'u'."),
     ],
 )  # fmt: skip
 def test_interpolations_are_checked(given, sentence):

@@ -5,7 +5,7 @@ import pytest
 
 import acausal as ac
 from acausal.simulation.fixed_steps import Step
-from acausal.simulation.inputs import over_steps
+from acausal.simulation.sampled_inputs import over_steps
 
 UNIFORM = np.linspace(0.0, 2.0, 21)
 UNEVEN = np.sort(np.r_[0.0, 2.0, np.random.default_rng(0).uniform(0, 2, 19)])
@@ -106,7 +106,7 @@ def test_traced_samples_and_times():
             [1, np.inf],
             "'u' is inf at sample 1; leave such samples out, or fill the gap.",
         ),
-        ([0.0, 1.0], ["a", "b"], "'u' holds <U1; numbers are needed."),
+        ([0.0, 1.0], ["a", "b"], "'u' holds <U1; real numbers are needed."),
     ],
 )
 def test_bad_samples_are_refused(ts, values, message):
