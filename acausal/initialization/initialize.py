@@ -15,7 +15,7 @@ import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import traced
+from acausal._jax import is_real, traced
 from acausal.by_name import ByName
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
@@ -153,6 +153,8 @@ class Initializer:
     # -- the problem -------------------------------------------------------------------------------
 
     def _whole(self, x0: ArrayLike) -> Array:
+        if not is_real(x0):
+            raise DataError(f"x0={x0!r:.60} are not the states; give real numbers.")
         x = jnp.asarray(x0, dtype=float)
         if x.shape != (len(self.names),):
             raise DataError(
@@ -175,6 +177,8 @@ class Initializer:
         x = self.conditions.starts(packed)
         for i, name in enumerate(self.names):
             if name in given:
+                if not is_real(given[name]):
+                    raise DataError(f"x0: '{name}' is {given[name]!r:.60}; give a real number.")
                 x = x.at[i].set(given[name])
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
         at_will = ~is_given & ~self.conditions.fixed

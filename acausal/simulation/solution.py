@@ -130,7 +130,8 @@ class Solution(ByName):
         """
         from acausal.reporting import plot_over_time
 
-        curves = self._columns(names_in(names) or self.system.states)
+        chosen = names_in(names[0] if len(names) == 1 else names)
+        curves = self._columns(chosen or self.system.states)
         units = {n: self.system.unit(n) for n in curves}
         return plot_over_time(np.asarray(self.t), curves, units, axes=axes)
 
