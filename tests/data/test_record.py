@@ -73,13 +73,17 @@ def test_temperatures_have_an_offset():
         (lambda: ac.Data(TIME, {"x": None}), "'x' holds None; real numbers are needed."),
         (
             lambda: ac.Data(1e7 + TIME.astype(np.float32), {"x": TIME}),
-            "The record has a time base that does not increase: 10000000 s at sample 0 is followed by 10000000 s. "
-            "Times in float32 are too coarse for this: give float64.",
+            (
+                "The record has a time base that does not increase: 10000000 s at sample 0 is followed by 10000000 s. "
+                "Times in float32 are too coarse for this: give float64."
+            ),
         ),
         (
             lambda: ac.Data(TIME, TIME),
-            "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
-            "not an array of shape (11,).",
+            (
+                "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
+                "not an array of shape (11,)."
+            ),
         ),
         (
             lambda: ac.Data(TIME, {0: TIME}),

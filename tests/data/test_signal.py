@@ -142,8 +142,10 @@ def test_traced_samples_and_times():
         (
             np.float32([1e6, 1e6 + 0.01]),
             [1, 2],
-            "'u' has a time base that does not increase: 1000000 s at sample 0 is followed by 1000000 s. "
-            "Times in float32 are too coarse for this: give float64.",
+            (
+                "'u' has a time base that does not increase: 1000000 s at sample 0 is followed by 1000000 s. "
+                "Times in float32 are too coarse for this: give float64."
+            ),
         ),
         ([0.0, 1.0], ["a", "b"], "'u' holds <U1; real numbers are needed."),
     ],
