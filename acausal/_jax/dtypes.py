@@ -44,6 +44,8 @@ def floating(value: ArrayLike) -> Array:
 
 def is_real(value: object) -> bool:
     """Whether a value is a real number (or a truth value), or an array of them."""
+    if isinstance(value, int | float):
+        return True
     leaves = jax.tree.leaves(value) if traced(value) else [value]
     return all(_real_dtype(leaf) for leaf in leaves)
 

@@ -209,7 +209,7 @@ def _function(
     if samples.ndim == 0:
         if not traced(samples) and not np.isfinite(samples):
             raise DataError(f"Input '{name}' is {samples}.")
-        return Constant(jnp.asarray(samples, float))
+        return Constant(jnp.asarray(cast(ArrayLike, value), float))
     if ends is None:
         raise DataError(
             f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps."

@@ -126,7 +126,9 @@ def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:
     try:
-        start, end = (float(v) for v in t) if is_real(t) else ()
+        if not is_real(t):
+            raise TypeError
+        start, end = (float(v) for v in t)
     except (TypeError, ValueError):
         raise DataError(f"t={t!r} is not a span of time; give (start, end) in seconds.") from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
