@@ -64,7 +64,10 @@ def simulate(
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
             steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time that JAX can trace.
-            Or a `Data` record that holds the inputs. Samples that fall on the steps' ends cost nothing.
+            Or a `Data` record or pandas DataFrame that holds the inputs. Samples that fall on the steps' ends cost
+            nothing. They must reach from start to end, unless a `Signal` or `Data` says what comes before or after
+            them. A derivative of an input, ``der(...)``, can be left out: it is that of the function, or of the
+            interpolation, which is then cubic by default.
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
