@@ -155,6 +155,9 @@ def test_times_that_single_precision_cannot_tell_apart():
     sentence = refused({PUSH: record}, late, dt=0.25, dtype="float32")
     assert sentence.startswith("An input: 1000000 s and")
     assert np.all(np.diff(simulated({PUSH: 1.0}, late, dt=0.01).t) > 0)
+    record = ac.Data(1e7 + T, {PUSH: T, "mass.s": T})
+    with pytest.raises(ac.DataError, match=r"^The record: 10000000 s and .* close for float32"):
+        ac.fit(plain(), record, "mass.s", modifiers=["mass.m"], x0="model", dtype="float32")
 
 
 @pytest.mark.parametrize("t", ["01", ("0", "1"), (0, 1j), b"01"])
