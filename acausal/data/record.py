@@ -123,10 +123,18 @@ class Data(ByName):
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
 
     @classmethod
-    def from_csv(cls, path: str | Path) -> Data:
+    def from_csv(
+        cls,
+        path: str | Path,
+        interpolation: Choices = None,
+        *,
+        before_start: Choices = None,
+        after_end: Choices = None,
+    ) -> Data:
         """Read a file whose first line names the columns, as ``name`` or ``name [unit]``.
 
-        One column is called ``time``. Either every column has a unit or none has.
+        One column is called ``time``. Either every column has a unit or none has. The other arguments are those of
+        `Data`.
 
         Raises:
             DataError: for a file that cannot be read, with the line's number.
@@ -145,7 +153,14 @@ class Data(ByName):
             raise DataError(f"{path} has no column 'time': {nearest('time', names)}")
         columns = dict(zip(names, values.reshape(len(rows), len(names)).T, strict=True))
         try:
-            return cls(columns.pop("time"), columns, units or None)
+            return cls(
+                columns.pop("time"),
+                columns,
+                units or None,
+                interpolation,
+                before_start=before_start,
+                after_end=after_end,
+            )
         except DataError as e:
             raise DataError(f"{path}: {e}") from None
 

@@ -6,6 +6,7 @@ component's `Module` (``self.table(time)``), which is differentiated like a netw
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
 from collections.abc import Callable
 from functools import partial
@@ -56,15 +57,17 @@ class Signal(eqx.Module):
             secant of the last two, or repeat them as a ``"periodic"`` signal.
         before_start, after_end: the same for one side alone. Where nothing is said, a function call holds the end
             values, but a simulation that reaches beyond the samples refuses the signal as its input.
-        derivative: how often the interpolation is differentiated. The values are samples of the signal itself.
         name: of the signal in error messages.
 
     A uniform time base is indexed by arithmetic, any other by a binary search.
 
     Raises:
         DataError: for a time base that is not strictly increasing and finite, samples that are not
-            finite real numbers, lengths that differ, an unknown choice, a band-limited signal on an uneven time base,
-            or a derivative that the interpolation does not have.
+            finite real numbers, lengths that differ, an unknown choice, or a band-limited signal on uneven times.
+
+    Attributes:
+        derivative: how often the interpolation is differentiated, see `differentiated`. ``values`` are samples of the
+            signal itself.
     """
 
     ts: Float[Array, " n"]
@@ -85,7 +88,6 @@ class Signal(eqx.Module):
         *,
         before_start: Beyond | None = None,
         after_end: Beyond | None = None,
-        derivative: int = 0,
         name: str = "signal",
     ) -> None:
         _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
@@ -101,9 +103,7 @@ class Signal(eqx.Module):
         self.after_end = after_end or extrapolation or "refuse"
         _check_choice(name, "before_start", self.before_start, get_args(Beyond))
         _check_choice(name, "after_end", self.after_end, get_args(Beyond))
-        self.derivative = derivative
-        if derivative > DERIVATIVES[interpolation]:
-            raise DataError(_no_derivative(name, interpolation, derivative))
+        self.derivative = 0
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
         self.coefficients = self._coefficients(name) if interpolation == "band-limited" else None
 
@@ -137,15 +137,14 @@ class Signal(eqx.Module):
         Raises:
             DataError: where the interpolation has none.
         """
-        return Signal(
-            self.ts,
-            self.values,
-            self.interpolation,
-            before_start=self.before_start,
-            after_end=self.after_end,
-            derivative=self.derivative + times,
-            name=name,
-        )
+        order = self.derivative + times
+        if order > DERIVATIVES[self.interpolation]:
+            raise DataError(_no_derivative(name, self.interpolation, order))
+        found = object.__new__(Signal)
+        for field in dataclasses.fields(self):
+            object.__setattr__(found, field.name, getattr(self, field.name))
+        object.__setattr__(found, "derivative", order)
+        return found
 
     def __call__(self, t: Scalar) -> Float[Array, ""]:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""

@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, traced
-from acausal.by_name import ByName
+from acausal.by_name import ByName, names_in
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
@@ -44,7 +44,7 @@ class Plan:
     least_squares: bool
 
 
-@dataclass(frozen=True, repr=False, eq=False)
+@dataclass(frozen=True, repr=False)
 class Initialization(ByName):
     """Initial values of the states, and how each was found. ``found["mass.s"]`` is one by name.
 
@@ -185,8 +185,9 @@ class Initializer:
         if isinstance(steady, bool):
             resting = at_will & steady
         else:
-            self._known("steady", steady)
-            resting = np.asarray([n in steady for n in self.names], dtype=bool)
+            named = names_in(steady)
+            self._known("steady", named)
+            resting = np.asarray([n in named for n in self.names], dtype=bool)
         nodes = self.reduced.states[is_given]
         starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
         moved = ~is_given if least_squares else at_will

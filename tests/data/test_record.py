@@ -188,7 +188,10 @@ def test_csv(tmp_path):
     np.testing.assert_allclose(data["mass.s"], [1e-3, 2e-3, 4e-3])
     np.testing.assert_allclose(data.time, [0, 0.5, 1])
     path.write_text("time,mass.s\n0,1\n1,2\n")
-    assert ac.Data.from_csv(path).units is None
+    held = ac.Data.from_csv(path, "previous", after_end="hold")
+    assert held.units is None
+    assert held.signal("mass.s").after_end == "hold"
+    assert held.signal("mass.s").interpolation == "previous"
 
 
 @pytest.mark.parametrize(

@@ -96,6 +96,9 @@ def test_derivatives_at_samples_and_ends():
     assert line.jumps
     assert cubic.differentiated(2).jumps
     assert not cubic.differentiated().jumps
+    wave = ac.Signal(UNIFORM, np.sin(UNIFORM), "band-limited")
+    traced = jax.jit(lambda signal: signal.differentiated()(1.0))(wave)
+    assert float(traced) == pytest.approx(np.cos(1.0), abs=0.05)
     with pytest.raises(ac.DataError, match="no useful third derivative; give the derivative as"):
         cubic.differentiated(3)
 

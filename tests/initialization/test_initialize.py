@@ -428,6 +428,7 @@ def test_parameters_that_follow_from_found_ones():
 def test_initial_values_by_name():
     found = ac.compile(hanging()).initialize(x0={np.str_("m.s"): 0.5}, steady=np.array(["m.v"]))
     assert float(found["m.s"]) == 0.5
+    assert "der(m.v) = 0" in ac.compile(hanging()).initialize(steady="m.v").conditions
     np.testing.assert_array_equal(found[["m.v", "m.s"]], [found["m.v"], 0.5])
     assert list(found) == list(found.states)
     assert "m.s" in found
