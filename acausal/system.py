@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
 from acausal._jax import floating
+from acausal.by_name import names_in
 from acausal.codegen import (
     Packed,
     ParameterLayout,
@@ -184,7 +185,7 @@ class System:
 
         ``der(name)`` gives a derivative that the model knows.
         """
-        names = (name,) if isinstance(name, str) else name
+        names = names_in(name)
         y = self.read(names, self.values(t, x, u, params))
         return y[0] if isinstance(name, str) else y
 

@@ -11,6 +11,7 @@ import numpy as np
 from jax import Array
 from jax.typing import ArrayLike, DTypeLike
 
+from acausal._jax.tracing import traced
 from acausal.errors import DataError
 
 PRECISIONS = ("float64", "float32")
@@ -39,3 +40,19 @@ def floating(value: ArrayLike) -> Array:
     """An array of floating-point numbers in its own precision; integers become double precision."""
     array = jnp.asarray(value)
     return array if jnp.issubdtype(array.dtype, jnp.floating) else jnp.asarray(array, float)
+
+
+def is_real(value: object) -> bool:
+    """Whether a value is a real number (or a truth value), or an array of them."""
+    if isinstance(value, int | float):
+        return True
+    leaves = jax.tree.leaves(value) if traced(value) else [value]
+    return all(_real_dtype(leaf) for leaf in leaves)
+
+
+def _real_dtype(value: Any) -> bool:
+    try:
+        dtype = value.dtype if isinstance(value, Array) else np.asarray(value).dtype
+    except ValueError:  # rows of different lengths
+        return False
+    return any(jnp.issubdtype(dtype, kind) for kind in (np.bool_, np.integer, np.floating))

@@ -12,6 +12,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
 
+from acausal.by_name import names_in
 from acausal.errors import need_compiled
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ def linearize(
     x: Mapping[str, ArrayLike] | Float[ArrayLike, " n_states"] | None = None,
     u: Mapping[str, ArrayLike] | Float[ArrayLike, " n_inputs"] | None = None,
     *,
-    outputs: Sequence[str] = (),
+    outputs: str | Sequence[str] = (),
     params: Mapping[str, Any] | None = None,
     t: float = 0.0,
 ) -> Linearization:
@@ -91,6 +92,7 @@ def linearize(
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")
+    outputs = names_in(outputs)
     packed = system.pack(params)
     point = system.input_values(u)
     state = system.initial_state(packed, x, point, t)
@@ -99,8 +101,8 @@ def linearize(
 
     def rates_and_outputs(x: Array, u: Array) -> tuple[Array, Array]:
         values = at._replace(x=x, u=u)
-        observed = system.read(tuple(outputs), values) if outputs else jnp.zeros(0)
+        observed = system.read(outputs, values) if outputs else jnp.zeros(0)
         return system.rates(values), observed
 
     (A, B), (C, D) = jax.jacfwd(rates_and_outputs, argnums=(0, 1))(at.x, at.u)
-    return Linearization(A, B, C, D, system.states, system.inputs, tuple(outputs), at.x, at.u)
+    return Linearization(A, B, C, D, system.states, system.inputs, outputs, at.x, at.u)

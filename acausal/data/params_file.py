@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 
 from acausal.data.tensors import filled_like, named_arrays, read_arrays, write_arrays
-from acausal.errors import DataError, reason
+from acausal.errors import DataError, reason, shortened
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -29,8 +29,13 @@ def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None
         path: the file, usually ``….safetensors``.
 
     Raises:
-        DataError: if the file cannot be written.
+        DataError: if the file cannot be written, or these are no parameters by name and a path.
     """
+    if not isinstance(params, Mapping) or not isinstance(path, str | os.PathLike):
+        raise DataError(
+            "save_params takes parameters by name, such as fit.params, and then a path, "
+            f"not {_kind(params)} and {_kind(path)}."
+        )
     about = {"kind": KIND, "settings": dict(_settings(dict(params), ""))}
     try:
         write_arrays(Path(path), named_arrays(dict(params)), about)
@@ -49,6 +54,13 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
     Raises:
         DataError: if the file cannot be read, is damaged, or belongs to another model.
     """
+    if not isinstance(path, str | os.PathLike) or not (
+        isinstance(model, Mapping) or hasattr(model, "parameters")
+    ):
+        raise DataError(
+            "load_params takes a path and then a compiled model, or parameters by name, "
+            f"not {_kind(path)} and {_kind(model)}."
+        )
     like: dict[str, Any] = dict(model) if isinstance(model, Mapping) else model.parameters()
     arrays, about = read_arrays(Path(path))
     if about.get("kind") != KIND:
@@ -63,6 +75,11 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
                 f"'{path}' has '{place}' as {there}, but here it is {here}: it belongs to another network."
             )
     return {name: params[name] for name in like}  # JAX sorts them
+
+
+def _kind(thing: object) -> str:
+    """What something is, for a message."""
+    return repr(shortened(thing)) if isinstance(thing, str) else f"a {type(thing).__name__}"
 
 
 def _settings(thing: object, place: str) -> Iterator[tuple[str, str]]:

@@ -4,79 +4,118 @@ from __future__ import annotations
 
 import csv
 import re
+import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast, get_args
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard, get_args
 
 import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal.data.signal import Interpolation, Signal, check_samples, check_time_base, is_uniform
+from acausal.by_name import ByName, names_in
+from acausal.data.signal import (
+    Beyond,
+    Interpolation,
+    Signal,
+    check_samples,
+    check_time_base,
+    is_uniform,
+)
 from acausal.errors import DataError, listing, nearest
 from acausal.units import convert
 
 if TYPE_CHECKING:
+    from pandas import DataFrame
+
     from acausal.system import System
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
 """A column's header: ``name`` or ``name [unit]``."""
 
+Choices: TypeAlias = str | Mapping[str, str] | None
+"""A choice for all signals, or choices by name; where there is none, the default."""
+
 
 @dataclass(frozen=True, eq=False)
-class Data:
-    """A record of measured signals.
+class Data(ByName):
+    """A record of measured signals. ``data["mass.s"]`` is one, ``data[["mass.s", "mass.v"]]`` are two side by side.
 
     Arguments:
         time: sample times, shape (n,), strictly increasing; in seconds unless ``units["time"]`` says
             otherwise.
-        signals: samples by name, each of shape (n,).
+        signals: samples by name, each of shape (n,); or a pandas DataFrame with a column for each.
         units: unit of every signal by name; by default the model's units are assumed.
         interpolation: of inputs between samples, one choice for all or by name, as of an
-            `acausal.Signal`: ``"linear"`` (the default), ``"previous"``, ``"cubic"`` or ``"band-limited"``.
+            `acausal.Signal`: ``"linear"``, ``"previous"``, ``"cubic"`` or ``"band-limited"``. Where nothing is
+            chosen it is linear, and cubic for an input that the model differentiates.
+        before_start, after_end: of inputs beyond the samples, one choice for all or by name, as of an
+            `acausal.Signal`: ``"refuse"`` (the default) a simulation that reaches beyond the samples, ``"hold"`` the
+            end values, continue them in a ``"linear"`` way, or repeat the record as a ``"periodic"`` one.
 
     Raises:
-        DataError: for a time base that does not increase, samples that are missing or not finite,
-            a signal without a unit where others have one, an unknown interpolation.
+        DataError: for a time base that does not increase, samples that are missing or not finite
+            real numbers, a signal without a unit where others have one, an unknown choice.
     """
 
     time: Float[np.ndarray, " n"]
     signals: Mapping[str, Float[np.ndarray, " n"]]
     units: Mapping[str, str] | None = None
-    interpolation: str | Mapping[str, str] = "linear"
+    interpolation: Choices = None
+    before_start: Choices = None
+    after_end: Choices = None
 
     def __init__(
         self,
         time: ArrayLike,
-        signals: Mapping[str, ArrayLike],
+        signals: Mapping[str, ArrayLike] | DataFrame,
         units: Mapping[str, str] | None = None,
-        interpolation: str | Mapping[str, str] = "linear",
+        interpolation: Choices = None,
+        *,
+        before_start: Choices = None,
+        after_end: Choices = None,
     ) -> None:
         unit_of_time = (units or {}).get("time", "s")
         ts = np.asarray(time)
         check_time_base(ts, "The record")
         ts = convert(ts.astype(float), unit_of_time, "s", "'time'")
-        for name, values in signals.items():
+        columns = _by_name(signals)
+        for name, values in columns.items():
             check_samples(values, ts.shape, f"'{name}'")
         if units is not None:
-            _check_units(units, signals)
+            _check_units(units, columns)
             units = {n: u for n, u in units.items() if n != "time"}
-        _check_interpolation(interpolation, signals)
-        columns = {n: np.asarray(v, float) for n, v in signals.items()}
+        choices = {
+            "interpolation": (interpolation, get_args(Interpolation)),
+            "before_start": (before_start, get_args(Beyond)),
+            "after_end": (after_end, get_args(Beyond)),
+        }
+        for what, (given, known) in choices.items():
+            _check_choices(what, given, known, columns)
         for field, value in (
             ("time", ts),
-            ("signals", columns),
+            ("signals", {n: np.asarray(v, float) for n, v in columns.items()}),
             ("units", units),
-            ("interpolation", interpolation),
+            *((what, given) for what, (given, _) in choices.items()),
         ):
             object.__setattr__(self, field, value)
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the signals."""
+        return tuple(self.signals)
+
     @classmethod
-    def of(cls, record: Data | Mapping[str, Any]) -> Data:
-        """A record as it is, or made from a plain mapping ``{"time": ..., name: ...}``."""
+    def of(cls, record: Data | Mapping[str, Any] | DataFrame) -> Data:
+        """A record as it is; or made from a plain mapping ``{"time": ..., name: ...}``, or from a pandas DataFrame.
+
+        A data frame has the times in a column ``time``, or as its index.
+        """
         if isinstance(record, Data):
             return record
+        if is_data_frame(record):
+            return cls(*_time_and_signals(record))
         if not isinstance(record, Mapping):
             raise DataError(f"A record is acausal.Data or a mapping, not {record!r:.80}")
         if "time" not in record:
@@ -84,10 +123,18 @@ class Data:
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
 
     @classmethod
-    def from_csv(cls, path: str | Path) -> Data:
+    def from_csv(
+        cls,
+        path: str | Path,
+        interpolation: Choices = None,
+        *,
+        before_start: Choices = None,
+        after_end: Choices = None,
+    ) -> Data:
         """Read a file whose first line names the columns, as ``name`` or ``name [unit]``.
 
-        One column is called ``time``. Either every column has a unit or none has.
+        One column is called ``time``. Either every column has a unit or none has. The other arguments are those of
+        `Data`.
 
         Raises:
             DataError: for a file that cannot be read, with the line's number.
@@ -106,7 +153,14 @@ class Data:
             raise DataError(f"{path} has no column 'time': {nearest('time', names)}")
         columns = dict(zip(names, values.reshape(len(rows), len(names)).T, strict=True))
         try:
-            return cls(columns.pop("time"), columns, units or None)
+            return cls(
+                columns.pop("time"),
+                columns,
+                units or None,
+                interpolation,
+                before_start=before_start,
+                after_end=after_end,
+            )
         except DataError as e:
             raise DataError(f"{path}: {e}") from None
 
@@ -126,11 +180,10 @@ class Data:
         if self.units is None:
             return self
         given = self.units
-        return Data(
-            self.time,
-            {n: convert(v, given[n], system.unit(n), f"'{n}'") for n, v in self.signals.items()},
-            interpolation=self.interpolation,
-        )
+        converted = {
+            n: convert(v, given[n], system.unit(n), f"'{n}'") for n, v in self.signals.items()
+        }
+        return self._with(self.time, converted, keep_units=False)
 
     def columns(self, names: Iterable[str], purpose: str) -> Float[np.ndarray, "n n_names"]:
         """The named signals side by side; ``purpose`` is what they are needed for, in an error.
@@ -138,19 +191,26 @@ class Data:
         Raises:
             DataError: if the record lacks signals; it lists them.
         """
-        names = tuple(names)
+        names = names_in(names)
         missing = [n for n in names if n not in self.signals]
         if missing:
             raise DataError(f"The data lack {listing(missing)}, {purpose}.")
-        if not names:
-            return np.zeros((len(self), 0))
-        return np.stack([self.signals[n] for n in names], axis=1)
+        return self._side_by_side(names)
 
-    def signal(self, name: str) -> Signal:
-        """A signal as a function of time."""
-        chosen = self.interpolation
-        kind = chosen if isinstance(chosen, str) else chosen.get(name, "linear")
-        return Signal(self.time, self[name], cast(Interpolation, kind), name=name)
+    def signal(self, name: str, interpolation: Interpolation = "linear") -> Signal:
+        """A signal as a function of time; ``interpolation`` is for one for which the record has no choice."""
+
+        def chosen(given: Choices, default: str) -> Any:
+            return (given if isinstance(given, str) else (given or {}).get(name)) or default
+
+        return Signal(
+            self.time,
+            self[name],
+            chosen(self.interpolation, interpolation),
+            before_start=chosen(self.before_start, "refuse"),
+            after_end=chosen(self.after_end, "refuse"),
+            name=name,
+        )
 
     def between(self, start: float, end: float) -> Data:
         """The samples with ``start <= time <= end``.
@@ -168,18 +228,26 @@ class Data:
 
     def select(self, names: Iterable[str]) -> Data:
         """The record with only the named signals."""
-        names = tuple(names)
-        for name in names:
-            if name not in self.signals:
-                raise DataError(f"The record has no '{name}': {nearest(name, self.signals)}")
-        return self._with(self.time, {n: self.signals[n] for n in names})
+        return self._with(self.time, {n: self[n] for n in names_in(names)})
 
-    def _with(self, time: np.ndarray, signals: Mapping[str, np.ndarray]) -> Data:
-        units = None if self.units is None else {n: self.units[n] for n in signals}
-        chosen = self.interpolation
-        if not isinstance(chosen, str):
-            chosen = {n: kind for n, kind in chosen.items() if n in signals}
-        return Data(time, signals, units, chosen)
+    def _with(
+        self, time: np.ndarray, signals: Mapping[str, np.ndarray], *, keep_units: bool = True
+    ) -> Data:
+        """A record like this one with other samples; its signals keep what was chosen for them."""
+
+        def kept(given: Choices) -> Choices:
+            if given is None or isinstance(given, str):
+                return given
+            return {n: choice for n, choice in given.items() if n in signals}
+
+        return Data(
+            time,
+            signals,
+            {n: self.units[n] for n in signals} if keep_units and self.units is not None else None,
+            kept(self.interpolation),
+            before_start=kept(self.before_start),
+            after_end=kept(self.after_end),
+        )
 
     @property
     def uniform(self) -> bool:
@@ -191,10 +259,14 @@ class Data:
         """Mean time between samples, in seconds."""
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
-    def __getitem__(self, name: str) -> Float[np.ndarray, " n"]:
+    def _column(self, name: str) -> Float[np.ndarray, " n"]:
         if name not in self.signals:
             raise DataError(f"The record has no '{name}': {nearest(name, self.signals)}")
         return self.signals[name]
+
+    def _side_by_side(self, names: tuple[str, ...]) -> Float[np.ndarray, "n n_names"]:
+        columns = [self._column(n) for n in names]
+        return np.stack(columns, axis=1) if columns else np.zeros((len(self), 0))
 
     def __len__(self) -> int:
         return len(self.time)
@@ -220,17 +292,61 @@ def _check_units(units: Mapping[str, str], signals: Mapping[str, Any]) -> None:
         )
 
 
-def _check_interpolation(given: str | Mapping[str, str], signals: Mapping[str, Any]) -> None:
+def _check_choices(
+    what: str, given: Choices, known: tuple[str, ...], signals: Mapping[str, Any]
+) -> None:
+    if given is None:
+        return
     by_name = {"The record": given} if isinstance(given, str) else given
-    for name, kind in by_name.items():
-        if kind not in get_args(Interpolation):
-            raise DataError(
-                f"{name} has interpolation={kind!r}; choose one of {', '.join(get_args(Interpolation))}."
-            )
+    for name, choice in by_name.items():
+        if choice not in known:
+            raise DataError(f"{name} has {what}={choice!r}; choose one of {', '.join(known)}.")
         if not isinstance(given, str) and name not in signals:
             raise DataError(
-                f"There is an interpolation for '{name}' but no such signal: {nearest(name, signals)}"
+                f"There is a choice of {what} for '{name}' but no such signal: {nearest(name, signals)}"
             )
+
+
+def is_data_frame(thing: object) -> TypeGuard[DataFrame]:
+    """Whether something is a pandas DataFrame; pandas is not imported for that."""
+    pandas = sys.modules.get("pandas")
+    return pandas is not None and isinstance(thing, pandas.DataFrame)
+
+
+def _by_name(signals: Mapping[str, ArrayLike] | DataFrame) -> Mapping[str, ArrayLike]:
+    """Samples by name.
+
+    Raises:
+        DataError: for anything else, and for a name that is no text, or that occurs twice.
+    """
+    if is_data_frame(signals):
+        if not signals.columns.is_unique:
+            doubled = signals.columns[signals.columns.duplicated()][0]
+            raise DataError(f"The data frame has two columns '{doubled}'.")
+        signals = {name: signals[name].to_numpy() for name in signals.columns}
+    if not isinstance(signals, Mapping):
+        raise DataError(
+            "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
+            f"not {_described(signals)}."
+        )
+    return {name: signals[name] for name in names_in(signals)}
+
+
+def _time_and_signals(frame: DataFrame) -> tuple[ArrayLike, DataFrame]:
+    """The times and the other columns of a data frame."""
+    if "time" in frame.columns:
+        return frame["time"].to_numpy(), frame.drop(columns="time")
+    if frame.index.name is None and type(frame.index).__name__ == "RangeIndex":
+        raise DataError(
+            "The data frame has no time: its index only counts the rows. Give it a column 'time' in seconds, "
+            "or times as its index."
+        )
+    return frame.index.to_numpy(), frame
+
+
+def _described(thing: object) -> str:
+    shape = getattr(thing, "shape", None)
+    return f"{thing!r:.80}" if shape is None else f"an array of shape {shape}"
 
 
 def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:

@@ -6,17 +6,21 @@ component's `Module` (``self.table(time)``), which is differentiated like a netw
 
 from __future__ import annotations
 
+import dataclasses
 import warnings
-from typing import Literal, get_args
+from collections.abc import Callable
+from functools import partial
+from typing import Any, Literal, get_args
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike as Scalar
 from jaxtyping import Array, Float, Int
 from numpy.typing import ArrayLike
 
-from acausal._jax import array, traced
+from acausal._jax import array, is_real, traced
 from acausal.data.band_limited import (
     FRACTIONS,
     between,
@@ -27,6 +31,13 @@ from acausal.errors import DataError
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
+Beyond = Literal["refuse", "hold", "linear", "periodic"]
+"""What a signal does beyond one end of its samples; ``"refuse"`` is what it does where nothing is said."""
+
+DERIVATIVES: dict[str, int] = {"previous": 0, "linear": 1, "cubic": 2, "band-limited": 2}
+"""How often each interpolation can be differentiated. Beyond that, derivatives are impulses or dominated by noise."""
+
+ORDINALS = ("first", "second", "third", "higher")
 
 UNIFORM = 1e-6
 """A time base is uniform if every sample lies within this fraction of the sample time of its place."""
@@ -44,20 +55,28 @@ class Signal(eqx.Module):
             sampling rate (`acausal.data.band_limited`), as after an anti-aliasing filter. It needs a uniform time base.
         extrapolation: outside of the samples, ``"hold"`` the end values, continue the ``"linear"``
             secant of the last two, or repeat them as a ``"periodic"`` signal.
+        before_start, after_end: the same for one side alone. Where nothing is said, a function call holds the end
+            values, but a simulation that reaches beyond the samples refuses the signal as its input.
         name: of the signal in error messages.
 
     A uniform time base is indexed by arithmetic, any other by a binary search.
 
     Raises:
         DataError: for a time base that is not strictly increasing and finite, samples that are not
-            finite, lengths that differ, an unknown choice, or a band-limited signal on an uneven time base.
+            finite real numbers, lengths that differ, an unknown choice, or a band-limited signal on uneven times.
+
+    Attributes:
+        derivative: how often the interpolation is differentiated, see `differentiated`. ``values`` are samples of the
+            signal itself.
     """
 
     ts: Float[Array, " n"]
     values: Float[Array, " n"]
     coefficients: Float[Array, "n_coefficients n_intervals"] | None
     interpolation: Interpolation = eqx.field(static=True)
-    extrapolation: Extrapolation = eqx.field(static=True)
+    before_start: Beyond = eqx.field(static=True)
+    after_end: Beyond = eqx.field(static=True)
+    derivative: int = eqx.field(static=True)
     uniform: bool = eqx.field(static=True)
 
     def __init__(
@@ -65,21 +84,38 @@ class Signal(eqx.Module):
         ts: ArrayLike,
         values: ArrayLike,
         interpolation: Interpolation = "linear",
-        extrapolation: Extrapolation = "hold",
+        extrapolation: Extrapolation | None = None,
         *,
+        before_start: Beyond | None = None,
+        after_end: Beyond | None = None,
         name: str = "signal",
     ) -> None:
         _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
-        _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))
+        if extrapolation is not None:
+            _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))
         if not traced(ts):
             check_time_base(np.asarray(ts), f"'{name}'")
         check_samples(values, np.shape(ts), f"'{name}'")
         self.ts = array(ts)
         self.values = array(values)
         self.interpolation = interpolation
-        self.extrapolation = extrapolation
+        self.before_start = before_start or extrapolation or "refuse"
+        self.after_end = after_end or extrapolation or "refuse"
+        _check_choice(name, "before_start", self.before_start, get_args(Beyond))
+        _check_choice(name, "after_end", self.after_end, get_args(Beyond))
+        self.derivative = 0
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
         self.coefficients = self._coefficients(name) if interpolation == "band-limited" else None
+
+    @property
+    def extrapolation(self) -> Beyond:
+        """Deprecated: `before_start` and `after_end`."""
+        warnings.warn(
+            "Signal.extrapolation is called Signal.before_start and Signal.after_end now",
+            DeprecationWarning,
+            stacklevel=2,
+        )
+        return "hold" if self.after_end == "refuse" else self.after_end
 
     @property
     def bends(self) -> Float[Array, "n_coefficients n_intervals"] | None:
@@ -89,21 +125,60 @@ class Signal(eqx.Module):
         )
         return self.coefficients
 
+    @property
+    def jumps(self) -> bool:
+        """Whether it jumps at its samples."""
+        smooth = self.interpolation == "band-limited"
+        return self.derivative == DERIVATIVES[self.interpolation] and not smooth
+
+    def differentiated(self, times: int = 1, *, name: str = "signal") -> Signal:
+        """The derivative of the interpolation, by time; beyond the samples, where nothing is said, that at the end.
+
+        Raises:
+            DataError: where the interpolation has none.
+        """
+        order = self.derivative + times
+        if order > DERIVATIVES[self.interpolation]:
+            raise DataError(_no_derivative(name, self.interpolation, order))
+        found = object.__new__(Signal)
+        for field in dataclasses.fields(self):
+            object.__setattr__(found, field.name, getattr(self, field.name))
+        object.__setattr__(found, "derivative", order)
+        return found
+
     def __call__(self, t: Scalar) -> Float[Array, ""]:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
         t = jnp.asarray(t, self.ts.dtype)
         first, last = self.ts[0], self.ts[-1]
-        if self.extrapolation == "periodic":
-            return self._inside(first + (t - first) % (last - first))
-        inside = jnp.clip(t, first, last)
-        value = self._inside(inside)
-        if self.extrapolation == "linear":
-            end = jnp.where(t < first, 0, len(self.ts) - 2)
-            value = value + self._secant(end) * (t - inside)
+        if self.before_start == "periodic" or self.after_end == "periodic":
+            repeated = first + (t - first) % (last - first)
+            t = jnp.where(t < first, repeated, t) if self.before_start == "periodic" else t
+            t = jnp.where(t >= last, repeated, t) if self.after_end == "periodic" else t
+        return self.piece(t, t)
+
+    def piece(self, around: Scalar, t: Scalar) -> Float[Array, ""]:
+        """The polynomial that the signal is around a time, at a time ``t``; nothing is repeated periodically.
+
+        At a sample two pieces meet, so ``around`` tells which one is meant.
+        """
+        around, t = (jnp.asarray(v, self.ts.dtype) for v in (around, t))
+        first, last = self.ts[0], self.ts[-1]
+        inside = _between(first, t, last)
+        within = partial(self._within, self._index(_between(first, around, last)))
+        value = differentiate(within, self.derivative)(inside)
+        for outside, end, choice in (
+            (around < first, 0, self.before_start),
+            (around > last, len(self.ts) - 2, self.after_end),
+        ):
+            if self.derivative and choice in ("hold", "linear"):
+                straight = choice == "linear" and self.derivative == 1
+                value = jnp.where(outside, self._secant(end) if straight else 0.0, value)
+            elif choice == "linear":
+                value = jnp.where(outside, value + self._secant(end) * (t - inside), value)
         return value
 
-    def _inside(self, t: Array) -> Float[Array, ""]:
-        i = self._index(t)
+    def _within(self, i: Int[Array, ""], t: Array) -> Float[Array, ""]:
+        """The polynomial between the samples i and i + 1."""
         match self.interpolation:
             case "previous":
                 return self.values[i + (t >= self.ts[i + 1])]
@@ -140,7 +215,7 @@ class Signal(eqx.Module):
     def _secant(self, i: Scalar) -> Float[Array, ""]:
         return (self.values[i + 1] - self.values[i]) / (self.ts[i + 1] - self.ts[i])
 
-    def _derivative(self, i: Int[Array, ""]) -> Float[Array, ""]:
+    def _derivative_at(self, i: Int[Array, ""]) -> Float[Array, ""]:
         """Derivative at sample ``i`` of the parabola through it and its neighbours (at an end, the next two)."""
         if len(self.ts) == 2:
             return self._secant(0)
@@ -153,38 +228,63 @@ class Signal(eqx.Module):
         h = self.ts[i + 1] - self.ts[i]
         s = (t - self.ts[i]) / h
         a, b = self.values[i], self.values[i + 1]
-        da, db = h * self._derivative(i), h * self._derivative(i + 1)
+        da, db = h * self._derivative_at(i), h * self._derivative_at(i + 1)
         rest = (1 - s) * (a - b + da) + s * (b - a - db)
         return a + s * (b - a) + s * (1 - s) * rest
+
+
+def differentiate(
+    function: Callable[[Array], Array], times: int
+) -> Callable[[Array], Float[Array, ""]]:
+    """The derivative of a function of time, in forward mode."""
+    if times == 0:
+        return function
+    inner = differentiate(function, times - 1)
+    return lambda t: jax.jvp(inner, (t,), (jnp.ones_like(t),))[1]
 
 
 def check_time_base(ts: np.ndarray, what: str) -> None:
     """Refuse a time base that is not a strictly increasing, finite vector of two samples or more."""
     if ts.ndim != 1 or len(ts) < 2:
         raise DataError(f"{what} needs a time base of at least two samples, got shape {ts.shape}.")
-    if not np.issubdtype(ts.dtype, np.number):
+    if not is_real(ts) or ts.dtype == bool:
         raise DataError(f"{what} has a time base of {ts.dtype}; seconds are needed.")
     bad = np.flatnonzero(~np.isfinite(ts))
     if len(bad):
         raise DataError(f"{what} has a time that is {ts[bad[0]]} at sample {bad[0]}.")
-    back = np.flatnonzero(np.diff(ts) <= 0)
+    back = np.flatnonzero(~(ts[1:] > ts[:-1]))
     if len(back):
         i = int(back[0])
+        coarse = np.issubdtype(ts.dtype, np.floating) and ts.dtype.itemsize < 8
+        equal = f" Times in {ts.dtype} are too coarse for this: give float64." if coarse else ""
         raise DataError(
             f"{what} has a time base that does not increase: "
-            f"{ts[i]:g} s at sample {i} is followed by {ts[i + 1]:g} s."
+            f"{ts[i]:.9g} s at sample {i} is followed by {ts[i + 1]:.9g} s."
+            + (equal if ts[i] == ts[i + 1] else "")
+        )
+
+
+def check_resolution(ts: np.ndarray, dtype: np.dtype[Any], what: str) -> None:
+    """Refuse times that a precision cannot tell apart."""
+    spacing = np.spacing(np.maximum(np.abs(ts[:-1]), np.abs(ts[1:])).astype(dtype))
+    same = np.flatnonzero(np.diff(ts) < spacing)
+    if len(same):
+        i = int(same[0])
+        raise DataError(
+            f"{what}: {ts[i]:.17g} s and {ts[i + 1]:.17g} s are too close for {dtype.name}; "
+            "let time start at zero, or compute in float64."
         )
 
 
 def check_samples(values: ArrayLike, shape: tuple[int, ...], what: str) -> None:
-    """Refuse samples of another length than their time base, or that are not finite numbers."""
+    """Refuse samples of another length than their time base, or that are not finite real numbers."""
+    if not is_real(values):
+        raise DataError(f"{what} holds {_kind(values)}; real numbers are needed.")
     if np.shape(values) != shape:
         raise DataError(f"{what} has {_count(values)} for {shape[0]} times.")
     if traced(values):
         return
     samples = np.asarray(values)
-    if not np.issubdtype(samples.dtype, np.number) and samples.dtype != bool:
-        raise DataError(f"{what} holds {samples.dtype}; numbers are needed.")
     bad = np.flatnonzero(~np.isfinite(samples))
     if len(bad):
         more = f" and {len(bad) - 1} more" if len(bad) > 1 else ""
@@ -198,6 +298,36 @@ def is_uniform(ts: Float[np.ndarray, " n"]) -> bool:
     interval = (ts[-1] - ts[0]) / (len(ts) - 1)
     places = ts[0] + interval * np.arange(len(ts))
     return bool(np.max(np.abs(ts - places)) <= UNIFORM * interval)
+
+
+def _between(low: Array, t: Array, high: Array) -> Array:
+    """The nearest time between two; where ``t`` is an end, its derivative is that of ``t``."""
+    return jnp.where(t < low, low, jnp.where(t > high, high, t))
+
+
+def _no_derivative(name: str, interpolation: str, times: int) -> str:
+    enough = [f"'{kind}'" for kind, count in DERIVATIVES.items() if count >= times]
+    mend = (
+        f"choose interpolation={' or '.join(enough)}, or give the derivative"
+        if enough
+        else "give the derivative"
+    )
+    return (
+        f"'{name}' has the interpolation '{interpolation}', which has no useful "
+        f"{ORDINALS[min(times, len(ORDINALS)) - 1]} derivative; {mend} as measured."
+    )
+
+
+def _kind(values: Any) -> str:
+    """The type of samples, for a message."""
+    if values is None:
+        return "None"
+    if isinstance(values, str | dict):
+        return f"a {type(values).__name__}"
+    try:
+        return str(values.dtype if hasattr(values, "dtype") else np.asarray(values).dtype)
+    except ValueError:
+        return "rows of different lengths"
 
 
 def _count(values: ArrayLike) -> str:

@@ -15,7 +15,8 @@ import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import traced
+from acausal._jax import is_real, traced
+from acausal.by_name import ByName, names_in
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
@@ -44,8 +45,8 @@ class Plan:
 
 
 @dataclass(frozen=True, repr=False)
-class Initialization:
-    """Initial values of the states, and how each was found.
+class Initialization(ByName):
+    """Initial values of the states, and how each was found. ``found["mass.s"]`` is one by name.
 
     Attributes:
         x: the values, shape (n_states,). ``states``: their names.
@@ -60,6 +61,19 @@ class Initialization:
     roles: tuple[str, ...]
     conditions: tuple[str, ...]
     residuals: np.ndarray
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the states."""
+        return self.states
+
+    def _column(self, name: str) -> Float[Array, ""]:
+        if name not in self.states:
+            raise DataError(f"'{name}' is not a state; {nearest(name, self.states)}")
+        return self.x[self.states.index(name)]
+
+    def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, " n_names"]:
+        return jnp.asarray([self._column(n) for n in names])
 
     def __repr__(self) -> str:
         width = max(map(len, self.states), default=0)
@@ -139,6 +153,8 @@ class Initializer:
     # -- the problem -------------------------------------------------------------------------------
 
     def _whole(self, x0: ArrayLike) -> Array:
+        if not is_real(x0):
+            raise DataError(f"x0={x0!r:.60} are not the states; give real numbers.")
         x = jnp.asarray(x0, dtype=float)
         if x.shape != (len(self.names),):
             raise DataError(
@@ -161,14 +177,17 @@ class Initializer:
         x = self.conditions.starts(packed)
         for i, name in enumerate(self.names):
             if name in given:
+                if not is_real(given[name]):
+                    raise DataError(f"x0: '{name}' is {given[name]!r:.60}; give a real number.")
                 x = x.at[i].set(given[name])
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
         at_will = ~is_given & ~self.conditions.fixed
         if isinstance(steady, bool):
             resting = at_will & steady
         else:
-            self._known("steady", steady)
-            resting = np.asarray([n in steady for n in self.names], dtype=bool)
+            named = names_in(steady)
+            self._known("steady", named)
+            resting = np.asarray([n in named for n in self.names], dtype=bool)
         nodes = self.reduced.states[is_given]
         starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
         moved = ~is_given if least_squares else at_will

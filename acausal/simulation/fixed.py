@@ -15,8 +15,9 @@ from acausal.codegen import Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
 from acausal.simulation.fixed_steps import Steps, integrate
-from acausal.simulation.inputs import evaluate_all, over_steps
+from acausal.simulation.inputs import evaluate_all
 from acausal.simulation.run import Run
+from acausal.simulation.sampled_inputs import over_steps
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import rows_of
 

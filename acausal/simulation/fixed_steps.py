@@ -19,7 +19,8 @@ from jaxtyping import Array, Float, PyTree
 from acausal._jax import stored_scan
 from acausal.codegen import Values
 from acausal.data import deviation_from_line
-from acausal.simulation.inputs import Samples, TimeFunction
+from acausal.simulation.inputs import TimeFunction
+from acausal.simulation.sampled_inputs import Samples
 from acausal.simulation.solvers import Solver
 
 if TYPE_CHECKING:

@@ -1,9 +1,10 @@
-"""The inputs of a simulation: checked, then functions of time, or samples on a grid of steps."""
+"""The inputs of a simulation: checked, then functions of time."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, TypeAlias, cast
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import equinox as eqx
 import jax
@@ -12,16 +13,24 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import traced
-from acausal.data import FRACTIONS, Signal, polynomial_coefficients
+from acausal._jax import is_real, traced
+from acausal.by_name import names_in
+from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest
-from acausal.simulation.step_grid import ON_GRID
+
+if TYPE_CHECKING:
+    from acausal.system import System
 
 TimeFunction: TypeAlias = Callable[[ArrayLike], Array]
 """One input as a function of time: time in seconds -> scalar."""
 
-Ends: TypeAlias = Float[np.ndarray, " n_ends"]
-"""The ends of n steps, with the first one's start: n + 1 times in seconds."""
+Span: TypeAlias = tuple[float, float]
+"""Start and end, in seconds."""
+
+FORMS = "a number, samples, (times, samples), an acausal.Signal, or a function of time"
+
+REACHES = 0.01
+"""Samples reach a time that lies beyond them by less than this part of a sample time: times are rounded."""
 
 
 class Constant(eqx.Module):
@@ -44,15 +53,20 @@ class Function(eqx.Module):
         """The function's value as a scalar array.
 
         Raises:
-            DataError: for a function that JAX cannot trace, or that does not return a scalar.
+            DataError: for a function that JAX cannot trace, or that does not return a real scalar.
         """
         try:
-            value = jnp.asarray(self.function(t), jnp.result_type(t))
+            value = self.function(t)
         except jax.errors.JAXTypeError as error:
             raise DataError(
                 f"Input '{self.name}' is a function that JAX cannot trace; write it with jax.numpy "
                 "(jnp.sin, jnp.where), or give samples: (times, values)."
             ) from error
+        if not is_real(value):
+            raise DataError(
+                f"Input '{self.name}' is a function that returns {_short(value)}, not a real number."
+            )
+        value = jnp.asarray(value, jnp.result_type(t))
         if value.shape != ():
             raise DataError(
                 f"Input '{self.name}' is a function that returns shape {value.shape}, not a scalar."
@@ -60,70 +74,200 @@ class Function(eqx.Module):
         return value
 
 
-class Samples(eqx.Module):
-    """Inputs over n steps.
+class Derivative(eqx.Module):
+    """The derivative of a function of time, which JAX finds."""
 
-    Attributes:
-        start: values at the steps' starts, shape (n, number of inputs).
-        end: values at their ends.
-        functions: per input, the function to evaluate at stage times instead of the samples, or ``None``.
-        coefficients: of the polynomials by which inputs deviate from the line in between
-            (`acausal.data.band_limited.deviation_from_line`); ``None`` where all are linear.
+    function: TimeFunction
+    times: int = eqx.field(static=True)
+
+    def __call__(self, t: ArrayLike) -> Array:
+        """Its value."""
+        return differentiate(self.function, self.times)(jnp.asarray(t))
+
+
+def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
+    """The inputs as a user gives them, by name; those of a record or a pandas DataFrame in the model's units.
+
+    Raises:
+        DataError: for what has no names.
     """
-
-    start: Float[Array, "n n_inputs"]
-    end: Float[Array, "n n_inputs"]
-    functions: tuple[TimeFunction | None, ...] = ()
-    coefficients: Float[Array, "n n_coefficients n_inputs"] | None = None
+    if given is None:
+        return {}
+    if isinstance(given, Data) or is_data_frame(given):
+        record = Data.of(given)
+        known = {form for name in system.inputs for form in _antiderivatives(name)}
+        return record.select([n for n in record.signals if n in known]).for_system(system)
+    if not isinstance(given, Mapping):
+        first = system.inputs[0] if system.inputs else "name"
+        raise DataError(
+            f"inputs={_short(given)} has no names; give inputs={{'{first}': ...}}, with {FORMS} for each."
+        )
+    return {name: given[name] for name in names_in(given)}
 
 
 def functions_of_time(
-    names: tuple[str, ...], given: Mapping[str, Any], ends: Ends | None
+    names: tuple[str, ...],
+    given: Mapping[str, Any] | Data,
+    span: Span,
+    ends: Float[np.ndarray, " n_ends"] | None = None,
 ) -> tuple[TimeFunction, ...]:
     """One function of time for each of the model's inputs.
 
+    Where the model differentiates an input and its derivative is not given, the function is differentiated.
+
     Arguments:
         names: the model's inputs.
-        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; a function of time.
+        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; a function of time. Or
+            a record that holds them, in the model's units.
+        span: the time for which they are needed.
         ends: ends of the fixed steps, for samples without times.
 
     Raises:
-        DataError: for an input that is missing, unknown or malformed.
+        DataError: for an input that is missing, unknown or malformed, that has no derivative where the model needs
+            one, or whose samples do not reach from start to end.
     """
-    unknown = [n for n in given if n not in names]
-    if unknown:
+    sources = _sources(names, given)
+    differentiated = [source for name, source in sources.items() if source != name]
+    functions: dict[str, TimeFunction] = {}
+    for source in dict.fromkeys(sources.values()):
+        kind: Interpolation = "cubic" if source in differentiated else "linear"
+        if isinstance(given, Data):
+            function = given.signal(source, kind)
+        else:
+            function = _function(source, given[source], ends, kind)
+        functions[source] = _reaching(source, function, span)
+    return tuple(_derived(name, source, functions[source]) for name, source in sources.items())
+
+
+def announce_derivatives(names: tuple[str, ...], given: Mapping[str, Any] | Data) -> None:
+    """Warn that records are differentiated, once for each; other functions have exact derivatives.
+
+    Arguments as of `functions_of_time`.
+    """
+    sources = _sources(names, given)
+    for name in dict.fromkeys(source for name, source in sources.items() if source != name):
+        value = given.signal(name, "cubic") if isinstance(given, Data) else given[name]
+        if isinstance(value, Signal):
+            kind = value.interpolation
+        elif callable(value) or np.isscalar(value) or getattr(value, "shape", None) == ():
+            continue
+        else:
+            kind = "cubic"
+        warnings.warn(
+            f"The model differentiates input '{name}': its derivative is that of the record's {kind} "
+            f"interpolation, noise included. If it was measured, give 'der({name})', too.",
+            stacklevel=3,
+        )
+
+
+def _sources(names: tuple[str, ...], given: Mapping[str, Any] | Data) -> dict[str, str]:
+    """By input, the name of what is given for it: itself, or what it is a derivative of."""
+    known = {form for name in names for form in _antiderivatives(name)}
+    unknown = [n for n in given if n not in known]
+    if unknown and not isinstance(given, Data):
         raise DataError(f"The model has no input {listing(unknown)}: {nearest(unknown[0], names)}")
-    missing = [n for n in names if n not in given]
+    sources: dict[str, str] = {}
+    missing: list[str] = []
+    for name in names:
+        forms = tuple(_antiderivatives(name))
+        found = [form for form in forms if form in given]
+        sources.update({name: found[0]} if found else {})
+        missing += [] if found or forms[-1] in missing else [forms[-1]]
+    if missing and isinstance(given, Data):
+        raise DataError(f"The data lack {listing(missing)}, an input of the model.")
     if missing:
         raise DataError(
             f"No value for the model's input {listing(missing)}: give inputs={{'{missing[0]}': ...}}."
         )
-    return tuple(_function(name, given[name], ends) for name in names)
+    return sources
 
 
-def _function(name: str, value: object, ends: Ends | None) -> TimeFunction:
+def _antiderivatives(name: str) -> Iterator[str]:
+    """An input, and what it is a derivative of: ``der(der(u))``, ``der(u)``, ``u``."""
+    yield name
+    while name.startswith("der(") and name.endswith(")"):
+        name = name[4:-1]
+        yield name
+
+
+def _function(
+    name: str,
+    value: object,
+    ends: Float[np.ndarray, " n_ends"] | None,
+    interpolation: Interpolation,
+) -> TimeFunction:
     if isinstance(value, Signal | Constant):
         return value
     if callable(value):
         return Function(cast(Callable[[ArrayLike], ArrayLike], value), name)
     if isinstance(value, tuple) and len(cast(tuple[Any, ...], value)) == 2:
-        times, samples = cast(tuple[ArrayLike, ArrayLike], value)
-        return Signal(times, samples, name=name)
-    samples = cast(ArrayLike, value)
-    if np.ndim(samples) == 0:
+        times, samples = cast(tuple[Any, Any], value)
+        return Signal(times, samples, interpolation, name=name)
+    if not is_real(value):
+        raise DataError(f"Input '{name}' is {_short(value)}; give {FORMS}.")
+    samples = jnp.asarray(value) if traced(value) else np.asarray(value)
+    if samples.ndim == 0:
         if not traced(samples) and not np.isfinite(samples):
             raise DataError(f"Input '{name}' is {samples}.")
-        return Constant(jnp.asarray(samples, float))
+        return Constant(jnp.asarray(cast(ArrayLike, value), float))
     if ends is None:
         raise DataError(
             f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps."
         )
-    if np.shape(samples) != ends.shape:
+    if samples.shape != ends.shape:
         raise DataError(
-            f"Input '{name}' has samples of shape {np.shape(samples)}; "
+            f"Input '{name}' has samples of shape {samples.shape}; "
             f"the {len(ends) - 1} steps from {ends[0]:g} to {ends[-1]:g} s need {len(ends)}."
         )
-    return Signal(ends, samples, name=name)
+    return Signal(ends, samples, interpolation, name=name)
+
+
+def _short(value: object) -> str:
+    """A wrong value, for a message."""
+    dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", ())
+    return f"an array of {dtype}, shape {shape}" if shape or traced(value) else f"{value!r:.60}"
+
+
+def _reaching(name: str, function: TimeFunction, span: Span) -> TimeFunction:
+    """The function, if its samples reach from start to end, or if it says what it is beyond them.
+
+    Where JAX traces their times nothing can be refused; the input is then NaN.
+    """
+    if not isinstance(function, Signal):
+        return function
+    ts = function.ts if traced(function.ts) else np.asarray(function.ts)
+    slack = REACHES * (ts[-1] - ts[0]) / (len(ts) - 1)
+    late = function.before_start == "refuse" and ts[0] - slack > span[0]
+    early = function.after_end == "refuse" and ts[-1] + slack < span[1]
+    if traced(late, early):
+        values = jnp.where(jnp.logical_or(late, early), jnp.nan, function.values)
+        return eqx.tree_at(lambda signal: signal.values, function, values)
+    if early:
+        raise DataError(
+            f"Input '{name}' has samples up to {ts[-1]:.9g} s, but the simulation ends at {span[1]:.9g} s: end it "
+            "there, give more samples, or say after_end='hold' in its ac.Signal or ac.Data."
+        )
+    if late:
+        raise DataError(
+            f"Input '{name}' has samples from {ts[0]:.9g} s on, but the simulation starts at {span[0]:.9g} s: start it "
+            "there, give more samples, or say before_start='hold' in its ac.Signal or ac.Data."
+        )
+    return function
+
+
+def _derived(name: str, source: str, function: TimeFunction) -> TimeFunction:
+    """An input: the given function, or a derivative of it."""
+    times = list(_antiderivatives(name)).index(source)
+    if not times:
+        return function
+    if isinstance(function, Constant):
+        return Constant(jnp.zeros_like(function.value))
+    if not isinstance(function, Signal):
+        return Derivative(function, times)
+    try:
+        return function.differentiated(times, name=source)
+    except DataError as error:
+        raise DataError(f"The model differentiates an input, '{name}': {error}") from None
 
 
 def evaluate(functions: tuple[TimeFunction, ...], t: ArrayLike) -> Float[Array, " n_inputs"]:
@@ -139,94 +283,11 @@ def evaluate_all(
     return jax.vmap(lambda t: evaluate(functions, t))(t)
 
 
-class _Sampled(NamedTuple):
-    """One input over n steps: values at starts and ends, and the coefficients of its deviation from the line."""
-
-    start: ArrayLike
-    end: ArrayLike
-    coefficients: Float[Array, "n_coefficients n"] | None = None
-
-
-def over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
-    """The inputs over fixed steps.
-
-    An input that is a polynomial within every step becomes samples, which a scan reads at no cost.
-    Any other one stays a function, which is evaluated at the stages of every step.
-    """
-    sampled = [_on_grid(f, ends) for f in functions]
-    nothing = jnp.zeros(len(ends) - 1)
-    columns = [_Sampled(nothing, nothing) if c is None else c for c in sampled]
-    left = tuple(f if c is None else None for f, c in zip(functions, sampled, strict=True))
-    if not columns:
-        empty = jnp.zeros((len(ends) - 1, 0))
-        return Samples(empty, empty)
-    at_starts, at_ends, coefficients = zip(*columns, strict=True)
-    return Samples(
-        jnp.stack(at_starts, axis=1), jnp.stack(at_ends, axis=1), left, _side_by_side(coefficients)
-    )
-
-
-def _side_by_side(
-    columns: tuple[Float[Array, "n_coefficients n"] | None, ...],
-) -> Float[Array, "n n_coefficients n_inputs"] | None:
-    some = [c for c in columns if c is not None]
-    if not some:
-        return None
-    straight = jnp.zeros_like(some[0])
-    return jnp.stack([straight if c is None else c for c in columns], axis=-1).swapaxes(0, 1)
-
-
-def _on_grid(function: TimeFunction, ends: Ends) -> _Sampled | None:
-    """An input over every step; ``None`` if it is not a polynomial there."""
-    if isinstance(function, Constant):
-        value = jnp.broadcast_to(function.value, (len(ends) - 1,))
-        return _Sampled(value, value)
-    if not isinstance(function, Signal) or traced(function.ts):
-        return None
-    ts, values = np.asarray(function.ts), function.values
-    if not traced(values):
-        values = np.asarray(values)  # spares the compilation of every operation below
-    if function.extrapolation != "hold" or not _samples_on(ends, ts):
-        return None
-    if function.interpolation in ("cubic", "band-limited"):
-        return _curved(function, ends)
-    if function.interpolation == "previous":
-        value = values[np.maximum(np.searchsorted(ts, (ends[1:] + ends[:-1]) / 2) - 1, 0)]
-        return _Sampled(value, value)
-    i = np.clip(np.searchsorted(ts, ends, side="right") - 1, 0, len(ts) - 2)
-    w = np.clip((ends - ts[i]) / (ts[i + 1] - ts[i]), 0.0, 1.0)
-    w = np.where(np.abs(w - np.round(w)) < ON_GRID, np.round(w), w)
-    value = values[i] + w * (values[i + 1] - values[i])
-    return _Sampled(value[:-1], value[1:])
-
-
-def _curved(signal: Signal, ends: Ends) -> _Sampled:
-    """A part of a polynomial is a polynomial of the same degree, determined by as many points."""
-    steps = ends[:-1, None] + np.diff(ends)[:, None] * FRACTIONS
-    at_ends, inner = _at(signal, ends), _at(signal, steps.ravel())
-    start, end = at_ends[:-1], at_ends[1:]
-    return _Sampled(start, end, polynomial_coefficients(start, end, inner.reshape(steps.shape)))
-
-
-@eqx.filter_jit
-def _at(signal: Signal, t: ArrayLike) -> Float[Array, " n"]:
-    """A signal at many times."""
-    return jax.vmap(signal)(jnp.asarray(t))
-
-
-def _samples_on(ends: Ends, ts: Float[np.ndarray, " n"]) -> bool:
-    """Whether all samples within the span are at ends of steps."""
-    inner = ts[(ts > ends[0]) & (ts < ends[-1])]
-    near = np.clip(np.searchsorted(ends, inner), 1, len(ends) - 1)
-    distance = np.minimum(np.abs(inner - ends[near]), np.abs(inner - ends[near - 1]))
-    return bool(np.all(distance <= ON_GRID * (ends[near] - ends[near - 1])))
-
-
 def jumps(
     functions: tuple[TimeFunction, ...], start: float, end: float
 ) -> Float[np.ndarray, " n_jumps"]:
     """Times between ``start`` and ``end`` at which an input is known to jump."""
-    held = [f for f in functions if isinstance(f, Signal) and f.interpolation == "previous"]
-    known = [np.asarray(f.ts) for f in held if not traced(f.ts)]
+    jumping = [f for f in functions if isinstance(f, Signal) and f.jumps]
+    known = [np.asarray(f.ts) for f in jumping if not traced(f.ts)]
     ts = np.unique(np.concatenate(known)) if known else np.zeros(0)
     return ts[(ts > start) & (ts < end)]

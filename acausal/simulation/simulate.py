@@ -12,13 +12,19 @@ from jax.typing import DTypeLike
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import precision
-from acausal.data import Data, Signal
+from acausal._jax import is_real, precision, traced
+from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, StepLimitError, need_compiled
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
-from acausal.simulation.inputs import evaluate_all, functions_of_time
+from acausal.simulation.inputs import (
+    TimeFunction,
+    announce_derivatives,
+    evaluate_all,
+    functions_of_time,
+    inputs_by_name,
+)
 from acausal.simulation.run import EIGENVALUES, Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
@@ -58,7 +64,10 @@ def simulate(
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
             steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time that JAX can trace.
-            Or a `Data` record that holds the inputs. Samples that fall on the steps' ends cost nothing.
+            Or a `Data` record or pandas DataFrame that holds the inputs. Samples that fall on the steps' ends cost
+            nothing. They must reach from start to end, unless a `Signal` or `Data` says what comes before or after
+            them. A derivative of an input, ``der(...)``, can be left out: it is that of the function, or of the
+            interpolation, which is then cubic by default.
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
@@ -86,8 +95,10 @@ def simulate(
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     ends = None if dt is None else step_ends(start, end, dt)
-    given = _signals(system, inputs) if isinstance(inputs, Data) else inputs or {}
-    functions = functions_of_time(system.inputs, given, ends)
+    given = inputs_by_name(system, inputs)
+    functions = functions_of_time(system.inputs, given, (start, end), ends)
+    _check_times(kind, ends, saved, functions)
+    announce_derivatives(system.inputs, given)
     packed = system.pack(params)
     u_start = evaluate_all(functions, jnp.asarray([start]))[0]
     x_start = system.initial_state(packed, x0, u_start, start)
@@ -107,13 +118,6 @@ def simulate(
     return simulate_adaptive(run, ts, candidates[-1], rtol, atol, max_steps, adjoint, kind)
 
 
-def _signals(system: System, record: Data) -> dict[str, Signal]:
-    """The inputs among a record's signals as functions of time, in the model's units."""
-    names = [n for n in system.inputs if n in record.signals]
-    converted = record.select(names).for_system(system)
-    return {n: converted.signal(n) for n in names}
-
-
 def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
     """Tsit5, then Kvaerno5 if Tsit5 needs too many steps; Kvaerno5 alone for a model that is stiff at the start."""
     implicit = solvers.solver_named("kvaerno5")
@@ -125,6 +129,8 @@ def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:
     try:
+        if not is_real(t):
+            raise TypeError
         start, end = (float(v) for v in t)
     except (TypeError, ValueError):
         raise DataError(f"t={t!r} is not a span of time; give (start, end) in seconds.") from None
@@ -136,6 +142,8 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
 
 
 def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
+    if not is_real(saveat):
+        raise DataError(f"saveat={saveat!r:.60} are not times; give seconds.")
     ts = np.atleast_1d(np.asarray(saveat, float))
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
@@ -143,3 +151,22 @@ def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray
     if len(outside):
         raise DataError(f"saveat has {outside[0]:g} s; give times from {start:g} to {end:g} s.")
     return ts
+
+
+def _check_times(
+    dtype: np.dtype[Any],
+    ends: Float[np.ndarray, " n_ends"] | None,
+    saved: Float[np.ndarray, " n_saved"] | None,
+    functions: tuple[TimeFunction, ...],
+) -> None:
+    """Refuse times that the precision of the steps cannot tell apart."""
+    if ends is not None:
+        for outermost in (ends[:2], ends[-2:]):  # the closest, relative to their size
+            check_resolution(outermost, dtype, "The steps")
+    if dtype == np.float64:
+        return
+    if saved is not None:
+        check_resolution(saved, dtype, "saveat")
+    for function in functions:
+        if isinstance(function, Signal) and not traced(function.ts):
+            check_resolution(np.asarray(function.ts), dtype, "An input")

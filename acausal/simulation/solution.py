@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, cast
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import traced
+from acausal.by_name import ByName, names_in
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest
 
@@ -36,10 +38,12 @@ AXES = Values(0, 0, 0, None)  # pyright: ignore[reportArgumentType]
     drop_fields=["_observed"],
 )
 @dataclass(frozen=True, eq=False)
-class Solution:
+class Solution(ByName):
     """A trajectory. ``solution["body.a"]`` is any variable of the model over ``t``, by its dotted name.
 
-    Variables other than states are computed when they are first asked for.
+    ``solution[["body.v", "body.a"]]`` has one column for each, shape (n, 2); ``"body.a" in solution`` asks whether the
+    model has it; iteration goes through the names. Variables other than states are computed when they are first asked
+    for; ask for many at once, in a list or by `to_dict`.
 
     Attributes:
         values: times, states and inputs with a leading axis of n points, and parameters.
@@ -72,14 +76,14 @@ class Solution:
         """The model's parameters, `system.pack(params)`."""
         return self.values.packed
 
-    def __getitem__(self, name: str) -> Float[Array, " n"]:
-        """The variable's values, shape (n,).
-
-        Raises:
-            DataError: for a name that the model does not have.
-        """
+    def _column(self, name: str) -> Float[Array, " n"]:
         self._observe((name,))
         return self._observed[name]
+
+    def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, "n n_names"]:
+        self._observe(names)
+        columns = [self._observed[n] for n in names]
+        return jnp.stack(columns, axis=1) if columns else jnp.zeros((self.t.shape[0], 0))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -88,7 +92,7 @@ class Solution:
 
     def to_dict(self, names: Iterable[str] | None = None) -> dict[str, Float[np.ndarray, " n"]]:
         """Time and variables (by default all) as arrays, under ``time`` and their names."""
-        names = self.names if names is None else tuple(names)
+        names = self.names if names is None else names_in(names)
         return {"time": np.asarray(self.t), **self._columns(names)}
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> DataFrame:
@@ -126,7 +130,8 @@ class Solution:
         """
         from acausal.reporting import plot_over_time
 
-        curves = self._columns(names or self.system.states)
+        chosen = names_in(names[0] if len(names) == 1 else names)
+        curves = self._columns(chosen or self.system.states)
         units = {n: self.system.unit(n) for n in curves}
         return plot_over_time(np.asarray(self.t), curves, units, axes=axes)
 

@@ -10,10 +10,11 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal._jax import precision
-from acausal.data import Data
+from acausal.by_name import names_in
+from acausal.data import Data, check_resolution
 from acausal.errors import DataError, TrainingError, listing, nearest
 from acausal.networks import networks
-from acausal.simulation import for_fixed_steps, solver_named
+from acausal.simulation import announce_derivatives, for_fixed_steps, solver_named
 from acausal.training.objective.context import context, states_before_training
 from acausal.training.objective.initial_state import first_state
 from acausal.training.objective.losses import named
@@ -75,7 +76,9 @@ def build_problem(
             "(sequence_length=None) with x0='model' or x0={...}."
         )
     record = lay_out(data, system.inputs, targets, None if missing else system.states)
+    announce_derivatives(system.inputs, data)
     dtype = precision(options.dtype)
+    check_resolution(data.time, dtype, "The record")
     problem = Problem(
         system=system,
         params={
@@ -107,7 +110,7 @@ def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[s
     found = networks(params)
     if train is None:
         return tuple(found)
-    chosen = (train,) if isinstance(train, str) else tuple(train)
+    chosen = names_in(train)
     for name in chosen:
         if name not in found:
             raise TrainingError(f"There is no network '{name}' to train: {nearest(name, found)}")

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import PyTree
 from numpy.typing import ArrayLike
 
+from acausal.by_name import names_in
 from acausal.data import Data
 from acausal.errors import TrainingError, listing
 from acausal.training import checkpoint as checkpoints
@@ -62,7 +63,7 @@ def train_from_starts(
         if not isinstance(seed, int | np.integer):
             raise TrainingError(f"seed={seed!r}; give a whole number.")
     training, kept = split(Data.of(data).for_system(system), options.validation)
-    names = (targets,) if isinstance(targets, str) else tuple(targets)
+    names = names_in(targets)
     problem = build_problem(system, training, names, dict(params[0]), options)
     held = hold_out(problem, kept, options.x0)
     plan = legs(problem, options, DIVERGED if options.loss == "nrmse" else np.inf)

@@ -5,6 +5,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import translational as tl
+from tests.support.oscillator import plain
 
 
 class Oscillator(ac.Component):
@@ -64,6 +65,13 @@ def test_a_nonlinear_model_is_linearized_where_it_is() -> None:
 
     A = ac.linearize(ac.compile(Model()), {"mass.s": 0.3}).A
     np.testing.assert_allclose(A[1, 0], -15 * 0.3**2 / 2.0)
+
+
+def test_outputs_are_named_by_texts_of_any_kind() -> None:
+    system = plain()
+    names = np.array(["mass.s", "mass.a"])
+    assert ac.linearize(system, outputs=names).outputs == ("mass.s", "mass.a")
+    assert ac.linearize(system, outputs="mass.s").outputs == ("mass.s",)
 
 
 def test_wrong_names_are_refused(linearized: ac.Linearization) -> None:

@@ -69,6 +69,30 @@ def test_temperatures_have_an_offset():
             "'x' is nan at sample 8 and 2 more; leave such samples out, or fill the gap.",
         ),
         (lambda: ac.Data(TIME, {"x": TIME[:-1]}), "'x' has 10 samples for 11 times."),
+        (lambda: ac.Data(TIME, {"x": 1j * TIME}), "'x' holds complex128; real numbers are needed."),
+        (lambda: ac.Data(TIME, {"x": None}), "'x' holds None; real numbers are needed."),
+        (
+            lambda: ac.Data(1e7 + TIME.astype(np.float32), {"x": TIME}),
+            (
+                "The record has a time base that does not increase: 10000000 s at sample 0 is followed by 10000000 s. "
+                "Times in float32 are too coarse for this: give float64."
+            ),
+        ),
+        (
+            lambda: ac.Data(TIME, TIME),
+            (
+                "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
+                "not an array of shape (11,)."
+            ),
+        ),
+        (
+            lambda: ac.Data(TIME, {0: TIME}),
+            "0 is not a name; give a text such as 'mass.s', or a list.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}, after_end="stop"),
+            "The record has after_end='stop'; choose one of refuse, hold, linear, periodic.",
+        ),
         (
             lambda: ac.Data(TIME, {"x": TIME}).between(5, 6),
             "No two samples lie between 5 and 6 s; the record goes from 0 to 1 s.",
@@ -106,6 +130,50 @@ def test_bad_records_are_refused_in_one_sentence(make, sentence):
     assert refused(make) == sentence
 
 
+def test_signals_are_read_by_name_or_by_lists_of_names():
+    data = ac.Data(TIME, {"x": TIME, np.str_("y"): TIME**2})
+    assert list(data) == ["x", "y"] == list(data.names)
+    assert type(data.names[1]) is str
+    assert "x" in data
+    assert "z" not in data
+    np.testing.assert_array_equal(data[["y", "x"]], np.stack([TIME**2, TIME], axis=1))
+    assert data[[]].shape == (11, 0)
+    assert data.select(np.array(["y"])).names == ("y",)
+    with pytest.raises(ac.DataError, match="The record has no 'z': known are 'x', 'y'"):
+        data[["x", "z"]]
+
+
+def test_what_comes_beyond_goes_along_with_the_record():
+    data = ac.Data(TIME, {"u": TIME, "v": TIME}, before_start="hold", after_end={"u": "periodic"})
+    part = data.between(0.1, 0.9)
+    assert part.select(["u"]).signal("u").after_end == "periodic"
+    assert part.signal("v").after_end == "refuse"
+    assert part.signal("v").before_start == "hold"
+    scaled = ac.Data(TIME, {"mass.s": TIME}, {"mass.s": "mm"}, after_end="hold").for_system(plain())
+    assert scaled.signal("mass.s").after_end == "hold"
+
+
+def test_a_data_frame_is_a_record():
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"x": TIME, "y": TIME**2}, index=TIME)
+    for data in (
+        ac.Data.of(frame),
+        ac.Data(TIME, frame),
+        ac.Data.of(frame.rename_axis("time").reset_index()),
+    ):
+        np.testing.assert_array_equal(data.time, TIME)
+        np.testing.assert_array_equal(data[["x", "y"]], frame.to_numpy())
+    twice = pandas.concat([frame, frame], axis=1)
+    assert refused(lambda: ac.Data.of(twice)) == "The data frame has two columns 'x'."
+    assert refused(lambda: ac.Data.of(frame.reset_index(drop=True))).startswith(
+        "The data frame has no time: its index only counts the rows."
+    )
+    dated = frame.set_index(pandas.to_datetime(1e9 * TIME))
+    assert refused(lambda: ac.Data.of(dated)) == (
+        "The record has a time base of datetime64[ns]; seconds are needed."
+    )
+
+
 def test_a_unit_that_is_none():
     message = refused(
         lambda: ac.Data(TIME, {"mass.v": TIME}, {"mass.v": "meterz"}).for_system(plain())
@@ -120,7 +188,10 @@ def test_csv(tmp_path):
     np.testing.assert_allclose(data["mass.s"], [1e-3, 2e-3, 4e-3])
     np.testing.assert_allclose(data.time, [0, 0.5, 1])
     path.write_text("time,mass.s\n0,1\n1,2\n")
-    assert ac.Data.from_csv(path).units is None
+    held = ac.Data.from_csv(path, "previous", after_end="hold")
+    assert held.units is None
+    assert held.signal("mass.s").after_end == "hold"
+    assert held.signal("mass.s").interpolation == "previous"
 
 
 @pytest.mark.parametrize(
@@ -171,7 +242,7 @@ def test_interpolation_goes_along_with_the_record():
     ("given", "sentence"),
     [
         ("spline", "The record has interpolation='spline'; choose one of linear, previous, cubic, band-limited."),
-        ({"v": "cubic"}, "There is an interpolation for 'v' but no such signal: known are 'u'."),
+        ({"v": "cubic"}, "There is a choice of interpolation for 'v' but no such signal: known are 'u'."),
     ],
 )  # fmt: skip
 def test_interpolations_are_checked(given, sentence):

@@ -5,7 +5,7 @@ import pytest
 
 import acausal as ac
 from acausal.simulation.fixed_steps import Step
-from acausal.simulation.inputs import over_steps
+from acausal.simulation.sampled_inputs import over_steps
 
 UNIFORM = np.linspace(0.0, 2.0, 21)
 UNEVEN = np.sort(np.r_[0.0, 2.0, np.random.default_rng(0).uniform(0, 2, 19)])
@@ -72,6 +72,37 @@ def test_extrapolation():
     assert float(wave(-0.7)) == pytest.approx(float(wave(0.3)))
 
 
+def test_each_side_has_its_own_extrapolation():
+    ts = np.linspace(0, 1, 11)
+    signal = ac.Signal(ts, 2 * ts, "linear", "periodic", before_start="linear")
+    assert float(signal(-1.0)) == pytest.approx(-2.0)
+    assert float(signal(1.3)) == pytest.approx(0.6)
+    for choice in ("linear", "hold"):
+        slope = ac.Signal(ts, 2 * ts, after_end=choice).differentiated()
+        assert float(slope(1.5)) == pytest.approx(2.0 if choice == "linear" else 0.0)
+    with pytest.raises(ac.DataError, match="after_end='stop'; choose one of refuse, hold, linear"):
+        ac.Signal(ts, ts, after_end="stop")  # pyright: ignore[reportArgumentType]
+    with pytest.warns(DeprecationWarning, match="before_start and Signal.after_end now"):
+        assert ac.Signal(ts, ts).extrapolation == "hold"
+
+
+def test_derivatives_at_samples_and_ends():
+    """At a sample the piece on its right counts; at the end, the last one."""
+    line = ac.Signal([0.0, 1.0, 2.0], [0.0, 1.0, 5.0]).differentiated()
+    np.testing.assert_array_equal(at(line, [0.0, 0.5, 1.0, 1.5, 2.0]), [1, 1, 4, 4, 4])
+    cubic = ac.Signal(UNEVEN, UNEVEN**2, "cubic")
+    np.testing.assert_allclose(at(cubic.differentiated(), UNEVEN), 2 * UNEVEN, atol=1e-9)
+    np.testing.assert_allclose(at(cubic.differentiated(2), UNEVEN), 2.0, atol=1e-6)
+    assert line.jumps
+    assert cubic.differentiated(2).jumps
+    assert not cubic.differentiated().jumps
+    wave = ac.Signal(UNIFORM, np.sin(UNIFORM), "band-limited")
+    traced = jax.jit(lambda signal: signal.differentiated()(1.0))(wave)
+    assert float(traced) == pytest.approx(np.cos(1.0), abs=0.05)
+    with pytest.raises(ac.DataError, match="no useful third derivative; give the derivative as"):
+        cubic.differentiated(3)
+
+
 @pytest.mark.parametrize("kind", ["linear", "cubic"])
 def test_derivatives_by_time_and_by_values(kind):
     values = jnp.sin(jnp.asarray(UNEVEN))
@@ -106,12 +137,25 @@ def test_traced_samples_and_times():
             [1, np.inf],
             "'u' is inf at sample 1; leave such samples out, or fill the gap.",
         ),
-        ([0.0, 1.0], ["a", "b"], "'u' holds <U1; numbers are needed."),
+        ([0.0, 1.0], [1, 2j], "'u' holds complex128; real numbers are needed."),
+        ([0.0, 1.0], None, "'u' holds None; real numbers are needed."),
+        ([0.0, 1.0], [1, None], "'u' holds object; real numbers are needed."),
+        ([0.0, 1j], [1, 2], "'u' has a time base of complex128; seconds are needed."),
+        (["0", "1"], [1, 2], "'u' has a time base of <U1; seconds are needed."),
+        (
+            np.float32([1e6, 1e6 + 0.01]),
+            [1, 2],
+            (
+                "'u' has a time base that does not increase: 1000000 s at sample 0 is followed by 1000000 s. "
+                "Times in float32 are too coarse for this: give float64."
+            ),
+        ),
+        ([0.0, 1.0], ["a", "b"], "'u' holds <U1; real numbers are needed."),
     ],
 )
 def test_bad_samples_are_refused(ts, values, message):
     with pytest.raises(ac.DataError) as error:
-        ac.Signal(ts, np.asarray(values), name="u")
+        ac.Signal(ts, values, name="u")
     assert str(error.value).startswith(message)
 
 

@@ -88,6 +88,24 @@ def test_parameters_of_another_model_are_refused(saved: Path, model: Any, senten
     assert str(error.value).startswith(f"'{saved}' {sentence}")
 
 
+def test_swapped_arguments_get_one_sentence(tmp_path: Path):
+    path: Any = str(tmp_path / "a.safetensors")
+    params: Any = plain().parameters()
+    wrong = (
+        (path, params, "'.*a.safetensors' and a dict"),
+        (params, 3, "a dict and a int"),
+        ([1.0], path, "a list and '.*a.safetensors'"),
+    )
+    for first, second, told in wrong:
+        with pytest.raises(ac.DataError, match=rf"^save_params takes .* a path, not {told}\.$"):
+            ac.save_params(first, second)
+    swapped: Any = plain()
+    with pytest.raises(ac.DataError, match=r"^load_params takes a path and .* not a System and '"):
+        ac.load_params(swapped, path)
+    ac.save_params({np.str_("mass.m"): 3.0}, path)
+    assert ac.load_params(path, {"mass.m": 2.0}) == {"mass.m": 3.0}
+
+
 def test_files_that_cannot_be_read_or_written(
     tmp_path: Path, saved: Path, monkeypatch: pytest.MonkeyPatch
 ):

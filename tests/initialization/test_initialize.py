@@ -423,3 +423,14 @@ def test_parameters_that_follow_from_found_ones():
     pair = ac.compile(model(a=Tuned(), b=Tuned()))
     assert pair.states[0] == "a.c"
     assert pair.initial_state(x0={"a.mass.v": 0.0, "b.mass.v": 0.0})[3] == pytest.approx(2.0)
+
+
+def test_initial_values_by_name():
+    found = ac.compile(hanging()).initialize(x0={np.str_("m.s"): 0.5}, steady=np.array(["m.v"]))
+    assert float(found["m.s"]) == 0.5
+    assert "der(m.v) = 0" in ac.compile(hanging()).initialize(steady="m.v").conditions
+    np.testing.assert_array_equal(found[["m.v", "m.s"]], [found["m.v"], 0.5])
+    assert list(found) == list(found.states)
+    assert "m.s" in found
+    with pytest.raises(ac.DataError, match=r"'m\.a' is not a state"):
+        found["m.a"]

@@ -144,6 +144,37 @@ def test_any_variable_by_name(tmp_path):
     np.testing.assert_array_equal(again["mass.s"], sol["mass.s"])
 
 
+def test_results_are_read_by_lists_of_names():
+    sol = ac.simulate(plain(), (0, 1), dt=0.1, inputs={"push.f": 3.0})
+    names = ["mass.a", "push.f", "mass.s"]
+    expected = np.stack([sol[n] for n in names], axis=1)
+    for form in (names, tuple(names), np.array(names), [np.str_(n) for n in names]):
+        np.testing.assert_array_equal(sol[form], expected)
+    assert sol[[]].shape == (11, 0)
+    assert "mass.a" in sol
+    assert np.str_("mass.a") in sol
+    assert "mass.b" not in sol
+    assert 0 not in sol
+    assert list(sol) == list(sol.names)
+    assert sol[np.str_("spring.f")].shape == (11,)
+    assert list(sol.to_dict(np.array(names))) == ["time", *names]
+    both = jax.jit(lambda f: ac.simulate(plain(), (0, 1), dt=0.1, inputs={"push.f": f})[names])(3.0)
+    np.testing.assert_allclose(both, expected, atol=1e-12)
+    observed = plain().observe(np.array(names), 0.0, sol.x[0], sol.u[0], sol.packed)
+    np.testing.assert_allclose(observed, expected[0])
+    with pytest.raises(ac.DataError, match=r"no variable 'mass\.b'"):
+        sol[["mass.a", "mass.b"]]
+
+
+@pytest.mark.parametrize("key", [0, None, 1.5, slice(2), ["mass.a", 1]])
+def test_what_is_no_name(key):
+    sol = ac.simulate(plain(), (0, 1), dt=0.1, inputs=NO_FORCE)
+    with pytest.raises(
+        ac.DataError, match=r" is not a name; give a text such as 'mass\.s', or a list"
+    ):
+        sol[key]
+
+
 def test_saving_less():
     full = ac.simulate(plain(), (0, 1), dt=0.01, inputs={"push.f": jnp.sin})
     some = ac.simulate(plain(), (0, 1), dt=0.01, inputs={"push.f": jnp.sin}, saveat=[0, 0.25, 1])
@@ -154,7 +185,8 @@ def test_saving_less():
 def test_a_plot_has_units():
     pyplot = pytest.importorskip("matplotlib.pyplot")
     sol = ac.simulate(plain(), (0, 1), dt=0.01, inputs=NO_FORCE, x0=AT_ONE)
-    figure = sol.plot("mass.s", "spring.s_rel", "mass.a")
+    figure = sol.plot("mass.s", np.str_("spring.s_rel"), "mass.a")
+    assert len(sol.plot(["mass.s", "mass.a"]).axes) == 2
     assert [ax.get_ylabel() for ax in figure.axes] == ["in m", "mass.a in m/s2"]
     assert figure.axes[-1].get_xlabel() == "time in s"
     pyplot.close(figure)

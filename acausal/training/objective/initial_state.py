@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from numbers import Real
 from typing import TYPE_CHECKING, Literal
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from acausal._jax import is_real
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest
 
@@ -37,7 +37,7 @@ def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " 
             raise DataError(
                 f"x0: '{name}' is not a state of the model: {nearest(name, system.states)}"
             )
-        if not isinstance(value, Real | np.ndarray | Array) or not np.isfinite(value).all():
+        if not is_real(value) or not np.isfinite(value).all():
             raise DataError(f"x0: '{name}' is {value!r}; give a finite number.")
     unknown = [n for n in system.states if n not in data.signals and n not in given]
     if unknown:

@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from acausal.by_name import names_in
 from acausal.errors import TrainingError, nearest
 
 REACHED = 0.99
@@ -243,10 +244,9 @@ def modifiers(
     Raises:
         TrainingError: for a name that is no numeric parameter, or a modifier that does not fit its value.
     """
-    names = (given,) if isinstance(given, str) else given or ()
-    chosen: dict[str, Any] = (
-        dict(names) if isinstance(names, Mapping) else dict.fromkeys(names, gamma)
-    )
+    names = () if given is None else names_in(given)
+    by_name = given if isinstance(given, Mapping) else {}
+    chosen: dict[str, Any] = {name: by_name.get(name, gamma) for name in names}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     kinds: list[Modifier] = []
     for name, wanted in chosen.items():

@@ -57,7 +57,7 @@ def parameter_spread(
     Raises:
         TrainingError: for a name that is no numeric parameter, or a deviation that is not positive.
     """
-    chosen = dict(given or {})
+    chosen = {str(name): deviation for name, deviation in (given or {}).items()}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     for name, deviation in chosen.items():
         if name not in numbers:

@@ -11,7 +11,7 @@ from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray
 
 from acausal.data import Data
 from acausal.errors import DataError
-from acausal.simulation import Samples, Steps, over_steps
+from acausal.simulation import Samples, Steps, functions_of_time, over_steps
 
 
 class Record(eqx.Module):
@@ -51,20 +51,20 @@ def lay_out(
     Raises:
         DataError: for a signal that is missing.
     """
-    data.columns(inputs, "an input of the model")
+    samples = _samples(data, inputs)
     y = data.columns(targets, "a target of the training")
     x = None if states is None else jnp.asarray(data.columns(states, "a state of the model"))
     h = np.diff(data.time)
     lengths = jnp.asarray(data.sample_time) if data.uniform else jnp.asarray(np.append(h, h[-1]))
-    steps = Steps(jnp.asarray(data.time), lengths, _samples(data, inputs))
+    steps = Steps(jnp.asarray(data.time), lengths, samples)
     return Record(steps, jnp.asarray(y), jnp.asarray(y.std(axis=0)), x)
 
 
 def _samples(data: Data, inputs: tuple[str, ...]) -> Samples:
     """The inputs over the steps from every sample; over the last one they stay as they are."""
-    signals = tuple(data.signal(name) for name in inputs)
-    inner = over_steps(signals, data.time)
-    last = jnp.asarray([data[name][-1] for name in inputs])[None]
+    span = float(data.time[0]), float(data.time[-1])
+    inner = over_steps(functions_of_time(inputs, data, span), data.time)
+    last = inner.end[-1:]
     coefficients = inner.coefficients
     if coefficients is not None:
         coefficients = jnp.concatenate([coefficients, jnp.zeros_like(coefficients[:1])])
