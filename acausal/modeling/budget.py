@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field, fields
@@ -69,7 +69,7 @@ _ACTIVE: ContextVar[_Account | None] = ContextVar("budget", default=None)
 
 
 @contextmanager
-def spending(budget: Budget) -> Iterator[None]:
+def spending(budget: Budget) -> Generator[None]:
     """Charge what is made meanwhile to a budget."""
     token = _ACTIVE.set(_Account(budget))
     try:
