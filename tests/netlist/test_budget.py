@@ -13,8 +13,10 @@ from acausal.components import blocks, thermal
 from acausal.flattening import flatten
 
 B = "Modelica.Blocks"
-QUARTIC: dict[str, Any] = {"p1": [1, 1, 1, 1]}
-QUARTIC |= {f"p{k}": f"{{{','.join([f'p{k - 1}'] * 4)}}}" for k in range(2, 16)}
+QUARTIC: dict[str, Any] = {
+    "p1": [1, 1, 1, 1],
+    **{f"p{k}": f"{{{','.join([f'p{k - 1}'] * 4)}}}" for k in range(2, 16)},
+}
 SQUARE = [[1.0] * 400] * 400
 
 
