@@ -28,6 +28,7 @@ from .errors import (
 from .initialization import Initialization as Initialization
 from .modeling import (
     Abs as Abs,
+    Budget as Budget,
     Component as Component,
     Connector as Connector,
     Eq as Eq,

@@ -35,7 +35,7 @@ from acausal.codegen import (
 from acausal.errors import DataError, ModelError, nearest
 from acausal.flattening import FlatModel, flatten
 from acausal.initialization import Initialization, Initializer, initializer
-from acausal.modeling import Component
+from acausal.modeling import Budget, Component
 from acausal.structure import ReducedModel, reduce
 from acausal.units import check_dimensions
 
@@ -43,7 +43,7 @@ Params = Mapping[str, Any] | Packed
 
 
 def compile(  # noqa: A001 (the field's word; reached as ac.compile)
-    model: Component, *, check_units: bool = True
+    model: Component, *, check_units: bool = True, budget: Budget | None = None
 ) -> System:
     """Derive the differential equations of a model and turn them into array code.
 
@@ -51,6 +51,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         model: the component tree; inputs that nothing feeds become the system's inputs.
         check_units: whether to refuse a model whose equations, values or connections mix different units. A
             variable, parameter or network without a unit fits everything.
+        budget: how large the model may become. By default that with which its file was loaded; a model in Python may
+            have a hundred times as much: 10 million components, 100 million equations.
 
     Raises:
         UnitError: if an equation adds, compares or equates different dimensions, or a unit is not valid.
@@ -60,7 +62,7 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
-    flat = flatten(model)
+    flat = flatten(model, budget)
     if check_units:
         check_dimensions(flat)
     reduced = reduce(flat)

@@ -14,7 +14,7 @@ from jaxtyping import Array, Float
 from scipy.optimize import least_squares
 
 from acausal.analysis.formula import TERMS, Formula
-from acausal.errors import TrainingError, listing, nearest
+from acausal.errors import DeclarationError, TrainingError, listing, nearest
 from acausal.networks import law_of
 
 Points: TypeAlias = Float[np.ndarray, " n"]
@@ -134,7 +134,7 @@ def _checked(low: float, high: float, terms: int, among: Sequence[str]) -> tuple
 def _values(network: Callable[..., Array], x: Points) -> Points:
     try:
         y = np.asarray(jax.jit(jax.vmap(law_of(network)))(jnp.asarray(x)))
-    except TypeError:
+    except (TypeError, DeclarationError):  # called with one argument
         y = None
     if y is None or y.shape != x.shape:
         raise TrainingError(

@@ -13,6 +13,8 @@ import sympy as sp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
+from acausal.networks import check_inputs
+
 NEAREST = 1e-12
 """The root is constant below this, where its derivative would be unbounded."""
 
@@ -66,9 +68,10 @@ class Formula(eqx.Module):
     coefficients: Float[Array, " n_terms"]
     scales: Float[Array, " n_terms"]
 
-    def __call__(self, x: ArrayLike) -> Float[Array, ""]:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The value for a scalar."""
-        point = jnp.asarray(x, float)
+        check_inputs(self, inputs, 1)
+        point = jnp.asarray(inputs[0], float)
         parts = zip(self.terms, self.scales, strict=True)
         values = [TERMS[name].value(jnp, point / scale) for name, scale in parts]
         return jnp.sum(self.coefficients * jnp.stack(values))

@@ -26,6 +26,7 @@ from acausal.modeling import (
     Flow,
     Input,
     Output,
+    charge,
     endpoint_label,
     owner_and_name,
 )
@@ -64,6 +65,7 @@ def connection_sets(layout: Layout) -> ConnectionSets:
         ConnectionError: where a connected component is not part of the model.
     """
     pairs, kinds = _pairs(layout)
+    charge("equations", len(pairs), layout.components[0]._node)
     if not len(pairs):
         return ConnectionSets((), pairs)
     sides, index = np.unique(pairs, return_inverse=True)

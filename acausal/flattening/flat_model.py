@@ -15,7 +15,7 @@ from acausal.flattening.instances import instantiate
 from acausal.flattening.layout import Flags, Layout, Numbers, lay_out
 from acausal.flattening.template import Integers
 from acausal.flattening.values import module_values, parameter_values
-from acausal.modeling import Component
+from acausal.modeling import PYTHON, Budget, Component, spending
 
 
 @dataclass(frozen=True)
@@ -68,13 +68,22 @@ class FlatModel:
         return parameter_aliases(self.bindings, len(self.value))
 
 
-def flatten(model: Component) -> FlatModel:
+def flatten(model: Component, budget: Budget | None = None) -> FlatModel:
     """Number the variables of a component tree and instantiate its equations.
 
+    Arguments:
+        budget: how large the model may become; by default that of its file, or of models in Python.
+
     Raises:
-        DeclarationError: for a parameter without a value, or an equation that refers to something outside of the model.
+        DeclarationError: for a parameter without a value, an equation that refers to something outside of the model,
+            or more than the budget allows.
         ConnectionError: for connections that cannot be made.
     """
+    with spending(budget or model._node.budget or PYTHON):
+        return _flat(model)
+
+
+def _flat(model: Component) -> FlatModel:
     layout = lay_out(model)
     equations, initial = instantiate(layout)
     sets = connection_sets(layout)

@@ -23,6 +23,7 @@ from acausal.modeling import (
     Module,
     Reference,
     Variable,
+    charge,
     der,
     time,
 )
@@ -55,7 +56,7 @@ def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[Equati
             (equations, lambda p=form.prototype: _equations(p)),
             (initial, form.prototype.initial_equations),
         ):
-            for equation in _read(form.prototype, stated):
+            for equation in _read(form.prototype, stated, len(members[number])):
                 template, places = _template(layout, form.prototype, equation)
                 groups.append(_fill(layout, template, places, members[number]))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
@@ -71,11 +72,15 @@ def _equations(component: Component) -> Iterable[Eq]:
             yield Eq(der(getattr(component, name)), 0)
 
 
-def _read(component: Component, equations: Callable[[], Iterable[Eq]]) -> list[Eq]:
+def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances: int) -> list[Eq]:
     """The equations of a user's method; an error in it becomes a sentence with the line."""
+    found: list[Eq] = []
     try:
-        return list(equations())
-    except (TypeError, ValueError) as error:
+        for equation in equations():
+            charge("equations", instances, component._node)
+            found.append(equation)
+        return found
+    except (TypeError, ValueError, ArithmeticError) as error:
         reason = str(error).partition("\n")[0]
         frames = traceback.extract_tb(error.__traceback__)
         own = [f for f in frames if "site-packages" not in f.filename and f.filename != __file__]

@@ -20,6 +20,7 @@ from acausal.modeling import (
     Option,
     Parameter,
     Variable,
+    charge,
     element_names,
 )
 
@@ -176,6 +177,8 @@ def lay_out(model: Component) -> Layout:
             known[key] = len(forms)
             forms.append(_form(component))
         form_of[i] = number[id(component)] = known[key]
+        form = forms[known[key]]
+        charge("elements", len(form.variables) + len(form.parameters), component._node)
 
     def base(sizes: list[int]) -> Integers:
         return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64)[form_of])])

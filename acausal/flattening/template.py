@@ -185,8 +185,7 @@ class Template:
     @cache
     def partial(self, column: int) -> sp.Expr:
         """Partial derivative of the residual with respect to a variable slot."""
-        symbol = self.variables[column]
-        return sp.Add(*(term.diff(symbol) for term in self._terms()[symbol]))
+        return _derivative(self.residual, self.variables[column])
 
     @cache
     def solved(self, column: int) -> sp.Expr | None:
@@ -233,19 +232,34 @@ class Template:
         del inside
 
     @cache
-    def _terms(self) -> dict[Any, list[sp.Expr]]:
-        """The terms of the residual that contain each symbol."""
-        found: dict[Any, list[sp.Expr]] = {s: [] for s in self.variables}
-        for term in sp.Add.make_args(self.residual):
-            for symbol in term.free_symbols:
-                found.setdefault(symbol, []).append(term)
-        return found
-
-    @cache
     def _deciding(self) -> set[Any]:
         """The symbols that decide a case or a step: the residual jumps there, which its derivatives do not show."""
         places = self.residual.atoms(Relational, sp.Function)
         return set().union(*(p.free_symbols for p in places if not isinstance(p, sp.Piecewise)))
+
+
+def _derivative(expression: Any, symbol: sp.Symbol) -> Any:
+    """The derivative, from those arguments of sums and products that contain the symbol: of hundreds a few."""
+    if not isinstance(expression, sp.Add | sp.Mul):
+        return expression.diff(symbol)
+    places = _places(expression).get(symbol, ())
+    if isinstance(expression, sp.Add):
+        return sp.Add(*(_derivative(expression.args[i], symbol) for i in places))
+    if len(places) != 1:
+        return expression.diff(symbol)
+    factors = list(expression.args)
+    factors[places[0]] = _derivative(factors[places[0]], symbol)
+    return sp.Mul(*factors)
+
+
+@cache
+def _places(expression: sp.Expr) -> dict[Any, list[int]]:
+    """For every symbol, the arguments of an expression that contain it."""
+    found: dict[Any, list[int]] = {}
+    for i, argument in enumerate(expression.args):
+        for symbol in argument.free_symbols:
+            found.setdefault(symbol, []).append(i)
+    return found
 
 
 @cache

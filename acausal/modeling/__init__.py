@@ -21,6 +21,15 @@ from sympy import (
     tanh as tanh,
 )
 
+from acausal.modeling.budget import (
+    PYTHON as PYTHON,
+    Budget as Budget,
+    BudgetError as BudgetError,
+    charge as charge,
+    check_nested as check_nested,
+    check_size as check_size,
+    spending as spending,
+)
 from acausal.modeling.component import Component as Component
 from acausal.modeling.connector import Connector as Connector
 from acausal.modeling.declarations import (

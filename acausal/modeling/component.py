@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 from acausal.errors import ConnectionError, DeclarationError, nearest
+from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
 from acausal.modeling.declarations import Declaration
 from acausal.modeling.endpoints import Endpoint, check_lengths, check_pair, is_vector
@@ -44,6 +45,7 @@ class Component:
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """An empty component; nothing depends on a subclass calling ``super().__init__``."""
+        charge("components", 1, cls.__name__)
         self = super().__new__(cls)
         self.__dict__["_node"] = Node(self, cls._declared)
         return self
@@ -99,6 +101,7 @@ class Component:
                     self.connect(x, y)
             else:
                 check_pair(a, b)
+                charge("equations", 1, self._node)
                 self._node.connections.append((cast(Endpoint, a), cast(Endpoint, b)))
 
     def modify(self, **modifiers: Any) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, ClassVar, Self, cast
 
 from acausal.errors import DeclarationError
+from acausal.modeling.budget import charge
 from acausal.modeling.declarations import (
     Declaration,
     Flow,
@@ -45,6 +46,7 @@ class Connector:
     declarations: ClassVar[dict[str, Variable]] = {}
 
     def __init__(self, *, when: str | None = None) -> None:
+        charge("elements", len(self.declarations), type(self).__name__)
         self._when = when
         self._name = ""
         self._owner: Owner | None = None

@@ -11,6 +11,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError, nearest
+from acausal.modeling.budget import check_nested, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import (
     Declaration,
@@ -157,7 +158,9 @@ def value_of(where: str, declaration: Parameter, value: Any) -> Any:
 
 def values_of(where: str, declaration: Parameter, value: Any) -> np.ndarray:
     """A vector or matrix of values; its size is checked when the model is flattened."""
+    check_nested(value, where)
     values = np.asarray(value, dtype=object)
+    check_size(values.size, where)
     checked = [_number(f"{where}[{i}]", declaration, v) for i, v in enumerate(values.flat, start=1)]
     result = np.empty(values.size, dtype=object)
     result[:] = checked

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar, cast
@@ -12,6 +13,7 @@ from typing import Any, Generic, TypeVar, cast
 import numpy as np
 
 from acausal.errors import DeclarationError
+from acausal.modeling.budget import Budget, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Declaration, Module, Option, Parameter
 from acausal.modeling.symbols import Eq, ModuleReference, Owner, Reference, elements
@@ -32,6 +34,7 @@ class Node(Generic[C]):
         own_declarations: declarations that were assigned to the instance, by name.
         parent: node of the component that it is a part of; None for the model.
         name: its name there, such as ``"mass[2]"``.
+        budget: of a model that was read from a file.
         title: name of a model without parent in messages; its class if this is empty.
         children: its parts, by name.
         options: the options that were set.
@@ -48,6 +51,7 @@ class Node(Generic[C]):
     parent: Node[C] | None = None
     name: str = ""
     title: str = ""
+    budget: Budget | None = None
     children: dict[str, C] = field(default_factory=dict)
     options: dict[str, Any] = field(default_factory=dict)
     modifiers: dict[str, Any] = field(default_factory=dict)
@@ -140,22 +144,31 @@ class Node(Generic[C]):
         """Sizes of a vector or matrix; None for a scalar.
 
         Raises:
-            DeclarationError: where a size follows from a value that was not given, or has other dimensions.
+            DeclarationError: where a size follows from a value that was not given, has other dimensions, or is more
+                than the budget allows.
         """
         if declared.shape is None:
             return None
-        if ":" in declared.shape:
+        shape = self._sizes(name, declared)
+        if shape and min(shape) < 0:
+            raise DeclarationError(f"{self.label}.{name} cannot have {min(shape)} elements")
+        check_size(math.prod(shape), f"{self.label}.{name}")
+        return shape
+
+    def _sizes(self, name: str, declared: Declaration) -> tuple[int, ...]:
+        declared_sizes = cast(tuple[int | str, ...], declared.shape)
+        if ":" in declared_sizes:
             value = self.modifiers.get(name, cast(Parameter, declared).default)
             if value is None:
                 raise DeclarationError(f"{self.label} has no value for '{name}'; give {name}=[...]")
             shape = np.shape(np.asarray(value, dtype=object))
-            if len(shape) != len(declared.shape):
+            if len(shape) != len(declared_sizes):
                 raise DeclarationError(
-                    f"{self.label}.{name} needs {len(declared.shape)} dimension(s), got {len(shape)}"
+                    f"{self.label}.{name} needs {len(declared_sizes)} dimension(s), got {len(shape)}"
                 )
             return shape
         return tuple(
-            int(getattr(self.component, n)) if isinstance(n, str) else n for n in declared.shape
+            int(getattr(self.component, n)) if isinstance(n, str) else n for n in declared_sizes
         )
 
 

@@ -27,30 +27,39 @@ from pathlib import Path
 from types import ModuleType
 
 from acausal.errors import ModelError
-from acausal.modeling import Component
+from acausal.modeling import Budget, BudgetError, Component, Declaration, spending
 from acausal.netlist import file as netlist_file
+from acausal.netlist.file import within
 from acausal.netlist.library import Library, installed
 from acausal.netlist.model import Netlist
 from acausal.netlist.reader import build
 from acausal.netlist.writer import Writer
 
 
-def load(path: str | Path, libraries: Sequence[ModuleType] = ()) -> Netlist:
+def load(
+    path: str | Path, libraries: Sequence[ModuleType] = (), *, budget: Budget | None = None
+) -> Netlist:
     """Read a model from a JSON netlist.
 
     Arguments:
         path: the file.
         libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
+        budget: how large the model may become, here and when it is compiled; by default ``ac.Budget()``.
 
     Returns:
         The model, a `Component` with the parts of the file.
 
     Raises:
         ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
-            that does not exist, an expression that is malformed.
+            that does not exist, an expression that is malformed, a model that is larger than its budget.
     """
-    path, known = Path(path), _libraries(libraries)
-    return build(netlist_file.read(path), path.name, known)
+    path, known, allowed = Path(path), _libraries(libraries), budget or Budget()
+    document = netlist_file.read(path)
+    with spending(allowed):
+        model = within(path.name, lambda: build(document, path.name, known))
+        within(path.name, lambda: _check_sizes(model))
+    model._node.budget = allowed
+    return model
 
 
 def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = ()) -> None:
@@ -70,6 +79,24 @@ def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = (
     if not isinstance(model, Component):
         raise ModelError(f"save needs a Component, got {type(model).__name__}")
     netlist_file.write(Writer(_libraries(libraries)).model(model), Path(path))
+
+
+def _check_sizes(model: Component) -> None:
+    """Refuse vectors that are too large now, not when their elements are first read."""
+    nodes = [model._node]
+    while nodes:
+        node = nodes.pop()
+        nodes += [child._node for child in node.children.values()]
+        for name, declared in {**node.class_declarations, **node.own_declarations}.items():
+            if isinstance(declared, Declaration) and declared.shape is not None:
+                try:
+                    node.shape(name, declared)
+                except BudgetError:
+                    raise
+                except (
+                    Exception
+                ):  # no size yet: the value that it follows from is missing, or wrong
+                    continue
 
 
 def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:

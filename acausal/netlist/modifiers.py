@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, cast
+from inspect import signature
+from typing import Any, cast, get_args
 
 from acausal.errors import nearest, shortened
 from acausal.modeling import (
@@ -29,6 +30,15 @@ def is_structural(cls: Any, key: str) -> bool:
         vector = isinstance(declared, Parameter) and declared.shape is not None
         return vector or isinstance(declared, Option)
     return declared is None and key in arguments_of(cls)
+
+
+def is_count(cls: Any, key: str) -> bool:
+    """Whether a number given for that modifier says how many of something a part has: it is a whole number."""
+    declared = cls._declared.get(key)
+    if isinstance(declared, Option):
+        return isinstance(declared.default, int) and not isinstance(declared.default, bool)
+    kind = signature(cls.__init__).parameters.get(key)
+    return kind is not None and int in (kind.annotation, *get_args(kind.annotation))
 
 
 def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:

@@ -14,7 +14,16 @@ from typing import Any, cast
 import sympy as sp
 
 from acausal.errors import DeclarationError, nearest, shortened
-from acausal.modeling import Component, Connector, Eq, InitialParameter, Option, Parameter, Start
+from acausal.modeling import (
+    Component,
+    Connector,
+    Eq,
+    InitialParameter,
+    Option,
+    Parameter,
+    Start,
+    check_size,
+)
 from acausal.netlist import library
 from acausal.netlist.file import (
     EXPERIMENT_KEYS,
@@ -27,7 +36,7 @@ from acausal.netlist.file import (
 )
 from acausal.netlist.library import Library
 from acausal.netlist.model import Netlist, attribute, hint, is_left_out
-from acausal.netlist.modifiers import is_structural, modify
+from acausal.netlist.modifiers import is_count, is_structural, modify
 from acausal.netlist.parser import parse_equation
 from acausal.netlist.scope import IGNORED_KEYS, Scope
 
@@ -190,6 +199,10 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
         for name, raw in given.items()
         if is_structural(cls, name)
     }
+    for name, value in arguments.items():
+        if isinstance(value, int | float) and is_count(cls, name):
+            label = f"{cls.__name__} with {name}={value:g}"
+            within(where, lambda n=int(value), label=label: check_size(n, label))
     scope.model._file.arguments[key] = arguments
     return within(where, lambda: _make(cls, arguments))
 

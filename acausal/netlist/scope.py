@@ -8,7 +8,15 @@ from typing import Any, cast
 import sympy as sp
 
 from acausal.errors import nearest, shortened
-from acausal.modeling import STATE_SELECT, Option, Parameter, Reference, Start, time
+from acausal.modeling import (
+    STATE_SELECT,
+    Option,
+    Parameter,
+    Reference,
+    Start,
+    check_nested,
+    time,
+)
 from acausal.netlist import library
 from acausal.netlist.file import NetlistError, kind, within
 from acausal.netlist.library import Library
@@ -59,6 +67,12 @@ class Scope:
 
     def value(self, raw: Any, where: str) -> Any:
         """A number, truth value, list, or the value of an expression."""
+        value = self._value(raw, where)
+        if isinstance(value, list):
+            within(where, lambda: check_nested(value, "the list"))
+        return value
+
+    def _value(self, raw: Any, where: str) -> Any:
         match raw:
             case bool() | int() | float():
                 return raw
@@ -66,9 +80,9 @@ class Scope:
                 return within(where, lambda: parse(raw, self.lookup))
             case list():
                 values = cast(list[Any], raw)
-                return [self.value(v, f"{where}[{i}]") for i, v in enumerate(values)]
+                return [self._value(v, f"{where}[{i}]") for i, v in enumerate(values)]
             case Mapping() if "=" in raw:
-                return self.value(raw["="], where)
+                return self._value(raw["="], where)
             case _:
                 raise NetlistError(f"{where}: {kind(raw)} is not a value")
 
@@ -115,21 +129,24 @@ def _option_value(option: Option, value: Any, where: str) -> Any:
     if isinstance(value, list):
         return [_option_value(option, v, where) for v in cast(list[Any], value)]
     if isinstance(value, sp.Expr):
-        value = _evaluated(value, where, ())
+        value = _evaluated(value, where, {})
     whole = isinstance(option.default, int) and not isinstance(option.default, bool)
     return int(value) if whole and isinstance(value, float) and value.is_integer() else value
 
 
-def _evaluated(expression: sp.Expr, where: str, via: tuple[sp.Basic, ...]) -> float:
-    values: dict[Any, Any] = {}
+def _evaluated(expression: sp.Expr, where: str, values: dict[Any, Any]) -> float:
+    """The number that parameters give; ``values`` are those known so far, None for one that is being evaluated."""
     for symbol in sorted(expression.free_symbols, key=str):
+        if values.get(symbol) is not None:
+            continue
         if not isinstance(symbol, Reference) or not isinstance(symbol.declaration, Parameter):
             raise NetlistError(
                 f"{where}: '{symbol}' changes with time; a structural choice is fixed"
             )
         given = symbol.owner.modifiers.get(symbol.path, symbol.declaration.default)
-        if isinstance(given, sp.Expr) and symbol not in via:
-            given = _evaluated(given, where, (*via, symbol))
+        if isinstance(given, sp.Expr) and symbol not in values:
+            values[symbol] = None
+            given = _evaluated(given, where, values)
         if not isinstance(given, int | float):
             raise NetlistError(f"{where}: '{symbol}' has no number; a structural choice is fixed")
         values[symbol] = given

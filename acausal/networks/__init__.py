@@ -12,6 +12,7 @@ import warnings as _warnings
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
+from acausal.networks.arity import check_inputs as check_inputs
 from acausal.networks.bounded import Between as Between, Positive as Positive
 from acausal.networks.convex import Convex as Convex
 from acausal.networks.dry_friction_factor import DryFrictionFactor as DryFrictionFactor

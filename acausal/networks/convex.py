@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 from acausal.errors import DeclarationError
 from acausal.networks.activations import ACTIVATIONS, SMOOTH_AND_CONVEX, checked
 from acausal.networks.mlp import SPREAD, Key, Layered, Product, as_key, layers, uniform
-from acausal.networks.secondary import Secondary, shifted
+from acausal.networks.secondary import Secondary, number_of, shifted
 
 
 class Convex(Layered):
@@ -65,6 +65,11 @@ class Convex(Layered):
             for k, rows, bound in zip(keys, sizes, limits, strict=True)
         )
         self.secondary = Secondary(secondary, width, depth, key=others) if secondary else None
+
+    @property
+    def in_size(self) -> int:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Number of all inputs."""
+        return self.weights[0].shape[1] + number_of(self.secondary)
 
     def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
         """The output, given a function for the product of a matrix and a vector."""

@@ -8,6 +8,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError
+from acausal.networks.arity import check_inputs
 
 
 class Fourier(eqx.Module):
@@ -32,9 +33,10 @@ class Fourier(eqx.Module):
         self.sines, self.cosines = jnp.zeros(harmonics), jnp.zeros(harmonics)
         self.period, self.output_scale = float(period), output_scale
 
-    def __call__(self, x: ArrayLike) -> Float[Array, ""]:
+    def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for a scalar input."""
+        check_inputs(self, inputs, 1)
         orders = jnp.arange(1, len(self.sines) + 1)
-        angles = 2 * jnp.pi / self.period * orders * jnp.asarray(x)
+        angles = 2 * jnp.pi / self.period * orders * jnp.asarray(inputs[0])
         waves = self.sines * jnp.sin(angles) + self.cosines * jnp.cos(angles)
         return self.output_scale * jnp.sum(waves)

@@ -14,6 +14,7 @@ from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import ACTIVATIONS, checked
+from acausal.networks.arity import check_inputs
 
 SPREAD = 2.0
 """Bound of the first layer's weights and biases."""
@@ -24,10 +25,17 @@ Key = Array | int
 
 
 class Layered(eqx.Module):
-    """Base of networks that are made of layers, so that their products can be computed in several ways."""
+    """Base of networks that are made of layers, so that their products can be computed in several ways.
+
+    Attributes:
+        in_size: number of all inputs.
+    """
+
+    in_size: eqx.AbstractVar[int]
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output, a scalar, for scalar inputs."""
+        check_inputs(self, inputs, self.in_size)
         return self.evaluate(inputs, jnp.matmul)
 
     @abstractmethod
@@ -85,10 +93,6 @@ class MLP(Layered):
 
     def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
         """The output, given a function for the product of a matrix and a vector."""
-        if len(inputs) != self.in_size:
-            raise DeclarationError(
-                f"a network of {self.in_size} inputs is called with {len(inputs)}"
-            )
         activation = ACTIVATIONS[self.activation]
         h = scaled(inputs, self.input_scale)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float
 
 from acausal.networks.activations import ACTIVATIONS, INCREASING, checked
 from acausal.networks.mlp import Key, Layered, Product, as_key, layers
-from acausal.networks.secondary import Secondary, shifted
+from acausal.networks.secondary import Secondary, number_of, shifted
 
 
 class Monotone(Layered):
@@ -53,6 +53,11 @@ class Monotone(Layered):
         own, others = jax.random.split(as_key(key))
         self.weights, self.biases = layers(1, width, depth, last_layer, own)
         self.secondary = Secondary(secondary, width, depth, key=others) if secondary else None
+
+    @property
+    def in_size(self) -> int:  # pyright: ignore[reportIncompatibleVariableOverride]
+        """Number of all inputs."""
+        return 1 + number_of(self.secondary)
 
     def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
         """The output, given a function for the product of a matrix and a vector."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import equinox as eqx
 import jax
@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
+from acausal.networks.arity import check_inputs
 from acausal.networks.mlp import Scale, scaled
 
 REACH = 1e6
@@ -25,6 +26,7 @@ class Scaled(eqx.Module):
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
+        _check_scales(self, inputs)
         numbers = jnp.clip(scaled(inputs, self.input_scale), -REACH, REACH)
         return self.output_scale * self.net(*numbers)
 
@@ -44,6 +46,7 @@ class EnergyLaw(eqx.Module):
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The energy for scalar inputs."""
+        _check_scales(self, inputs)
         return self.energy_scale * self.net(*scaled(inputs, self.input_scale))
 
     def law(self, *inputs: ArrayLike) -> Array:
@@ -58,6 +61,12 @@ class EnergyLaw(eqx.Module):
         """Magnitude of the law of the first input."""
         scale = self.input_scale
         return self.energy_scale / (scale[0] if isinstance(scale, tuple) else scale)
+
+
+def _check_scales(network: Scaled | EnergyLaw, inputs: Sequence[ArrayLike]) -> None:
+    """Check the number of inputs, where there is a scale for each; the network inside checks it, too."""
+    scale = network.input_scale
+    check_inputs(network, inputs, len(scale) if isinstance(scale, tuple) else len(inputs))
 
 
 def law_of(network: Callable[..., Array]) -> Callable[..., Array]:

@@ -38,6 +38,11 @@ class Secondary(eqx.Module):
         return [product(m, features) for m in self.mixing]
 
 
+def number_of(secondary: Secondary | None) -> int:
+    """How many secondary inputs there are."""
+    return 0 if secondary is None else secondary.weights.shape[1]
+
+
 def shifted(
     biases: Sequence[Array],
     secondary: Secondary | None,

@@ -34,14 +34,16 @@ def partials(
     expression = template.partial(column)
     if expression.is_Number:
         return np.full(len(variables), float(expression))
-    values = [point.variables[variables].T, point.parameters[parameters].T]
+    slots = [(s, point.variables, variables, i) for i, s in enumerate(template.variables)]
+    slots += [(s, point.parameters, parameters, i) for i, s in enumerate(template.parameters)]
+    present = expression.free_symbols  # a few of hundreds, where the equation is a long sum
+    read = [(s, values[rows[:, i]]) for s, values, rows, i in slots if s in present]
+    numbered = {
+        s: sp.Symbol(f"_{i}", real=True) for i, (s, _) in enumerate(read)
+    }  # alike: one function
+    function = _function(expression.xreplace(numbered), tuple(numbered.values()))
     with np.errstate(all="ignore"):
-        result = np.broadcast_to(
-            _function(expression, (*template.variables, *template.parameters))(
-                TIME, *values[0], *values[1]
-            ),
-            (len(variables),),
-        )
+        result = np.broadcast_to(function(TIME, *(v for _, v in read)), (len(variables),))
     return np.where(np.isfinite(result), result, 1.0)
 
 

@@ -7,8 +7,14 @@ import acausal as ac
 
 
 def dot(a: Any, b: Any) -> Any:
-    """Sum of the products of two sequences of one length."""
-    return sum(x * y for x, y in zip(a, b, strict=True))
+    """Sum of the products of two sequences of one length.
+
+    Added up in pairs: term by term, every term would copy all before it.
+    """
+    terms = [x * y for x, y in zip(a, b, strict=True)]
+    while len(terms) > 1:
+        terms = [sum(terms[i : i + 2]) for i in range(0, len(terms), 2)]
+    return sum(terms)
 
 
 def canonical_form(u: Any, y: Any, x: Any, b: Any, a: Any) -> Iterator[ac.Eq]:

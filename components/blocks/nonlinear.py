@@ -1,7 +1,8 @@
 """Limits, dead zones and an approximate delay."""
 
 from collections.abc import Iterator
-from math import factorial
+from itertools import accumulate
+from operator import mul
 from typing import Any
 
 import acausal as ac
@@ -93,13 +94,9 @@ class PadeDelay(SISO):
 
     def _coefficients(self, order: int, of: int, delay: Any) -> list[Any]:
         """Coefficients of a polynomial of that order, highest power first; ``of`` is the other's order."""
-        return [
-            factorial(order + of - k)
-            * factorial(order)
-            / (factorial(order + of) * factorial(k) * factorial(order - k))
-            * delay**k
-            for k in range(order, -1, -1)
-        ]
+        ratios = [(order - k) / ((order + of - k) * (k + 1)) for k in range(order)]
+        falling = accumulate(ratios, mul, initial=1.0)
+        return [c * delay**k for k, c in enumerate(falling)][::-1]
 
     def equations(self) -> Iterator[ac.Eq]:
         m = self.n if self.m is None else self.m

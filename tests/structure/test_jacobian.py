@@ -1,10 +1,14 @@
 """Partial derivatives in numbers, without JAX."""
 
+import cProfile
+import pstats
+
 import numpy as np
 import pytest
 import sympy as sp
 
 import acausal as ac
+from acausal.components import blocks
 from acausal.flattening.flat_model import flatten
 from acausal.flattening.template import Template, slot
 from acausal.modeling import ModuleCall, time
@@ -16,6 +20,7 @@ from acausal.structure.jacobian import (
     partials,
     random_values,
 )
+from acausal.structure.reduced_model import reduce
 from tests.support.parts import Equations
 
 x, y, p, q, net = (slot(n) for n in ("x", "y", "p", "q", "net"))
@@ -46,6 +51,33 @@ def partial(residual, column=0):
 )
 def test_partial_derivatives_at_a_point(residual, expected):
     np.testing.assert_allclose(partial(residual), expected, rtol=1e-14)
+
+
+def test_a_long_equation_reads_a_few_values_for_each_derivative(monkeypatch):
+    """Of alike terms the derivatives are alike, too: they are one function."""
+    n, made = 40, []
+    xs, ps = ([slot(f"{name}{i}") for i in range(n)] for name in "xp")
+    residual = sp.Add(*(u * v for u, v in zip(xs, ps, strict=True)))
+    template = Template(residual, tuple(xs), (0,) * n, tuple(ps), (), "stated")
+    at = Point(np.arange(1.0, n + 1), np.arange(n) + 10.0)
+    lambdify = sp.lambdify
+    monkeypatch.setattr(sp, "lambdify", lambda *given: made.append(given[0]) or lambdify(*given))
+    rows = np.arange(n)[None]
+    found = [partials(template, column, rows, rows, at)[0] for column in range(n)]
+    assert found == at.parameters.tolist()
+    assert len(made) <= 1
+    assert all(len(arguments) == 2 for arguments in made)  # time, and one parameter
+
+
+def test_the_work_for_a_transfer_function_is_in_proportion_to_its_coefficients():
+    def calls(order):
+        block = blocks.TransferFunction(a=1.0 + np.arange(order), b=[1.0, 2.0])
+        with cProfile.Profile() as profile:
+            reduce(flatten(block))
+        return pstats.Stats(profile).total_calls
+
+    calls(3)
+    assert calls(160) < 9 * calls(40)  # in the square 16 times as many
 
 
 def test_modules_have_a_partial_derivative_other_than_zero():

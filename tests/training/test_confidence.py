@@ -7,14 +7,16 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
 import acausal as ac
 from acausal.components import translational as tl
-from acausal.training.uncertainty.confidence import posterior_covariance
+from acausal.training.uncertainty.confidence import TAKEN, posterior_covariance
 from acausal.training.uncertainty.residuals import residuals
+from acausal.training.uncertainty.tangents import correlation_with, law_directions
 from tests.support.oscillator import Oscillator, learned, plain, record
 
 CUBIC, NOISE = 80.0, 0.05
@@ -143,6 +145,41 @@ def test_what_cannot_be_told_apart_is_said():
     )  # fmt: skip
     summary = fit.confidence().summary()
     assert summary[-1].startswith("The data can hardly tell 'other.c' from 'one.c' (correlation -")
+
+
+def test_a_spring_beside_a_law_that_can_take_its_part_is_not_called_known():
+    """Mass and damper do other things than a spring, and are known."""
+    fit = ac.fit(
+        learned(), noisy(0, 0.0), "mass.a", x0="model", strategy="whole_record", epochs=5,
+        modifiers={"spring.c": 0.2, "spring.d": 0.2, "mass.m": 0.2}, solver="rk4", progress=False,
+    )  # fmt: skip
+    sure = fit.confidence()
+    summary = sure.summary()
+    assert [s.split(" is known")[0] for s in summary[:2]] == ["'spring.d'", "'mass.m'"]
+    assert summary[2] == (
+        "The data can hardly tell 'spring.c' from the law 'extra.net' (correlation 0.9999), which can take any part "
+        "of it: only the two together are known well; fix one, or measure more."
+    )
+    assert not any("'spring.c' is known" in sentence for sentence in summary)
+    assert not any("law" in sentence for sentence in summary[3:])
+    alike = {name: laws["extra.net"] for name, laws in sure.with_laws.items()}
+    assert alike["spring.c"] > 0.99999
+    assert alike["spring.d"] < 0.8
+    assert alike["mass.m"] < 0.995
+    assert sure.parameters["spring.c"] > 50 * sure.parameters["mass.m"]
+
+
+@pytest.mark.parametrize("promise", [{}, {"odd": True}, {"monotone": True}])
+def test_the_functions_that_a_law_can_add_keep_its_promises(promise: dict[str, Any]):
+    x = np.linspace(-1.0, 1.0, 81)
+    network = ac.networks.Law(activation="tanh", output_scale=20.0, input_scale=0.5, **promise)(0)
+    count, moved = law_directions(network, x[:, None])
+    functions = np.asarray(jax.jacfwd(lambda z: jax.vmap(moved(z))(x))(np.zeros(count)))
+    np.testing.assert_allclose(np.sqrt(np.mean(functions**2, axis=0)), 20.0, rtol=1e-6)
+    assert correlation_with(100 * x, functions) > TAKEN
+    preload = correlation_with(np.full_like(x, 100.0), functions)
+    assert preload < 1e-3 if "odd" in promise else preload > TAKEN
+    assert correlation_with(1e-3 * x, functions) == 0.0
 
 
 class Beside(ac.Component):

@@ -9,6 +9,7 @@ Samples with correlated residuals count for less than one each.
 
 from __future__ import annotations
 
+import itertools
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -18,7 +19,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 from scipy.linalg import solve_triangular
 
 from acausal._jax import value_and_jacobian
@@ -28,12 +29,16 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.residuals import correlation_time
+from acausal.training.uncertainty.tangents import correlation_with, law_directions
 
 BAND_POINTS = 201
 """Points of a band over the argument of a law."""
 
 INDISTINGUISHABLE = 0.98
 """The data can hardly distinguish two parameters with a correlation above this."""
+
+TAKEN = 0.999
+"""A law can take any part of a parameter if the effects of both have a correlation above this."""
 
 UNKNOWN = 0.9
 """The data say nothing about a parameter whose standard deviation is above this part of the prior one."""
@@ -66,8 +71,10 @@ class Confidence:
     Attributes:
         laws: by network, the law and its standard deviation.
         parameters: by name, the standard deviation of trained parameters, relative to their values; absolute if
-            their change in `Fit.modifiers` is absolute.
+            their change in `Fit.modifiers` is absolute. That of the prior where a law can take any part of it.
         correlation: between the parameters, in their order.
+        with_laws: by parameter and law, the multiple correlation of what the parameter changes with what the weights
+            of the law's network can change: 1 where the law can take any part of the parameter.
         noise: standard deviation of the residuals, by target.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
         about: how well each parameter is known, one sentence each.
@@ -76,6 +83,7 @@ class Confidence:
     laws: dict[str, Band]
     parameters: dict[str, float]
     correlation: Float[np.ndarray, "n_parameters n_parameters"]
+    with_laws: dict[str, dict[str, float]]
     noise: dict[str, float]
     alike: dict[str, float]
     about: tuple[str, ...]
@@ -99,13 +107,20 @@ class Confidence:
             for j in range(i)
             if abs(self.correlation[i, j]) > INDISTINGUISHABLE
         ]
+        taken = [
+            f"The data can hardly tell '{name}' from the law '{law}' (correlation {_digits(value)}), which can "
+            "take any part of it: only the two together are known well; fix one, or measure more."
+            for name, laws in self.with_laws.items()
+            for law, value in laws.items()
+            if value > TAKEN
+        ]
         slow = [
             f"Residuals of '{n}' are correlated over {count:.0f} samples, which count as one here. If the "
             "model lacks something, it is further off than its deviations say: see fit.residuals()."
             for n, count in self.alike.items()
             if count > CORRELATED
         ]
-        return [*self.about, *confused, *slow]
+        return [*self.about, *confused, *taken, *slow]
 
     def __repr__(self) -> str:
         return "\n".join(
@@ -136,20 +151,30 @@ def confidence(
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
     heights = [np.full(BUMPS, output_scale(params[n])) for n in laws]
     prior, moves = _prior(problem, params), np.ones(_moves(trainable))
+    ways = [law_directions(params[n], seen[n]) if names else (0, None) for n in laws]
     deviations = np.concatenate([*heights, prior, moves])
-    ends = np.cumsum([BUMPS * len(laws), len(names)]).tolist()
+    count = len(deviations)
+    ends = np.cumsum([BUMPS * len(laws), len(names), len(moves)]).tolist()
+    bounds = np.cumsum([0, *(n for n, _ in ways)]).tolist()
 
     def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
-        bumps, changes, moves = jnp.split(scale * z, ends)
+        bumps, changes, moves, along = jnp.split(scale * z, ends)
         nets = {
-            n: eqx.tree_at(lambda b: b.heights, bumped[n], bumps[k * BUMPS : (k + 1) * BUMPS])
-            for k, n in enumerate(laws)
+            n: Bumped(
+                params[n] if move is None else move(along[a:b]),
+                bumps[k * BUMPS : (k + 1) * BUMPS],
+                bumped[n].centres,
+                bumped[n].width,
+            )
+            for k, (n, (_, move), (a, b)) in enumerate(
+                zip(laws, ways, itertools.pairwise(bounds), strict=True)
+            )
         }
         new = problem.modifiers.changed({**params, **nets}, dict(zip(names, changes, strict=True)))
         return _moved(trainable, moves), new
 
-    scale = jnp.asarray(deviations)
-    left, jacobian = _sensitivity(problem, changed, len(deviations))
+    scale = jnp.asarray(np.concatenate([deviations, np.ones(bounds[-1])]))
+    left, jacobian = _sensitivity(problem, changed, len(scale))
     if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
             "The trained model diverges over the record; its confidence cannot be computed."
@@ -157,22 +182,33 @@ def confidence(
     noise = np.sqrt(np.mean(left**2, axis=0))
     alike = np.array([correlation_time(column) for column in left.T])
     least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.sigma)) * np.sqrt(alike)
-    weighted = (jacobian / least[:, None]).reshape(-1, len(deviations))
+    sensitivity = (jacobian / least[:, None]).reshape(-1, len(scale))
+    weighted, along = sensitivity[:, :count], sensitivity[:, count:]
     samples = float(np.sum(len(left) / alike))
     covariance = posterior_covariance(weighted, samples) * np.outer(deviations, deviations)
     own = covariance[ends[0] : ends[1], ends[0] : ends[1]]
     sigma = np.sqrt(np.diag(own))
+    with_laws = {
+        name: {
+            law: correlation_with(weighted[:, ends[0] + i], along[:, a:b])
+            for law, (a, b) in zip(laws, itertools.pairwise(bounds), strict=True)
+        }
+        for i, name in enumerate(names)
+    }
+    taken = np.array([any(v > TAKEN for v in with_laws[n].values()) for n in names], dtype=bool)
+    known = np.where(taken, np.maximum(sigma, prior), sigma)
     bands = {
         n: _band(params[n], bumped[n], covariance[k : k + BUMPS, k : k + BUMPS], seen[n])
         for n, k in zip(laws, range(0, ends[0], BUMPS), strict=True)
     }
     return Confidence(
         bands,
-        dict(zip(names, sigma.tolist(), strict=True)),
+        dict(zip(names, known.tolist(), strict=True)),
         own / np.maximum(np.outer(sigma, sigma), 1e-300),
+        with_laws,
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
-        _about(problem, trainable, sigma, prior),
+        _about(problem, trainable, sigma, prior, taken),
     )
 
 
@@ -181,8 +217,9 @@ def _about(
     trainable: Trainable,
     sigma: Float[np.ndarray, " n_parameters"],
     prior: Float[np.ndarray, " n_parameters"],
+    taken: Bool[np.ndarray, " n_parameters"],
 ) -> tuple[str, ...]:
-    """How well each parameter is known, one sentence each."""
+    """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
     at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.system.unit)
 
     def one(name: str, sigma: float, prior: float) -> str:
@@ -194,7 +231,16 @@ def _about(
         return f"'{name}' is known to ±{deviation} (one sigma)."
 
     rows = zip(problem.modifiers.names, sigma.tolist(), prior.tolist(), strict=True)
-    return tuple(one(*row) for row in rows)
+    return tuple(
+        one(*row)
+        for row, is_taken in zip(rows, taken, strict=True)
+        if row[0] in at_limit or not is_taken
+    )
+
+
+def _digits(correlation: float) -> str:
+    """A correlation near 1 that does not read as 1 itself."""
+    return f"{min(correlation, 0.9999):.4f}"
 
 
 def _prior(problem: Problem, params: dict[str, Any]) -> Float[np.ndarray, " n_parameters"]:
