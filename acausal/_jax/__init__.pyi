@@ -4,3 +4,4 @@ from .jacobian import value_and_jacobian as value_and_jacobian
 from .scan import stored_scan as stored_scan
 from .settings import configure as configure
 from .tracing import array as array, traced as traced
+from .two_modes import two_modes as two_modes

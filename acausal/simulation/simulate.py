@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from acausal._jax import precision
 from acausal.data import Data, Signal
-from acausal.errors import DataError, StepLimitError, need_compiled
+from acausal.errors import DataError, StepLimitError, need_compiled, shortened
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
@@ -48,8 +48,9 @@ def simulate(
 ) -> Solution:
     """Simulate a model.
 
-    With ``dt`` in fixed steps, without it adaptively. Both can be differentiated (in reverse mode; by
-    parameters, initial values and sampled inputs), compiled with `jax.jit` and mapped with `jax.vmap`.
+    With ``dt`` in fixed steps, without it adaptively. Both can be differentiated (by parameters, initial values and
+    sampled inputs; in reverse mode, and adaptive steps in forward mode, too), compiled with `jax.jit` and mapped with
+    `jax.vmap`.
 
     Arguments:
         system: a compiled model.
@@ -68,8 +69,9 @@ def simulate(
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
-        adjoint: how diffrax differentiates adaptive steps; by default in reverse mode with checkpoints.
-            `diffrax.ForwardMode()` allows forward mode (`jax.jvp`, `jax.jacfwd`), for fixed steps, too.
+        adjoint: how diffrax differentiates adaptive steps; by default in reverse mode with checkpoints, and in forward
+            mode (`jax.jvp`, `jax.jacfwd`) beside another run without derivatives. `diffrax.ForwardMode()` allows
+            forward mode alone, without that run, and for fixed steps, too.
         dtype: precision of time, states and parameters in the steps, float64 or float32. Single precision takes
             half the time in large batches; in adaptive steps ``rtol`` should not be below 1e-5.
 
@@ -85,7 +87,9 @@ def simulate(
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
-    ends = None if dt is None else step_ends(start, end, dt)
+    _check_limit(max_steps)
+    width = 2 + len(system.states) + 3 * len(system.inputs)
+    ends = None if dt is None else step_ends(start, end, dt, width)
     given = _signals(system, inputs) if isinstance(inputs, Data) else inputs or {}
     functions = functions_of_time(system.inputs, given, ends)
     packed = system.pack(params)
@@ -135,8 +139,21 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
     return start, end
 
 
+def _check_limit(max_steps: object) -> None:
+    whole = isinstance(max_steps, int | np.integer) and not isinstance(max_steps, bool)
+    if not (whole and max_steps > 0):
+        raise DataError(f"max_steps={max_steps!r} is not a limit of steps; give 1 or more.")
+
+
 def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
-    ts = np.atleast_1d(np.asarray(saveat, float))
+    try:
+        ts = np.atleast_1d(np.asarray(saveat, float))
+    except (TypeError, ValueError):
+        raise DataError(
+            f"saveat={shortened(repr(saveat))} are not times; give numbers, in seconds."
+        ) from None
+    if not ts.size:
+        raise DataError("saveat is empty; give the times to save, or leave it out.")
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
     outside = ts[(ts < start) | (ts > end)]
