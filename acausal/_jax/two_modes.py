@@ -68,7 +68,9 @@ def two_modes(
         given = [d for d, m in zip(directions, moved, strict=True) if m]
         change = iter(_linear(push, pull_back, given, found))
         return result, jax.tree.map(
-            lambda a: next(change) if eqx.is_inexact_array(a) else np.zeros(a.shape, jax.dtypes.float0),
+            lambda a: (
+                next(change) if eqx.is_inexact_array(a) else np.zeros(a.shape, jax.dtypes.float0)
+            ),
             result,
         )
 
@@ -86,10 +88,14 @@ def _linear(push: Linear, pull: Linear, given: list[Array], like: list[Array]) -
     def solve(_: object, b: tuple[list[Array], list[Array]]) -> tuple[list[Array], list[Array]]:
         return b[0], _sums(b[1], push(b[0]))
 
-    def transposed(_: object, b: tuple[list[Array], list[Array]]) -> tuple[list[Array], list[Array]]:
+    def transposed(
+        _: object, b: tuple[list[Array], list[Array]]
+    ) -> tuple[list[Array], list[Array]]:
         return _sums(b[0], pull(b[1])), b[1]
 
-    none = 0.0 * sum((jnp.sum(d) for d in given), jnp.zeros(()))  # JAX wants it linear in what is given
+    none = 0.0 * sum(
+        (jnp.sum(d) for d in given), jnp.zeros(())
+    )  # JAX wants it linear in what is given
     nothing = [jnp.broadcast_to(none.astype(a.dtype), a.shape) for a in like]
     # `symmetric`, although it is not: so JAX does not derive the transpose, which is given, from the first argument
     solved: Any = lax.custom_linear_solve(

@@ -67,7 +67,7 @@ def simulate_adaptive(
     run, t, jump_times = cast((run, jnp.asarray(saved), jump_times), dtype)
     solved = _solve(run, t, solver, rtol, atol, jump_times, max_steps, adjoint)
     if not traced(solved.x, solved.reached):
-        _check(run, solved, max_steps, solver)
+        _check(run, saved, solved, max_steps, solver)
     u = evaluate_all(run.inputs, t)
     return Solution(run.start._replace(t=t, x=solved.x, u=u), run.system)
 
@@ -132,9 +132,16 @@ def _diffeqsolve(
     return Solved(solution.ys[0], solution.ts[1][-1], solution.ys[1][-1], solution.result)
 
 
-def _check(run: Run, solved: Solved, max_steps: int, solver: solvers.Solver) -> None:
-    if bool(solved.result == dfx.RESULTS.successful) and np.isfinite(solved.x).all():
-        return
+def _check(
+    run: Run, ts: Float[np.ndarray, " n"], solved: Solved, max_steps: int, solver: solvers.Solver
+) -> None:
+    if bool(solved.result == dfx.RESULTS.successful):
+        if (broken := run.broken(solved.x)) is None:
+            return
+        raise SimulationError(
+            f"The simulation with {type(solver).__name__} broke down before t = {float(ts[broken[0]]):g} s: {broken[1]}. "
+            "The model may diverge there: check its parameters, initial values and inputs."
+        )
     reached = float(solved.reached)
     where = f"The simulation with {type(solver).__name__} stopped at t = {reached:g} s, before {run.end:g} s"
     exhausted = bool(solved.result == dfx.RESULTS.max_steps_reached)

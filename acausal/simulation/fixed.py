@@ -45,7 +45,7 @@ def simulate_fixed(
 
     Raises:
         DataError: for a time to save that is not the end of a step.
-        SimulationError: if a value is not finite.
+        SimulationError: if a state is not finite, or has run away.
     """
     rows = slice(None) if saved is None else rows_of(ends, saved)
     h = (ends[-1] - ends[0]) / (len(ends) - 1)
@@ -76,14 +76,14 @@ def _scan_steps(
 def _check(
     run: Run, ends: Float[np.ndarray, " n_ends"], x: Float[np.ndarray, "n_ends n_states"]
 ) -> None:
-    bad = np.flatnonzero(~np.isfinite(x).all(axis=1))
-    if not len(bad):
+    broken = run.broken(x)
+    if broken is None:
         return
-    state = run.system.states[int(np.flatnonzero(~np.isfinite(x[bad[0]]))[0])]
-    last, dt = max(int(bad[0]) - 1, 0), ends[1] - ends[0]
+    row, what = broken
+    last, dt = max(row - 1, 0), ends[1] - ends[0]
     reason = run.explain(run.at(float(ends[last]), x[last]), dt)
     raise SimulationError(
-        f"The simulation broke down after t = {ends[last]:g} s: '{state}' is not finite."
+        f"The simulation broke down after t = {ends[last]:g} s: {what}."
         + (reason or " " + _advice(run.modes(), dt))
     )
 
@@ -98,4 +98,7 @@ def _advice(modes: NDArray[np.complex128], dt: float) -> str:
         )
     if growth > 0:
         return f"The model is unstable: a mode grows by {growth:.3g} 1/s at the start. Check its parameters."
-    return "The model may diverge there: check its parameters, initial values and inputs, or try a smaller dt."
+    return (
+        "The model may diverge there: check its parameters, initial values and inputs, "
+        "or try a smaller dt, an implicit solver (solver='kvaerno5'), or leave dt out."
+    )

@@ -17,6 +17,7 @@ from jaxtyping import Array, Float
 from acausal._jax import traced
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest
+from acausal.simulation.finite import warn_of_nonfinite
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,7 +40,9 @@ AXES = Values(0, 0, 0, None)  # pyright: ignore[reportArgumentType]
 class Solution:
     """A trajectory. ``solution["body.a"]`` is any variable of the model over ``t``, by its dotted name.
 
-    Variables other than states are computed when they are first asked for.
+    Variables other than states are computed when they are first asked for. One that is not finite everywhere is then
+    warned of, with the first time and the equation; but nothing is said while JAX traces (`jax.jit`, `jax.grad`):
+    there, ask with ``equinox.error_if(y, ~jnp.isfinite(y), "...")``, or return the solution and read it outside.
 
     Attributes:
         values: times, states and inputs with a leading axis of n points, and parameters.
@@ -135,7 +138,7 @@ class Solution:
         return {n: np.asarray(self._observed[n]) for n in names}
 
     def _observe(self, names: Sequence[str]) -> None:
-        new = tuple(n for n in names if n not in self._observed)
+        unread = new = tuple(n for n in names if n not in self._observed)
         for source, values in ((self.system.states, self.x), (self.system.inputs, self.u)):
             self._observed.update({n: values[:, source.index(n)] for n in new if n in source})
         new = tuple(n for n in new if n not in self._observed)
@@ -145,6 +148,7 @@ class Solution:
         if new:
             values = _read_all(self.system, new, self.values)
             self._observed.update(zip(new, values, strict=True))
+        warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"

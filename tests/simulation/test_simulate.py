@@ -26,7 +26,15 @@ def error(solver, dt):
 
 @pytest.mark.parametrize(
     ("solver", "order"),
-    [("euler", 1), ("heun", 2), ("midpoint", 2), ("bosh3", 3), ("rk4", 4), ("tsit5", 5), ("implicit_euler", 1)],
+    [
+        ("euler", 1),
+        ("heun", 2),
+        ("midpoint", 2),
+        ("bosh3", 3),
+        ("rk4", 4),
+        ("tsit5", 5),
+        ("implicit_euler", 1),
+    ],
 )
 def test_fixed_steps_converge_with_their_order(solver, order):
     coarse, fine = (0.02, 0.01) if order > 1 else (0.001, 0.0005)
