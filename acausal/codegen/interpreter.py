@@ -48,7 +48,7 @@ def rates_and_read(
 def steps(
     program: Program, values: Values, wanted: Iterable[int]
 ) -> Iterator[tuple[int, Instruction, list[Array], Arrays]]:
-    """Run the instructions that the wanted arrays depend on; gives number, instruction, results, and the arrays before."""
+    """Run what the wanted arrays depend on; gives number, instruction, results, and the arrays before it."""
     arrays = _known(program, values)
     for i in program.needed(wanted):
         instruction = program.instructions[i]

@@ -138,8 +138,9 @@ def _check(
     if bool(solved.result == dfx.RESULTS.successful):
         if (broken := run.broken(solved.x)) is None:
             return
+        row, what = broken
         raise SimulationError(
-            f"The simulation with {type(solver).__name__} broke down before t = {float(ts[broken[0]]):g} s: {broken[1]}. "
+            f"The simulation with {type(solver).__name__} broke down before t = {ts[row]:g} s: {what}. "
             "The model may diverge there: check its parameters, initial values and inputs."
         )
     reached = float(solved.reached)

@@ -82,8 +82,11 @@ class Run(NamedTuple):
 
     def broken(self, x: Float[Array | np.ndarray, "n n_states"]) -> tuple[int, str] | None:
         """The first of some points at which a state is not finite or has run away, and a clause on it; or None."""
+        x, limits = np.asarray(x), self.limits
+        if np.max(np.abs(x), initial=0.0) < np.min(limits, initial=np.inf):
+            return None
         with np.errstate(invalid="ignore"):
-            good = np.abs(np.asarray(x)) < self.limits
+            good = np.abs(x) < limits
         if good.all():
             return None
         row = int(np.argmin(good.all(axis=1)))

@@ -19,7 +19,7 @@ from acausal.errors import TrainingError, listing
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
-from acausal.training.loop import Trained, train
+from acausal.training.loop import SHORTER_STEPS, Trained, train
 from acausal.training.objective.held_out import hold_out, split
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -134,6 +134,7 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
         yield (
             f"Something diverged in {len(diverged)} of {epochs} epochs and was left out "
             f"(fit.history.divergences); first, {diverged[0]}."
+            + (f" {SHORTER_STEPS}" if any(d.exploded for d in diverged) else "")
         )
     if not np.isfinite(trained.best.loss):
         yield "The trained model diverges over the whole record: its loss is infinite."

@@ -4,7 +4,6 @@ import functools
 import warnings
 
 import jax
-import numpy as np
 import pytest
 
 import acausal as ac

@@ -231,7 +231,7 @@ def test_adaptive_steps_have_derivatives_in_both_modes():
     np.testing.assert_allclose(jax.jacfwd(ends)(theta), reverse, rtol=1e-9)
     many = jax.jit(jax.vmap(jax.jacfwd(ends)))(jnp.stack([theta, 1.1 * theta]))
     np.testing.assert_allclose(many[0], reverse, rtol=1e-9)
-    with pytest.raises(ac.DataError, match="^Adaptive steps have no second derivatives"):
+    with pytest.raises(ac.DataError, match=r"^Adaptive steps have no second derivatives"):
         jax.jacfwd(jax.grad(lambda theta: ends(theta)[0]))(theta)
 
 
@@ -354,7 +354,10 @@ def test_a_second_call_does_not_compile():
         (
             {"inputs": NO_FORCE, "solver": None},
             ac.SimulationError,
-            f"solver=None is no solver; choose one of {', '.join(SOLVERS)}, or a diffrax solver such as diffrax.Tsit5().",
+            (
+                f"solver=None is no solver; choose one of {', '.join(SOLVERS)}, "
+                "or a diffrax solver such as diffrax.Tsit5()."
+            ),
         ),
         (
             {"inputs": NO_FORCE, "dtype": "banana"},
