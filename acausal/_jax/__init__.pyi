@@ -1,7 +1,7 @@
 from .compilation_cache import use_compilation_cache as use_compilation_cache
+from .differentiation import two_modes as two_modes
 from .dtypes import cast as cast, floating as floating, precision as precision
 from .jacobian import value_and_jacobian as value_and_jacobian
 from .scan import stored_scan as stored_scan
 from .settings import configure as configure
-from .tracing import array as array, traced as traced
-from .two_modes import two_modes as two_modes
+from .tracing import array as array, known as known, traced as traced

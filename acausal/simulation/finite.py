@@ -72,7 +72,7 @@ def warn_of_nonfinite(
     where = f"'{name}'{others} is {float(read[name][k])} first at t = {ts[k]:g} s"
     warnings.warn(
         f"{where}, and at {int(bad[name].sum())} of {len(ts)} times. {_reason(system, values, name, k)}",
-        stacklevel=_user_level(),
+        stacklevel=user_level(),
     )
 
 
@@ -108,8 +108,8 @@ def _first_nonfinite(names: tuple[str, ...], row: Float[Array, " n"]) -> str:
     return names[int(np.argmax(~np.isfinite(np.asarray(row))))]
 
 
-def _user_level() -> int:
-    """Which caller of this file is the first outside the library, for `warnings.warn`."""
+def user_level() -> int:
+    """How far up the first caller outside the library is, for `warnings.warn` in the function that asks."""
     frame, level = sys._getframe(2), 2
     while frame is not None and frame.f_code.co_filename.startswith(LIBRARY):
         frame, level = frame.f_back, level + 1

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
-from acausal._jax import cast, traced
+from acausal._jax import cast, known, traced
 from acausal.codegen import Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
@@ -18,6 +18,7 @@ from acausal.simulation.fixed_steps import Steps, integrate
 from acausal.simulation.inputs import evaluate_all, over_steps
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
+from acausal.simulation.stability import warn_of_long_steps
 from acausal.simulation.step_grid import rows_of
 
 if TYPE_CHECKING:
@@ -61,6 +62,8 @@ def simulate_fixed(
         u = evaluate_all(run.inputs, t)
     else:
         u = jnp.concatenate([samples.start, samples.end[-1:]])[rows]
+    if traced(x) and isinstance(solver, solvers.EXPLICIT):
+        _check_derivatives(run.system, start._replace(t=t, x=x[rows], u=u), float(h))
     t, x, u = cast((t, x[rows], u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 
@@ -86,6 +89,13 @@ def _check(
         f"The simulation broke down after t = {ends[last]:g} s: {what}."
         + (reason or " " + _advice(run.modes(), dt))
     )
+
+
+def _check_derivatives(system: System, trajectory: Values, h: float) -> None:
+    """Warn where derivatives are taken through steps far outside the solver's region of stability."""
+    values = known(trajectory)
+    if values is not None:
+        warn_of_long_steps(system, values, h)
 
 
 def _advice(modes: NDArray[np.complex128], dt: float) -> str:

@@ -81,7 +81,11 @@ def simulate(
     Raises:
         ModelError: for a model that is not compiled.
         DataError: for missing, unknown or malformed inputs and times.
-        SimulationError: if the solution stops short of the end, with the time reached.
+        SimulationError: if the solution stops short of the end, with the time reached, or runs away.
+
+    Warns:
+        UserWarning: if derivatives are taken, outside of `jax.jit` and `jax.vmap`, through steps far too long for an
+            explicit solver.
     """
     need_compiled(system, "simulate")
     kind = precision(dtype)
