@@ -88,9 +88,9 @@ def _reason(system: System, values: Values, name: str, k: int) -> str:
             f"The initial value of '{_first_nonfinite(system.states, values.x[0])}' is not finite."
         )
     if broken:
-        before, after = _at(values, k - 1), _at(values, k)
+        before, ts = _at(values, k - 1), np.asarray(values.t)
         reason = explain_ahead(
-            system, lambda t, x: before._replace(t=t, x=x), before, after.t - before.t
+            system, lambda t, x: before._replace(t=t, x=x), before, float(ts[k] - ts[k - 1])
         )
     else:
         reason = system.explain_nonfinite(_at(values, k), name)

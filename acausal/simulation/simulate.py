@@ -144,8 +144,7 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
 
 
 def _check_limit(max_steps: object) -> None:
-    whole = isinstance(max_steps, int | np.integer) and not isinstance(max_steps, bool)
-    if not (whole and max_steps > 0):
+    if isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer) or max_steps < 1:
         raise DataError(f"max_steps={max_steps!r} is not a limit of steps; give 1 or more.")
 
 
