@@ -123,6 +123,11 @@ class System:
         """
         return explicit_equations(self.program, self.layout, self.reduced.name)
 
+    @cached_property
+    def nominal(self) -> Float[np.ndarray, " n_states"]:
+        """Typical magnitudes of the states, in the order of ``x``: the attribute ``nominal``, 1 by default."""
+        return np.abs(self.initializer.conditions.nominal)
+
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""
         if name.startswith("der(") and name.endswith(")"):
@@ -235,9 +240,18 @@ class System:
         dx, y = rates_and_read(self.program, nodes, values)
         return dx, y if (signs == 1).all() else y * signs
 
-    def explain_nonfinite(self, values: Values) -> str | None:
-        """A sentence on the first equation of the model that has no finite value there, or None."""
-        return explain_nonfinite(self.program, values, self.reduced.name)
+    def explain_nonfinite(
+        self, values: Values, names: str | Sequence[str] | None = None
+    ) -> str | None:
+        """A sentence on the first equation that has no finite value at a point, or None.
+
+        Arguments:
+            values: the point, from `values`.
+            names: the variables whose equations are looked at; by default the derivatives of the states.
+        """
+        names = (names,) if isinstance(names, str) else names
+        nodes = None if names is None else self._find_all(names)[0]
+        return explain_nonfinite(self.program, values, self.reduced.name, nodes)
 
     def initial_state(
         self,

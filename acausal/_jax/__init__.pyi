@@ -1,4 +1,5 @@
 from .compilation_cache import use_compilation_cache as use_compilation_cache
+from .differentiation import two_modes as two_modes
 from .dtypes import (
     cast as cast,
     floating as floating,
@@ -8,4 +9,4 @@ from .dtypes import (
 from .jacobian import value_and_jacobian as value_and_jacobian
 from .scan import stored_scan as stored_scan
 from .settings import configure as configure
-from .tracing import array as array, traced as traced
+from .tracing import array as array, known as known, traced as traced

@@ -25,9 +25,13 @@ def precision(dtype: DTypeLike) -> np.dtype[np.floating[Any]]:
     Raises:
         DataError: for another.
     """
-    chosen = np.dtype(dtype)
-    if chosen.name not in PRECISIONS:
-        raise DataError(f"dtype={chosen.name}: models compute in {' or '.join(PRECISIONS)}.")
+    try:
+        chosen = np.dtype(dtype)
+    except TypeError:
+        chosen = None
+    if chosen is None or chosen.name not in PRECISIONS:
+        shown = repr(dtype) if chosen is None else chosen.name
+        raise DataError(f"dtype={shown}: models compute in {' or '.join(PRECISIONS)}.")
     return chosen
 
 

@@ -43,6 +43,10 @@ operation, that saves a fifth of the time; for smaller networks it saves nothing
 """
 
 
+EXPLODED = 1e15
+"""Growth of the adjoint from the results to the first state beyond which none of its digits is right: 1/eps or so."""
+
+
 def stored_scan(
     step: ScanStep,
     constants: PyTree,
@@ -62,7 +66,8 @@ def stored_scan(
 
     Returns:
         The states before the steps, with a leading axis of n; the state after the last one; the outputs of
-        all steps, with a leading axis. All can be differentiated by all arguments.
+        all steps, with a leading axis. All can be differentiated by all arguments. Where steps are repeated and the
+        adjoint explodes, as it does when steps are too long for their scheme to be stable, derivatives are NaN.
     """
     row = jax.tree.map(lambda a: jax.ShapeDtypeStruct(a.shape[1:], a.dtype), rows)
     closed, shapes = jax.make_jaxpr(step, return_shape=True)(constants, x0, row)
@@ -91,6 +96,7 @@ class _Saved(eqx.Module):
 
     Attributes:
         constants, states, rows: of the loop.
+        sizes: the largest magnitudes of its results: the states', the last state's, the outputs'.
         moved: the constants and rows whose derivatives are needed.
         operations: in a step.
     """
@@ -98,6 +104,7 @@ class _Saved(eqx.Module):
     constants: list[Array]
     states: Array
     rows: list[Array]
+    sizes: list[Array]
     moved: tuple[tuple[bool, ...], tuple[bool, ...]] = eqx.field(static=True)
     operations: int = eqx.field(static=True)
 
@@ -135,7 +142,8 @@ def _repeating(
         moved = tuple(p.perturbed for p in constants), tuple(p.perturbed for p in rows)
         shared, by_row = [p.value for p in constants], [p.value for p in rows]
         results = run(*shared, x0.value, *by_row)
-        return results, _Saved(shared, results[0], by_row, moved, size)
+        sizes = [_size(r) for r in results]
+        return results, _Saved(shared, results[0], by_row, sizes, moved, size)
 
     def back(saved: _Saved, cotangents: list[Array | SymbolicZero]) -> _Cotangents:
         return _back(step, saved, [None if isinstance(c, SymbolicZero) else c for c in cotangents])
@@ -178,10 +186,33 @@ def _back(step: FlatStep, saved: _Saved, cotangents: list[Array | None]) -> _Cot
         return [adjoint, *totals, *by_rows]
 
     known = [c for c in cotangents if c is not None]
-    adjoint, *others = batched(backward)(*saved.constants, saved.states, *saved.rows, *known)
+    found = batched(backward)(*saved.constants, saved.states, *saved.rows, *known)
+    exploded = _exploded(found[0], saved, cotangents)
+    adjoint, *others = (jnp.where(exploded, jnp.nan, c).astype(c.dtype) for c in found)
     count = sum(some_constants)
     by_constants = _scatter(some_constants, others[:count])
     return by_constants, adjoint, _scatter(some_rows, others[count:])
+
+
+def _exploded(adjoint: Array, saved: _Saved, cotangents: list[Array | None]) -> Array:
+    """Whether the adjoint has grown more than `EXPLODED` times on its way, though the states have not.
+
+    Both the plain numbers must have grown and those relative to the sizes of states and results: either may mislead, as
+    units are arbitrary, and results may be zero. Where the states themselves grow, so does the adjoint: what they have
+    grown since the first half of the steps is allowed for.
+    """
+    largest = [None if c is None else _size(c) for c in cotangents]
+    given = [(a, size) for a, size in zip(largest, saved.sizes, strict=True) if a is not None]
+    plain = jnp.stack([a for a, _ in given]).max()
+    relative = jnp.stack([a * size for a, size in given]).max()
+    sizes = jnp.max(jnp.abs(saved.states), axis=0)
+    early = jnp.max(jnp.abs(saved.states[: (len(saved.states) + 1) // 2]), axis=0)
+    grown = EXPLODED * jnp.max(jnp.where(early > 0, sizes / early, 1.0), initial=1.0)
+    return (_size(adjoint) > grown * plain) & (_size(adjoint * sizes) > grown * relative)
+
+
+def _size(array: Array) -> Array:
+    return jnp.max(jnp.abs(array), initial=0.0)
 
 
 def _some(values: Sequence[Array], chosen: Sequence[bool]) -> list[Array]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import jax
 import jax.numpy as jnp
 from jax import Array
@@ -9,10 +11,27 @@ from jax.core import Tracer
 from jax.typing import ArrayLike as JaxArrayLike
 from numpy.typing import ArrayLike
 
+Tree = TypeVar("Tree")
+
 
 def traced(*trees: object) -> bool:
     """Whether any leaf stands for a value that is not known yet."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
+
+
+def known(tree: Tree) -> Tree | None:
+    """The values that JAX differentiates at, where it does so step by step; ``None`` where it compiles or maps.
+
+    JAX does not document how its tracers hold these values. Where it changes that, they are not known.
+    """
+
+    def value(leaf: object) -> object:
+        while isinstance(leaf, Tracer) and hasattr(leaf, "primal"):
+            leaf = leaf.primal
+        return leaf
+
+    found = jax.tree.map(value, tree)
+    return None if traced(found) else found
 
 
 def array(value: ArrayLike | JaxArrayLike) -> Array:

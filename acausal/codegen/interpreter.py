@@ -46,11 +46,12 @@ def rates_and_read(
 
 
 def steps(
-    program: Program, values: Values
+    program: Program, values: Values, wanted: Iterable[int]
 ) -> Iterator[tuple[int, Instruction, list[Array], Arrays]]:
-    """Run all instructions in order; gives number, instruction, results, and the arrays before it."""
+    """Run what the wanted arrays depend on; gives number, instruction, results, and the arrays before it."""
     arrays = _known(program, values)
-    for i, instruction in enumerate(program.instructions):
+    for i in program.needed(wanted):
+        instruction = program.instructions[i]
         results = execute(instruction, values, arrays)
         yield i, instruction, results, arrays
         _fill(program, arrays, i, results)

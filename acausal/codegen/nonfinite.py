@@ -24,18 +24,28 @@ _NEAREST: dict[type, Callable[[Any, int, Values, Arrays], tuple[Array, Array]]] 
 """Where the search for a loop's solution stopped."""
 
 
-def explain_nonfinite(program: Program, values: Values, name: Callable[[int], str]) -> str | None:
+def explain_nonfinite(
+    program: Program,
+    values: Values,
+    name: Callable[[int], str],
+    nodes: Sequence[int] | None = None,
+) -> str | None:
     """A sentence on the first instruction that has no finite value at a point, or None.
 
     Arguments:
         name: of a node, for messages.
+        nodes: those whose values are asked for; by default the derivatives of the states.
     """
-    for i, instruction, results, arrays in steps(program, values):
-        place = _first_nonfinite(results)
-        if place is None:
+    wanted = program.rate_sources if nodes is None else program.gather(nodes).sources
+    for i, instruction, results, arrays in steps(program, values, wanted):
+        bad = _nonfinite(results)
+        if not bad:
             continue
+        first = program.first[i]
+        asked = [p for p in bad if nodes and int(program.nodes[first + p[0]][p[1]]) in nodes]
+        place = (asked or bad)[0]
         together = instruction.found_with(place)
-        names = [name(int(program.nodes[program.first[i] + array][row])) for array, row in together]
+        names = [name(int(program.nodes[first + array][row])) for array, row in together]
         if isinstance(instruction, Evaluate | Accumulate):
             value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
             return _formula(names[0], instruction.formula, value)
@@ -46,12 +56,12 @@ def explain_nonfinite(program: Program, values: Values, name: Callable[[int], st
     return None
 
 
-def _first_nonfinite(results: Sequence[Array]) -> Place | None:
-    for array, result in enumerate(results):
-        bad = np.flatnonzero(~np.isfinite(np.atleast_1d(np.asarray(result))))
-        if len(bad):
-            return array, int(bad[0])
-    return None
+def _nonfinite(results: Sequence[Array]) -> list[Place]:
+    return [
+        (array, int(row))
+        for array, result in enumerate(results)
+        for row in np.flatnonzero(~np.isfinite(np.atleast_1d(np.asarray(result))))
+    ]
 
 
 def _formula(name: str, formula: str, value: float) -> str:

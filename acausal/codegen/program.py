@@ -53,6 +53,11 @@ class Program:
         return source, index
 
     @property
+    def all_nodes(self) -> list[int]:
+        """The nodes that have values."""
+        return [node for nodes in self.nodes for node in nodes.tolist() if node >= 0]
+
+    @property
     def rate_sources(self) -> tuple[int, ...]:
         """The arrays in which the derivatives of the states are read."""
         return () if self.state_rates is None else self.state_rates.sources

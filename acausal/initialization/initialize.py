@@ -263,7 +263,8 @@ class Initializer:
             return
         if not np.isfinite(rest).all():
             start = found._replace(x=self.conditions.starts(found.packed))
-            reason = explain_nonfinite(self.conditions.program, start, self.reduced.name)
+            program = self.conditions.program
+            reason = explain_nonfinite(program, start, self.reduced.name, program.all_nodes)
             raise InitializationError(
                 "no initial values were found: the model's equations have no finite values at its starts. "
                 + (reason or "Give start values nearer to the solution (ac.Start).")

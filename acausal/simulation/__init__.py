@@ -13,7 +13,9 @@ from acausal.simulation.sampled_inputs import Samples as Samples, over_steps as 
 from acausal.simulation.simulate import simulate as simulate
 from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
+    EXPLICIT as EXPLICIT,
     Solver as Solver,
     for_fixed_steps as for_fixed_steps,
     solver_named as solver_named,
 )
+from acausal.simulation.stability import long_steps as long_steps

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, NamedTuple
 
 import diffrax as dfx
@@ -11,7 +12,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import cast, traced
+from acausal._jax import cast, traced, two_modes
 from acausal.errors import SimulationError, StepLimitError
 from acausal.simulation import solvers
 from acausal.simulation.inputs import evaluate, evaluate_all, jumps
@@ -55,7 +56,7 @@ def simulate_adaptive(
         rtol: relative tolerance of a step.
         atol: absolute tolerance, in the states' units.
         max_steps: limit of steps.
-        adjoint: how to differentiate; ``None`` is diffrax's reverse mode with checkpoints.
+        adjoint: how to differentiate; ``None``: in reverse mode with checkpoints, and in forward mode.
         dtype: precision of time and states.
 
     Raises:
@@ -64,16 +65,37 @@ def simulate_adaptive(
     solver = solvers.for_adaptive_steps(solver)
     jump_times = jnp.asarray(jumps(run.inputs, run.begin, run.end))
     run, t, jump_times = cast((run, jnp.asarray(saved), jump_times), dtype)
-    chosen = dfx.RecursiveCheckpointAdjoint() if adjoint is None else adjoint
-    solved = _solve(run, t, solver, rtol, atol, jump_times, max_steps, chosen)
+    solved = _solve(run, t, solver, rtol, atol, jump_times, max_steps, adjoint)
     if not traced(solved.x, solved.reached):
-        _check(run, solved, max_steps, solver)
+        _check(run, saved, solved, max_steps, solver)
     u = evaluate_all(run.inputs, t)
     return Solution(run.start._replace(t=t, x=solved.x, u=u), run.system)
 
 
 @eqx.filter_jit
 def _solve(
+    run: Run,
+    ts: Float[Array, " n"],
+    solver: solvers.Solver,
+    rtol: Tolerance,
+    atol: Tolerance,
+    jump_times: Float[Array, " n_jumps"],
+    max_steps: int,
+    adjoint: dfx.AbstractAdjoint | None,
+) -> Solved:
+    arrays, rest = eqx.partition((run, ts, rtol, atol, jump_times), eqx.is_array)
+
+    def solve(arrays: PyTree, adjoint: dfx.AbstractAdjoint) -> Solved:
+        run, ts, rtol, atol, jump_times = eqx.combine(arrays, rest)
+        return _diffeqsolve(run, ts, solver, rtol, atol, jump_times, max_steps, adjoint)
+
+    if adjoint is not None:
+        return solve(arrays, adjoint)
+    reverse, forward = dfx.RecursiveCheckpointAdjoint(), dfx.ForwardMode()
+    return two_modes(partial(solve, adjoint=reverse), partial(solve, adjoint=forward))(arrays)
+
+
+def _diffeqsolve(
     run: Run,
     ts: Float[Array, " n"],
     solver: solvers.Solver,
@@ -110,9 +132,17 @@ def _solve(
     return Solved(solution.ys[0], solution.ts[1][-1], solution.ys[1][-1], solution.result)
 
 
-def _check(run: Run, solved: Solved, max_steps: int, solver: solvers.Solver) -> None:
-    if bool(solved.result == dfx.RESULTS.successful) and np.isfinite(solved.x).all():
-        return
+def _check(
+    run: Run, ts: Float[np.ndarray, " n"], solved: Solved, max_steps: int, solver: solvers.Solver
+) -> None:
+    if bool(solved.result == dfx.RESULTS.successful):
+        if (broken := run.broken(solved.x)) is None:
+            return
+        row, what = broken
+        raise SimulationError(
+            f"The simulation with {type(solver).__name__} broke down before t = {ts[row]:g} s: {what}. "
+            "The model may diverge there: check its parameters, initial values and inputs."
+        )
     reached = float(solved.reached)
     where = f"The simulation with {type(solver).__name__} stopped at t = {reached:g} s, before {run.end:g} s"
     exhausted = bool(solved.result == dfx.RESULTS.max_steps_reached)

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
-from acausal._jax import cast, traced
+from acausal._jax import cast, known, traced
 from acausal.codegen import Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
@@ -19,6 +19,7 @@ from acausal.simulation.inputs import evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.sampled_inputs import over_steps
 from acausal.simulation.solution import Solution
+from acausal.simulation.stability import warn_of_long_steps
 from acausal.simulation.step_grid import rows_of
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def simulate_fixed(
 
     Raises:
         DataError: for a time to save that is not the end of a step.
-        SimulationError: if a value is not finite.
+        SimulationError: if a state is not finite, or has run away.
     """
     rows = slice(None) if saved is None else rows_of(ends, saved)
     h = (ends[-1] - ends[0]) / (len(ends) - 1)
@@ -62,6 +63,8 @@ def simulate_fixed(
         u = evaluate_all(run.inputs, t)
     else:
         u = jnp.concatenate([samples.start, samples.end[-1:]])[rows]
+    if traced(x) and isinstance(solver, solvers.EXPLICIT):
+        _check_derivatives(run.system, start._replace(t=t, x=x[rows], u=u), float(h))
     t, x, u = cast((t, x[rows], u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 
@@ -77,16 +80,23 @@ def _scan_steps(
 def _check(
     run: Run, ends: Float[np.ndarray, " n_ends"], x: Float[np.ndarray, "n_ends n_states"]
 ) -> None:
-    bad = np.flatnonzero(~np.isfinite(x).all(axis=1))
-    if not len(bad):
+    broken = run.broken(x)
+    if broken is None:
         return
-    state = run.system.states[int(np.flatnonzero(~np.isfinite(x[bad[0]]))[0])]
-    last, dt = max(int(bad[0]) - 1, 0), ends[1] - ends[0]
+    row, what = broken
+    last, dt = max(row - 1, 0), ends[1] - ends[0]
     reason = run.explain(run.at(float(ends[last]), x[last]), dt)
     raise SimulationError(
-        f"The simulation broke down after t = {ends[last]:g} s: '{state}' is not finite."
+        f"The simulation broke down after t = {ends[last]:g} s: {what}."
         + (reason or " " + _advice(run.modes(), dt))
     )
+
+
+def _check_derivatives(system: System, trajectory: Values, h: float) -> None:
+    """Warn where derivatives are taken through steps far outside the solver's region of stability."""
+    values = known(trajectory)
+    if values is not None:
+        warn_of_long_steps(system, values, h)
 
 
 def _advice(modes: NDArray[np.complex128], dt: float) -> str:
@@ -99,4 +109,7 @@ def _advice(modes: NDArray[np.complex128], dt: float) -> str:
         )
     if growth > 0:
         return f"The model is unstable: a mode grows by {growth:.3g} 1/s at the start. Check its parameters."
-    return "The model may diverge there: check its parameters, initial values and inputs, or try a smaller dt."
+    return (
+        "The model may diverge there: check its parameters, initial values and inputs, "
+        "or try a smaller dt, an implicit solver (solver='kvaerno5'), or leave dt out."
+    )

@@ -21,7 +21,7 @@ from acausal.codegen import Values
 from acausal.data import deviation_from_line
 from acausal.simulation.inputs import TimeFunction
 from acausal.simulation.sampled_inputs import Samples
-from acausal.simulation.solvers import Solver
+from acausal.simulation.solvers import EXPLICIT, Solver
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -146,8 +146,8 @@ def integrate(
         gives NaN.
     """
     outputs = tuple(outputs)
-    explicit = isinstance(solver, dfx.AbstractERK)
-    advance = _explicit(solver) if explicit else _implicit(solver)
+    explicit = isinstance(solver, EXPLICIT)
+    advance = _explicit(_tableau(solver)) if explicit else _implicit(solver)
     equal = steps.h if steps.h.ndim == 0 else None
     constant = start._replace(t=None, x=None, u=None)
     constants, fixed = eqx.partition((constant, steps.inputs.functions, equal), eqx.is_array)
@@ -191,12 +191,32 @@ def integrate(
     return Integrated(xs, ys, end)
 
 
-def _explicit(solver: dfx.AbstractERK) -> Stepper:
-    """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
-    tableau = cast(dfx.ButcherTableau, solver.tableau)
+class Tableau(NamedTuple):
+    """The coefficients of an explicit Runge–Kutta scheme.
+
+    Attributes:
+        rows: by stage, the weights of the stages before it.
+        fractions: by stage, its place in the step.
+        weights: of all stages in the result.
+    """
+
+    rows: Sequence[Sequence[float]]
+    fractions: Sequence[float]
+    weights: Sequence[float]
+
+
+def _tableau(solver: Solver) -> Tableau:
+    if isinstance(solver, dfx.Euler):
+        return Tableau([[]], [0.0], [1.0])
+    tableau = cast(dfx.ButcherTableau, cast(dfx.AbstractERK, solver).tableau)
     rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
     fractions = [0.0, *(float(c) for c in tableau.c)]
-    weights = [float(b) for b in tableau.b_sol]
+    return Tableau(rows, fractions, [float(b) for b in tableau.b_sol])
+
+
+def _explicit(tableau: Tableau) -> Stepper:
+    """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
+    rows, fractions, weights = tableau
     needed = max(i for i, b in enumerate(weights) if b) + 1
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:

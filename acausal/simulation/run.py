@@ -15,16 +15,14 @@ from numpy.typing import NDArray
 from acausal._jax import traced
 from acausal.codegen import Values
 from acausal.errors import SimulationError
+from acausal.simulation.finite import explain_ahead
 from acausal.simulation.inputs import TimeFunction, evaluate
 
 if TYPE_CHECKING:
     from acausal.system import System
 
-AHEAD = np.geomspace(1e-6, 1.0, 7)
-"""Where to look for a value that is not finite, as fractions of the time ahead."""
-
-DIVERGED = 1e30
-"""States larger than this have diverged."""
+RUN_AWAY = 1e30
+"""States larger than this, in units of their nominal values or of their start, have run away."""
 
 EIGENVALUES = 300
 """Models with more states are not examined: dense Jacobians and implicit steps would not pay."""
@@ -77,6 +75,28 @@ class Run(NamedTuple):
             return nothing
         return np.linalg.eigvals(jacobian).astype(complex)
 
+    @property
+    def limits(self) -> Float[np.ndarray, " n_states"]:
+        """The magnitudes beyond which states have run away."""
+        return RUN_AWAY * np.maximum(self.system.nominal, np.abs(np.asarray(self.start.x)))
+
+    def broken(self, x: Float[Array | np.ndarray, "n n_states"]) -> tuple[int, str] | None:
+        """The first of some points at which a state is not finite or has run away, and a clause on it; or None."""
+        x, limits = np.asarray(x), self.limits
+        if np.max(np.abs(x), initial=0.0) < np.min(limits, initial=np.inf):
+            return None
+        with np.errstate(invalid="ignore"):
+            good = np.abs(x) < limits
+        if good.all():
+            return None
+        row = int(np.argmin(good.all(axis=1)))
+        i = int(np.argmin(good[row]))
+        name, value = self.system.states[i], float(x[row, i])
+        if not np.isfinite(value):
+            return row, f"'{name}' is not finite"
+        by_nature = "(if that is its usual size, give its start a nominal value)"
+        return row, f"'{name}' has run away to {value:.3g} {by_nature}"
+
     def explain(self, at: Values, ahead: float) -> str:
         """Find the equation without a finite value at a point, or within some seconds along its derivative.
 
@@ -85,19 +105,12 @@ class Run(NamedTuple):
             ahead: how far to look [s].
 
         Returns:
-            A sentence; an empty text where nothing is found, or where the state itself has diverged.
+            A sentence; an empty text where nothing is found, or where the state itself has run away.
         """
-        if not (np.abs(at.x) < DIVERGED).all():
+        if not (np.abs(at.x) < self.limits).all():
             return ""
-        system, derivative = self.system, jnp.zeros_like(at.x)
-        for h in (0.0, *(ahead * AHEAD)):
-            values = self.at(at.t + h, at.x + h * derivative)
-            reason = system.explain_nonfinite(values)
-            if reason is not None:
-                return f" There {reason}"
-            if h == 0.0:
-                derivative = system.rates(values)
-        return ""
+        reason = explain_ahead(self.system, self.at, at, ahead)
+        return "" if reason is None else f" There {reason}"
 
 
 @eqx.filter_jit

@@ -54,8 +54,9 @@ def simulate(
 ) -> Solution:
     """Simulate a model.
 
-    With ``dt`` in fixed steps, without it adaptively. Both can be differentiated (in reverse mode; by
-    parameters, initial values and sampled inputs), compiled with `jax.jit` and mapped with `jax.vmap`.
+    With ``dt`` in fixed steps, without it adaptively. Both can be differentiated (by parameters, initial values and
+    sampled inputs; in reverse mode, and adaptive steps in forward mode, too), compiled with `jax.jit` and mapped with
+    `jax.vmap`.
 
     Arguments:
         system: a compiled model.
@@ -77,8 +78,9 @@ def simulate(
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
-        adjoint: how diffrax differentiates adaptive steps; by default in reverse mode with checkpoints.
-            `diffrax.ForwardMode()` allows forward mode (`jax.jvp`, `jax.jacfwd`), for fixed steps, too.
+        adjoint: how diffrax differentiates adaptive steps; by default in reverse mode with checkpoints, and in forward
+            mode (`jax.jvp`, `jax.jacfwd`) beside another run without derivatives. `diffrax.ForwardMode()` allows
+            forward mode alone, without that run, and for fixed steps, too.
         dtype: precision of time, states and parameters in the steps, float64 or float32. Single precision takes
             half the time in large batches; in adaptive steps ``rtol`` should not be below 1e-5.
 
@@ -88,13 +90,19 @@ def simulate(
     Raises:
         ModelError: for a model that is not compiled.
         DataError: for missing, unknown or malformed inputs and times.
-        SimulationError: if the solution stops short of the end, with the time reached.
+        SimulationError: if the solution stops short of the end, with the time reached, or runs away.
+
+    Warns:
+        UserWarning: if derivatives are taken, outside of `jax.jit` and `jax.vmap`, through steps far too long for an
+            explicit solver.
     """
     need_compiled(system, "simulate")
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
-    ends = None if dt is None else step_ends(start, end, dt)
+    _check_limit(max_steps)
+    width = 2 + len(system.states) + 3 * len(system.inputs)
+    ends = None if dt is None else step_ends(start, end, dt, width)
     given = inputs_by_name(system, inputs)
     functions = functions_of_time(system.inputs, given, (start, end), ends)
     _check_times(kind, ends, saved, functions)
@@ -141,10 +149,17 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
     return start, end
 
 
+def _check_limit(max_steps: object) -> None:
+    if isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer) or max_steps < 1:
+        raise DataError(f"max_steps={max_steps!r} is not a limit of steps; give 1 or more.")
+
+
 def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
     if not is_real(saveat):
         raise DataError(f"saveat={saveat!r:.60} are not times; give seconds.")
     ts = np.atleast_1d(np.asarray(saveat, float))
+    if not ts.size:
+        raise DataError("saveat is empty; give the times to save, or leave it out.")
     if ts.ndim != 1 or np.any(~(np.diff(ts) > 0)):
         raise DataError("saveat does not increase; give times in seconds, one after the other.")
     outside = ts[(ts < start) | (ts > end)]

@@ -19,6 +19,7 @@ from acausal._jax import traced
 from acausal.by_name import ByName, names_in
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest
+from acausal.simulation.finite import warn_of_nonfinite
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,8 +43,12 @@ class Solution(ByName):
     """A trajectory. ``solution["body.a"]`` is any variable of the model over ``t``, by its dotted name.
 
     ``solution[["body.v", "body.a"]]`` has one column for each, shape (n, 2); ``"body.a" in solution`` asks whether the
-    model has it; iteration goes through the names. Variables other than states are computed when they are first asked
-    for; ask for many at once, in a list or by `to_dict`.
+    model has it; iteration goes through the names.
+
+    Variables other than states are computed when they are first asked for; ask for many at once, in a list or by
+    `to_dict`. One that is not finite everywhere is then warned of, with the first time and the equation; but nothing is
+    said while JAX traces (`jax.jit`, `jax.grad`): there, ask with ``equinox.error_if(y, ~jnp.isfinite(y), "...")``, or
+    return the solution and read it outside.
 
     Attributes:
         values: times, states and inputs with a leading axis of n points, and parameters.
@@ -140,7 +145,7 @@ class Solution(ByName):
         return {n: np.asarray(self._observed[n]) for n in names}
 
     def _observe(self, names: Sequence[str]) -> None:
-        new = tuple(n for n in names if n not in self._observed)
+        unread = new = tuple(n for n in names if n not in self._observed)
         for source, values in ((self.system.states, self.x), (self.system.inputs, self.u)):
             self._observed.update({n: values[:, source.index(n)] for n in new if n in source})
         new = tuple(n for n in new if n not in self._observed)
@@ -150,6 +155,7 @@ class Solution(ByName):
         if new:
             values = _read_all(self.system, new, self.values)
             self._observed.update(zip(new, values, strict=True))
+        warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"

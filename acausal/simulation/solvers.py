@@ -11,10 +11,13 @@ import numpy as np
 from jax.typing import DTypeLike
 from numpy.typing import NDArray
 
-from acausal.errors import SimulationError, nearest
+from acausal.errors import SimulationError, nearest, shortened
 from acausal.simulation.stages import StageNewton, stage_newton
 
 Solver = dfx.AbstractSolver
+
+EXPLICIT = (dfx.AbstractERK, dfx.Euler)
+"""Explicit Runge–Kutta schemes; diffrax has no tableau of Euler's method."""
 
 STIFF_STEPS = 5000
 """The most explicit steps that stability may require before an implicit solver is chosen."""
@@ -72,13 +75,25 @@ def solver_named(solver: str | Solver) -> Solver:
     """A solver from its name, or as it is.
 
     Raises:
-        SimulationError: for a name that is not known.
+        SimulationError: for a name that is not known, or anything that is no solver of ordinary differential equations.
     """
-    if isinstance(solver, dfx.AbstractSolver):
-        return solver
-    if solver not in SOLVERS:
-        raise SimulationError(f"No solver '{solver}': {nearest(solver, (*SOLVERS, 'auto'))}")
-    return SOLVERS[solver]()
+    if isinstance(solver, str):
+        if solver not in SOLVERS:
+            raise SimulationError(f"No solver '{solver}': {nearest(solver, (*SOLVERS, 'auto'))}")
+        return SOLVERS[solver]()
+    if isinstance(solver, type) and issubclass(solver, dfx.AbstractSolver):
+        raise SimulationError(f"solver={solver.__name__} is a class: call it, {solver.__name__}().")
+    if not isinstance(solver, dfx.AbstractSolver):
+        raise SimulationError(
+            f"solver={shortened(repr(solver))} is no solver; choose one of {', '.join(SOLVERS)}, "
+            "or a diffrax solver such as diffrax.Tsit5()."
+        )
+    if solver.term_structure is not dfx.AbstractTerm:
+        name = type(solver).__name__
+        raise SimulationError(
+            f"{name} is not for ordinary differential equations as a whole; choose one of {', '.join(SOLVERS)}."
+        )
+    return solver
 
 
 def for_adaptive_steps(solver: Solver) -> Solver:
@@ -105,7 +120,7 @@ def for_fixed_steps(solver: Solver, dtype: DTypeLike = np.float64) -> Solver:
     Raises:
         SimulationError: for a solver that is not a Runge–Kutta scheme.
     """
-    if isinstance(solver, dfx.AbstractERK):
+    if isinstance(solver, EXPLICIT):
         return solver
     if not isinstance(solver, dfx.ImplicitEuler | dfx.AbstractRungeKutta):
         name = type(solver).__name__

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 from jaxtyping import Float, Int
 
@@ -10,17 +12,46 @@ from acausal.errors import DataError
 ON_GRID = 1e-6
 """A time counts as the end of a step if it is within this fraction of a step of it."""
 
+UNITS = ("bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB")
 
-def step_ends(start: float, end: float, dt: float) -> Float[np.ndarray, " n_ends"]:
+UNKNOWN_MEMORY = 2**36
+"""Bytes of memory that a machine is taken to have that does not say."""
+
+
+def memory() -> float:
+    """Bytes of this machine's memory."""
+    try:
+        return float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    except (AttributeError, OSError, ValueError):  # other systems than Unix
+        return UNKNOWN_MEMORY
+
+
+def _amount(size: float) -> str:
+    """Bytes as text."""
+    power = min(int(np.log2(size)) // 10, len(UNITS) - 1)
+    return f"{size / 1024**power:.3g} {UNITS[power]}"
+
+
+def step_ends(start: float, end: float, dt: float, width: int) -> Float[np.ndarray, " n_ends"]:
     """The ends of equal steps ``dt`` from start to end, shape (n + 1,).
 
+    Arguments:
+        start, end, dt: in seconds.
+        width: how many numbers are stored for each step.
+
     Raises:
-        DataError: if they do not divide the span.
+        DataError: if they do not divide the span, or if this machine's memory cannot hold so many.
     """
-    if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
+    is_number = isinstance(dt, float | int | np.number) and not isinstance(dt, bool)
+    if not (is_number and np.isfinite(dt) and dt > 0):
         raise DataError(f"dt={dt!r} is not a step; give a positive time in seconds.")
     span = end - start
     n = max(round(span / dt), 1)
+    if (needed := 8.0 * width * n) > memory():
+        raise DataError(
+            f"dt={dt:g} s makes {n:.3g} steps from {start:g} to {end:g} s, which need {_amount(needed)} of memory "
+            f"where there are {_amount(memory())}; choose a longer dt, or leave it out for adaptive steps."
+        )
     if abs(span / dt - n) > ON_GRID * n:
         raise DataError(
             f"Steps of dt={dt:g} s do not divide the {span:g} s from {start:g} to {end:g} s; "

@@ -20,6 +20,8 @@ class Divergence:
         epoch: the update.
         time: where the first such sequence starts in the record, in seconds.
         count: how many there were; 0 where the gradient was not finite though no sequence diverged.
+        exploded: how many of them had a finite loss, but a gradient that exploded: their steps are too long for the
+            solver.
         rejected: whether the whole update was rejected, or a trial of L-BFGS taken back.
     """
 
@@ -27,13 +29,17 @@ class Divergence:
     time: float
     count: int
     rejected: bool
+    exploded: int = 0
 
     def __str__(self) -> str:
         end = "update rejected" if self.rejected else "left out"
         if self.count == 0:
             return f"epoch {self.epoch}: the gradient is not finite; {end}"
         others = f" and {self.count - 1} more" if self.count > 1 else ""
-        return f"epoch {self.epoch}: the sequence from t = {self.time:g} s{others} diverged; {end}"
+        what = f"the sequence from t = {self.time:g} s{others} diverged"
+        if self.exploded:
+            what += f" ({self.exploded} in its gradient alone)"
+        return f"epoch {self.epoch}: {what}; {end}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +118,11 @@ class LogEntry(Protocol):
         ...
 
     @property
+    def exploded(self) -> Int[Array, " n"]:
+        """How many of them only because their gradient exploded."""
+        ...
+
+    @property
     def first(self) -> Int[Array, " n"]:
         """Where the first of them starts: a sample's index."""
         ...
@@ -147,7 +158,7 @@ class Log:
         modifiers: tuple[str, ...],
     ) -> None:
         self._times, self._penalties, self._modifiers = times, penalties, modifiers
-        whole = {n: np.zeros(0, int) for n in ("diverged", "first")}
+        whole = {n: np.zeros(0, int) for n in ("diverged", "exploded", "first")}
         names = ("loss", "seconds", *map(_penalty, penalties), *map(_modifier, modifiers))
         numbers = {n: np.zeros(0) for n in names}
         self._chunks = [{**numbers, **whole, "rejected": np.zeros(0, bool)}]
@@ -160,6 +171,7 @@ class Log:
         reported = {
             "loss": entry.loss,
             "diverged": entry.diverged,
+            "exploded": entry.exploded,
             "first": entry.first,
             "rejected": entry.rejected,
             **{_penalty(n): entry.penalties[n] for n in self._penalties},
@@ -170,13 +182,16 @@ class Log:
         return self._append({**rows, "seconds": seconds})
 
     def _append(self, chunk: dict[str, np.ndarray]) -> list[Divergence]:
-        diverged, first, rejected = (chunk[n] for n in ("diverged", "first", "rejected"))
+        diverged, exploded, first, rejected = (
+            chunk[n] for n in ("diverged", "exploded", "first", "rejected")
+        )
         new = [
             Divergence(
                 self.epochs + i,
                 float(self._times[first[i]]),
                 int(diverged[i]),
                 bool(rejected[i]),
+                int(exploded[i]),
             )
             for i in np.flatnonzero(rejected | (diverged > 0)).tolist()
         ]
@@ -206,6 +221,8 @@ class Log:
             DataError: if they are not the columns of such a log.
         """
         chunk = {n: column for n, column in columns.items() if n != EVALUATIONS}
+        if "diverged" in chunk:  # logs of earlier versions do not count gradients that exploded
+            chunk.setdefault("exploded", np.zeros_like(chunk["diverged"]))
         if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)

@@ -36,6 +36,12 @@ from acausal.training.strategy import Leg
 REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
 
+SHORTER_STEPS = (
+    "Its steps are too long for the solver to be stable: "
+    "take a smaller dt, an implicit solver (solver='kvaerno3'), or shorter sequences."
+)
+"""What helps where gradients explode."""
+
 REJECTIONS = 50
 """A training ends after this many rejected updates in a row."""
 
@@ -274,6 +280,9 @@ def _check_rejections(log: Log, rejected: int) -> None:
     if sequences:
         what = f"the sequence from t = {sequences[0].time:g} s diverges"
         mend = "Start from smaller networks or better parameters, take shorter sequences, or a smaller dt."
+        if sequences[0].exploded:
+            what = f"the gradient of the sequence from t = {sequences[0].time:g} s explodes"
+            mend = SHORTER_STEPS
     else:
         what = "the gradient is not finite"
         mend = "Lower the optimizer's rate, or clip the gradient."

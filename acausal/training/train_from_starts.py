@@ -15,12 +15,15 @@ from jaxtyping import PyTree
 from numpy.typing import ArrayLike
 
 from acausal.by_name import names_in
+from acausal.codegen import Values
 from acausal.data import Data
 from acausal.errors import TrainingError, listing
+from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
-from acausal.training.loop import Trained, train
+from acausal.training.loop import SHORTER_STEPS, Trained, train
+from acausal.training.member import Best
 from acausal.training.objective.held_out import hold_out, split
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -135,9 +138,12 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
         yield (
             f"Something diverged in {len(diverged)} of {epochs} epochs and was left out "
             f"(fit.history.divergences); first, {diverged[0]}."
+            + (f" {SHORTER_STEPS}" if any(d.exploded for d in diverged) else "")
         )
     if not np.isfinite(trained.best.loss):
         yield "The trained model diverges over the whole record: its loss is infinite."
+    elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
+        yield f"Training found nothing better than its start. {sentence}"
     unmoved = _unmoved(start, trained.last)
     if unmoved and len(diverged) < epochs and trained.history.full_loss[0, 1] > EXACT:
         yield (
@@ -146,6 +152,15 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
         )
     changes = changes_of(problem, trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
+
+
+def _long_steps(problem: Problem, best: Best) -> str | None:
+    """A sentence on steps that are too long for gradients, or None."""
+    if not isinstance(problem.solver, EXPLICIT):
+        return None
+    packed = problem.system.pack(problem.assemble(best.trainable))
+    values = Values(problem.times, best.simulated.x, problem.inputs, packed)
+    return long_steps(problem.system, values, problem.longest_step)
 
 
 def _unmoved(start: Trainable, end: Trainable) -> list[str]:

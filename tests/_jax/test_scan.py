@@ -95,6 +95,39 @@ def test_second_derivatives():
     assert_same(lambda f: jax.jacrev(jax.grad(partial(loss, f), 2), 2)(MATRIX, GAIN, X0))
 
 
+def bounded(x):
+    """It stays below one, and its derivative is -5."""
+    return jnp.stack([-5.0, 0.5]) * (x - lax.stop_gradient(x)) + lax.stop_gradient(jnp.tanh(x))
+
+
+@pytest.mark.parametrize(("n", "is_right"), [(20, True), (30, False)])
+def test_derivatives_that_explode_are_nan(n, is_right):
+    """In any units; where they have not exploded, they stay as they are, also beside one that has."""
+
+    def end(x, rate, count=n, unit=1.0):
+        def step(rate, x, row):
+            return bounded(rate * x) + row, x
+
+        return unit * stored_scan(step, rate, x, jnp.zeros((count, 2)))[1].sum()
+
+    x = jnp.asarray([0.3, 0.4])
+    for unit in (1e-30, 1.0, 1e30):
+        by_x, by_rate = jax.grad(end, (0, 1))(x, 1.0, unit=unit)
+        assert bool(jnp.isfinite(by_x).all()) is is_right
+        assert bool(jnp.isfinite(by_rate)) is is_right
+    both = jax.vmap(jax.grad(end))(jnp.stack([x, x]), jnp.asarray([1.0, 0.1]))
+    assert jnp.isfinite(both).all(axis=1).tolist() == [is_right, True]
+
+
+def test_derivatives_grow_with_the_states():
+    """A state that grows by 1e25 has right derivatives as large."""
+
+    def end(x):
+        return stored_scan(lambda c, x, u: (3.0 * x, x), 0.0, x, jnp.zeros(52))[1]
+
+    np.testing.assert_allclose(jax.grad(end)(jnp.asarray(2.0)), 3.0**52)
+
+
 def test_forward_mode_where_it_is_asked_for():
     direct = partial(stored_scan, direct=True)
 

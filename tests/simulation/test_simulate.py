@@ -26,7 +26,15 @@ def error(solver, dt):
 
 @pytest.mark.parametrize(
     ("solver", "order"),
-    [("heun", 2), ("midpoint", 2), ("bosh3", 3), ("rk4", 4), ("tsit5", 5), ("implicit_euler", 1)],
+    [
+        ("euler", 1),
+        ("heun", 2),
+        ("midpoint", 2),
+        ("bosh3", 3),
+        ("rk4", 4),
+        ("tsit5", 5),
+        ("implicit_euler", 1),
+    ],
 )
 def test_fixed_steps_converge_with_their_order(solver, order):
     coarse, fine = (0.02, 0.01) if order > 1 else (0.001, 0.0005)
@@ -241,6 +249,24 @@ def test_gradients_by_parameters_and_starts(how):
         assert float(gradient[i]) == pytest.approx(float(difference), rel=1e-6)
 
 
+def test_adaptive_steps_have_derivatives_in_both_modes():
+    """Without a choice of diffrax's adjoint, alone and within `jax.jit` and `jax.vmap`."""
+
+    def ends(theta):
+        params = plain().parameters() | {"spring.c": theta[0]}
+        return ac.simulate(
+            plain(), (0, 1), inputs=NO_FORCE, params=params, x0={"mass.s": theta[1]}, saveat=[0, 1]
+        ).x[-1]
+
+    theta = jnp.asarray([C, 0.3])
+    reverse = jax.jacrev(ends)(theta)
+    np.testing.assert_allclose(jax.jacfwd(ends)(theta), reverse, rtol=1e-9)
+    many = jax.jit(jax.vmap(jax.jacfwd(ends)))(jnp.stack([theta, 1.1 * theta]))
+    np.testing.assert_allclose(many[0], reverse, rtol=1e-9)
+    with pytest.raises(ac.DataError, match=r"^Adaptive steps have no second derivatives"):
+        jax.jacfwd(jax.grad(lambda theta: ends(theta)[0]))(theta)
+
+
 def test_gradient_by_samples_of_the_input():
     def end(samples):
         return ac.simulate(plain(), (0, 1), dt=0.1, inputs={"push.f": samples})["mass.s"][-1]
@@ -348,6 +374,44 @@ def test_a_second_call_does_not_compile():
             f"LeapfrogMidpoint is not a one-step scheme for fixed steps; choose one of {', '.join(SOLVERS)}.",
         ),
         (
+            {"inputs": NO_FORCE, "solver": "euler"},
+            ac.SimulationError,
+            "Euler has no error estimate: give dt for fixed steps, or choose solver='tsit5'.",
+        ),
+        (
+            {"inputs": NO_FORCE, "solver": diffrax.Tsit5},
+            ac.SimulationError,
+            "solver=Tsit5 is a class: call it, Tsit5().",
+        ),
+        (
+            {"inputs": NO_FORCE, "solver": None},
+            ac.SimulationError,
+            (
+                f"solver=None is no solver; choose one of {', '.join(SOLVERS)}, "
+                "or a diffrax solver such as diffrax.Tsit5()."
+            ),
+        ),
+        (
+            {"inputs": NO_FORCE, "dtype": "banana"},
+            ac.DataError,
+            "dtype='banana': models compute in float64 or float32.",
+        ),
+        (
+            {"inputs": NO_FORCE, "max_steps": 0},
+            ac.DataError,
+            "max_steps=0 is not a limit of steps; give 1 or more.",
+        ),
+        (
+            {"inputs": NO_FORCE, "saveat": []},
+            ac.DataError,
+            "saveat is empty; give the times to save, or leave it out.",
+        ),
+        (
+            {"inputs": NO_FORCE, "saveat": "often"},
+            ac.DataError,
+            "saveat='often' are not times; give seconds.",
+        ),
+        (
             {"inputs": NO_FORCE, "x0": {"mass.s": np.nan}},
             ac.SimulationError,
             "The initial value of 'mass.s' is nan.",
@@ -360,13 +424,19 @@ def test_mistakes_get_one_sentence(arguments, kind, sentence):
     assert str(found.value) == sentence
 
 
+def test_steps_that_no_memory_holds():
+    sentence = r"^dt=1e-12 s makes 1e\+12 steps from 0 to 1 s, which need 50.9 TiB of memory where there are"
+    with pytest.raises(ac.DataError, match=sentence):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=1e-12)
+
+
 @pytest.mark.parametrize("t", [(1, 1), (0, np.nan), 3, (0,), None, ("a", "b")])
 def test_what_is_no_span(t):
     with pytest.raises(ac.DataError, match=r"^t=.* is not a span of time"):
         ac.simulate(plain(), t, inputs=NO_FORCE)
 
 
-@pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast"])
+@pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast", True])
 def test_what_is_no_step(dt):
     with pytest.raises(ac.DataError, match=r"^dt=.* is not a step"):
         ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=dt)

@@ -308,8 +308,8 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
         lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700])
     )
     good = jax.tree.map(lambda a: a[np.array([0, 2])], bad)
-    _, mixed, mask = evaluate_healthy(posed, trainer, state.trainable, bad)
-    _, alone, _ = evaluate_healthy(posed, trainer, state.trainable, good)
+    _, mixed, mask, _ = evaluate_healthy(posed, trainer, state.trainable, bad)
+    _, alone, _, _ = evaluate_healthy(posed, trainer, state.trainable, good)
     assert mask.tolist() == [False, True, False]
     jax.tree.map(
         lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-10, atol=1e-12),

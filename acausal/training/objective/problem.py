@@ -150,7 +150,8 @@ class Problem(eqx.Module):
 
     def draw(self, key: PRNGKeyArray) -> Batch:
         """A random batch of sequences."""
-        return self.sequences.draw(key)
+        batch = self.sequences.draw(key)
+        return batch.nudged(jnp.zeros((len(batch.start), len(self.system.states))))
 
     def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " batch"]:
         """The loss of every sequence of a batch."""
@@ -160,17 +161,20 @@ class Problem(eqx.Module):
             arrays, trainable = same
             return eqx.combine(arrays, rest)._losses(trainable, *rows)
 
-        return shard(share, self.mesh, (arrays, trainable), (batch.start, batch.points))
+        return shard(
+            share, self.mesh, (arrays, trainable), (batch.start, batch.points, batch.nudge)
+        )
 
     def _losses(
         self,
         trainable: Trainable,
         starts: Int[Array, " batch"],
         points: Int[Array, "batch n_points"] | None,
+        nudges: Float[Array, "batch n_states"] | None,
     ) -> Float[Array, " batch"]:
         params = self.assemble(trainable)
         return self.parameter_spread.mean(
-            lambda p: self._losses_with(p, trainable, starts, points), params
+            lambda p: self._losses_with(p, trainable, starts, points, nudges), params
         )
 
     def _losses_with(
@@ -179,12 +183,18 @@ class Problem(eqx.Module):
         trainable: Trainable,
         starts: Int[Array, " batch"],
         points: Int[Array, "batch n_points"] | None,
+        nudges: Float[Array, "batch n_states"] | None,
     ) -> Float[Array, " batch"]:
         packed = self.system.pack(params)
 
-        def one(start: Int[Array, ""], points: Int[Array, " n_points"] | None) -> Float[Array, ""]:
+        def one(
+            start: Int[Array, ""],
+            points: Int[Array, " n_points"] | None,
+            nudge: Float[Array, " n_states"] | None,
+        ) -> Float[Array, ""]:
             steps, measured = self._record.window(start, self.sequences.length)
             x0 = self._start_of(trainable, packed, start)
+            x0 = x0 if nudge is None else x0 + nudge
             _, predicted, end = self._integrate(packed, x0, steps)
             if points is not None:
                 predicted, measured = predicted[points], measured[points]
@@ -194,9 +204,9 @@ class Problem(eqx.Module):
             return loss + self.shooting.gap(trainable.states, start // self.shooting.length, end)
 
         if starts.shape[0] == 1:
-            first = jax.tree.map(lambda a: a[0], (starts, points))
+            first = jax.tree.map(lambda a: a[0], (starts, points, nudges))
             return one(*first)[None]
-        return jax.vmap(one)(starts, points)
+        return jax.vmap(one)(starts, points, nudges)
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -79,11 +81,18 @@ class Batch(eqx.Module):
         start: index of each one's first sample.
         weight: 1, or 0 for a sequence that is left out.
         points: which of its samples count, or ``None`` for all.
+        nudge: zeros that are added to the state at each one's start: the derivatives by them show whose gradient
+            explodes. ``None`` where nothing is integrated.
     """
 
     start: Int[Array, " batch"]
     weight: Float[Array, " batch"]
     points: Int[Array, "batch n_points"] | None
+    nudge: Float[Array, "batch n_states"] | None = None
+
+    def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> Batch:
+        """The batch with other starts."""
+        return replace(self, nudge=nudge)
 
     def without(self, bad: Bool[Array, " batch"]) -> Batch:
         """The batch with some sequences (a mask) replaced by a good one with weight zero.

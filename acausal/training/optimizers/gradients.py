@@ -9,15 +9,27 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax.flatten_util import ravel_pytree
-from jaxtyping import Array, Float, Int, PRNGKeyArray, PyTree
+from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
 from acausal._jax import value_and_jacobian
+
+EXPLODED = 1e15
+"""The largest change of a loss by a change of what is trained; both are pure numbers of about one."""
 
 Scalar = Float[Array, ""]
 
 
 class WeightedBatch(Protocol):
     """Sequences of a record."""
+
+    @property
+    def nudge(self) -> Float[Array, "batch n_states"] | None:
+        """Zeros that are added to the state at each sequence's start, if there is one."""
+        ...
+
+    def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> WeightedBatch:
+        """The batch with other starts."""
+        ...
 
     @property
     def start(self) -> Int[Array, " batch"]:
@@ -66,6 +78,7 @@ class Evaluated(eqx.Module):
         penalties: what is added, by name.
         total: what is minimised: the mean loss and all penalties.
         gradient: of the total, a pytree like what is trained.
+        exploded: whether the gradient of a sequence is not finite.
         hessian: of the total, for P trained numbers; ``None`` where the optimizer does not need it.
     """
 
@@ -73,6 +86,7 @@ class Evaluated(eqx.Module):
     penalties: dict[str, Scalar]
     total: Scalar
     gradient: PyTree
+    exploded: Bool[Array, " batch"]
     hessian: Float[Array, "P P"] | None = None
 
 
@@ -91,9 +105,15 @@ def total(
 
 def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch) -> Evaluated:
     """The gradient alone, in reverse mode."""
-    evaluate = jax.value_and_grad(lambda tree: total(objective, tree, batch), has_aux=True)
-    (value, (losses, penalties)), gradient = evaluate(trainable)
-    return Evaluated(losses, penalties, value, gradient)
+    evaluate = jax.value_and_grad(
+        lambda moved: total(objective, moved[0], batch.nudged(moved[1])), has_aux=True
+    )
+    (value, (losses, penalties)), found = evaluate((trainable, batch.nudge))
+    gradient, by_start = found
+    exploded = jnp.zeros(losses.shape, bool)
+    if by_start is not None:
+        exploded = ~jnp.isfinite(by_start).all(axis=1)
+    return Evaluated(losses, penalties, value, gradient, exploded)
 
 
 def with_gauss_newton_hessian(
@@ -122,7 +142,10 @@ def with_gauss_newton_hessian(
     if penalties:
         gradient += jax.grad(penalty)(flat)
         hessian += jax.hessian(penalty)(flat)
-    return Evaluated(loss[None], penalties, loss + _sum(penalties), unravel(gradient), hessian)
+    exploded = ~(jnp.max(jnp.abs(gradient)) < EXPLODED)
+    gradient = jnp.where(exploded, jnp.nan, gradient)
+    value = loss + _sum(penalties)
+    return Evaluated(loss[None], penalties, value, unravel(gradient), exploded[None], hessian)
 
 
 def _of_loss(

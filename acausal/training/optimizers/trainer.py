@@ -56,7 +56,8 @@ class Entry(eqx.Module):
         loss: mean loss of the batch's sequences that count, without penalties.
         penalties: by name.
         logged: the values logged from the trainable, see `Trainer`.
-        diverged: how many sequences were left out; ``first``: where the first of them starts (a sample's index).
+        diverged: how many sequences were left out; ``exploded``: those of them with a finite loss; ``first``: where the
+            first of them starts (a sample's index).
         rejected: whether the update was rejected, or was a trial that L-BFGS takes back.
     """
 
@@ -64,6 +65,7 @@ class Entry(eqx.Module):
     penalties: dict[str, Float[Array, "*updates"]]
     logged: PyTree
     diverged: Int[Array, "*updates"]
+    exploded: Int[Array, "*updates"]
     first: Int[Array, "*updates"]
     rejected: Bool[Array, "*updates"]
 
@@ -151,14 +153,14 @@ def advance(
 def _empty_entry(objective: Objective, trainer: Trainer, trainable: PyTree) -> Entry:
     number, count = jnp.zeros(()), jnp.zeros((), int)
     logged = objective.penalties(trainable), trainer.log(objective, trainable)
-    return Entry(number, *logged, count, count, jnp.zeros((), bool))
+    return Entry(number, *logged, count, count, count, jnp.zeros((), bool))
 
 
 def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
     drawn = objective.draw(jax.random.fold_in(state.key, state.epoch))
-    batch, found, bad = evaluate_healthy(objective, trainer, state.trainable, drawn)
+    batch, found, bad, exploded = evaluate_healthy(objective, trainer, state.trainable, drawn)
     derivatives = found.gradient, found.hessian
-    usable = _finite((found.total, derivatives)) & ~_diverged(found.losses, trainer).any()
+    usable = _finite((found.total, derivatives)) & ~_diverged(found, trainer).any()
     zeros = jax.tree.map(jnp.zeros_like, derivatives)
     gradient, hessian = _select(usable, derivatives, zeros)
     steps, optimizer = trainer.optimizer.update(
@@ -179,6 +181,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
         found.penalties,
         trainer.log(objective, state.trainable),
         bad.sum(),
+        exploded,
         drawn.start[jnp.argmax(bad)],
         ~(accepted & usable),
     )
@@ -187,8 +190,11 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
 
 def evaluate_healthy(
     objective: Objective, trainer: Trainer, trainable: PyTree, batch: PyTree
-) -> tuple[PyTree, Evaluated, Bool[Array, " batch"]]:
-    """Losses and derivatives of the sequences that do not diverge; their batch, and a mask of those that do.
+) -> tuple[PyTree, Evaluated, Bool[Array, " batch"], Int[Array, ""]]:
+    """Losses and derivatives of the sequences that do not diverge.
+
+    Besides, their batch; a mask of those that do; and how many of these have a finite loss, so that only their gradient
+    explodes.
 
     If some diverge, everything is computed again without them: in a loop, so that the program contains it only once and
     a healthy batch costs nothing extra.
@@ -199,30 +205,34 @@ def evaluate_healthy(
 
     if batch.start.shape[0] == 1:
         found = evaluate(batch)
-        return batch, found, _diverged(found.losses, trainer)
+        return batch, found, _diverged(found, trainer), _exploded(found, trainer)
 
-    def again(carry: tuple[PyTree, Evaluated, Array, Array]) -> Bool[Array, ""]:
-        _, found, bad, count = carry
-        new = _diverged(found.losses, trainer)
+    def again(carry: tuple[PyTree, Evaluated, Array, Array, Array]) -> Bool[Array, ""]:
+        _, found, bad, _, count = carry
+        new = _diverged(found, trainer)
         return (count == 0) | ((count == 1) & new.any() & ~bad.all())
 
     def body(
-        carry: tuple[PyTree, Evaluated, Array, Array],
-    ) -> tuple[PyTree, Evaluated, Array, Array]:
-        batch, _, bad, count = carry
+        carry: tuple[PyTree, Evaluated, Array, Array, Array],
+    ) -> tuple[PyTree, Evaluated, Array, Array, Array]:
+        batch, _, bad, exploded, count = carry
         batch = jax.tree.map(
             lambda new, old: jnp.where(bad.any(), new, old), batch.without(bad), batch
         )
         found = evaluate(batch)
-        bad = jnp.where(count == 0, _diverged(found.losses, trainer), bad)
-        return batch, found, bad, count + 1
+        bad = jnp.where(count == 0, _diverged(found, trainer), bad)
+        exploded = jnp.where(count == 0, _exploded(found, trainer), exploded)
+        return batch, found, bad, exploded, count + 1
 
     zeros = jnp.zeros(batch.start.shape)
     penalties = jax.tree.map(jnp.zeros_like, jax.eval_shape(objective.penalties, trainable))
-    empty = Evaluated(zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable))
-    none = zeros > 0
-    batch, found, bad, _ = jax.lax.while_loop(again, body, (batch, empty, none, jnp.asarray(0)))
-    return batch, found, bad
+    none, zero = zeros > 0, jnp.zeros((), int)
+    empty = Evaluated(
+        zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable), none
+    )
+    first = batch, empty, none, zero, zero
+    batch, found, bad, exploded, _ = jax.lax.while_loop(again, body, first)
+    return batch, found, bad, exploded
 
 
 def _takes_back(optimizer: PyTree) -> Bool[Array, ""] | bool:
@@ -230,8 +240,13 @@ def _takes_back(optimizer: PyTree) -> Bool[Array, ""] | bool:
     return jnp.isfinite(optimizer.value) if isinstance(optimizer, Descent) else False
 
 
-def _diverged(losses: Float[Array, " batch"], trainer: Trainer) -> Bool[Array, " batch"]:
-    return ~(losses <= trainer.limit)
+def _diverged(found: Evaluated, trainer: Trainer) -> Bool[Array, " batch"]:
+    return ~(found.losses <= trainer.limit) | found.exploded
+
+
+def _exploded(found: Evaluated, trainer: Trainer) -> Int[Array, ""]:
+    """How many sequences have a finite loss, but no finite gradient."""
+    return (found.exploded & (found.losses <= trainer.limit)).sum()
 
 
 def _finite(tree: PyTree) -> Bool[Array, ""]:

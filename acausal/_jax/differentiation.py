@@ -1,0 +1,121 @@
+"""Functions that have one implementation for derivatives in reverse mode, and another for those in forward mode."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import Array, lax
+from jax.custom_derivatives import SymbolicZero
+from jaxtyping import PyTree
+
+from acausal.errors import DataError
+
+Result = TypeVar("Result")
+Tree = TypeVar("Tree")
+Linear = Callable[[list[Array]], list[Array]]
+
+
+def two_modes(
+    reverse: Callable[[PyTree], Result], forward: Callable[[PyTree], Result]
+) -> Callable[[PyTree], Result]:
+    """A function that JAX differentiates in both modes, where no single implementation allows it.
+
+    Derivatives in reverse mode cost what those of ``reverse`` cost. Those in forward mode cost an evaluation of
+    ``reverse`` besides those of ``forward``. There are no second derivatives.
+
+    Arguments:
+        reverse: of a pytree of arrays; can be differentiated in reverse mode.
+        forward: the same function; can be differentiated in forward mode.
+    """
+
+    @jax.custom_jvp
+    def call(args: PyTree) -> Result:
+        return reverse(args)
+
+    def derivative(primals: tuple[PyTree], tangents: tuple[PyTree]) -> tuple[Result, Any]:
+        values, tree = jax.tree.flatten(primals[0])
+        directions = jax.tree.leaves(tangents[0], is_leaf=_is_zero)
+        moved = [not _is_zero(d) for d in directions]
+
+        def of(function: Callable[[PyTree], Result], values: Sequence[Array]) -> Any:
+            """The function of the arguments that move, and these."""
+
+            def of_moved(some: list[Array]) -> tuple[list[Array], Result]:
+                own = iter(some)
+                filled = [next(own) if m else v for v, m in zip(values, moved, strict=True)]
+                result = function(jax.tree.unflatten(tree, filled))
+                return jax.tree.leaves(eqx.filter(result, eqx.is_inexact_array)), result
+
+            return of_moved, [v for v, m in zip(values, moved, strict=True) if m]
+
+        found, pull, result = jax.vjp(*of(reverse, values), has_aux=True)
+        arrays, fixed = eqx.partition((values, pull), eqx.is_array)
+        saved = _differentiated_once(arrays)
+
+        def push(directions: list[Array]) -> list[Array]:
+            values, _ = eqx.combine(saved, fixed)
+            of_moved, some = of(forward, values)
+            return jax.jvp(lambda some: of_moved(some)[0], (some,), (directions,))[1]
+
+        def pull_back(cotangents: list[Array]) -> list[Array]:
+            return eqx.combine(saved, fixed)[1](cotangents)[0]
+
+        given = [d for d, m in zip(directions, moved, strict=True) if m]
+        change = iter(_linear(push, pull_back, given, found))
+        return result, jax.tree.map(
+            lambda a: (
+                next(change) if eqx.is_inexact_array(a) else np.zeros(a.shape, jax.dtypes.float0)
+            ),
+            result,
+        )
+
+    call.defjvp(derivative, symbolic_zeros=True)
+    return call
+
+
+def _is_zero(tangent: object) -> bool:
+    return isinstance(tangent, SymbolicZero)
+
+
+def _linear(push: Linear, pull: Linear, given: list[Array], like: list[Array]) -> list[Array]:
+    """``push(given)`` for JAX, whose transpose is ``pull``: the solution of ``result - push(given) = 0``."""
+
+    def solve(_: object, b: tuple[list[Array], list[Array]]) -> tuple[list[Array], list[Array]]:
+        return b[0], _sums(b[1], push(b[0]))
+
+    def transposed(
+        _: object, b: tuple[list[Array], list[Array]]
+    ) -> tuple[list[Array], list[Array]]:
+        return _sums(b[0], pull(b[1])), b[1]
+
+    none = 0.0 * sum(
+        (jnp.sum(d) for d in given), jnp.zeros(())
+    )  # JAX wants it linear in what is given
+    nothing = [jnp.broadcast_to(none.astype(a.dtype), a.shape) for a in like]
+    # `symmetric`, although it is not: so JAX does not derive the transpose, which is given, from the first argument
+    solved: Any = lax.custom_linear_solve(
+        lambda b: b, (given, nothing), solve, transposed, symmetric=True
+    )
+    return solved[1]
+
+
+def _sums(left: list[Array], right: list[Array]) -> list[Array]:
+    return [a + b for a, b in zip(left, right, strict=True)]
+
+
+@jax.custom_jvp
+def _differentiated_once(tree: Tree) -> Tree:
+    return tree
+
+
+@_differentiated_once.defjvp
+def _refuse(primals: tuple[Tree], tangents: tuple[Tree]) -> tuple[Tree, Tree]:
+    raise DataError(
+        "Adaptive steps have no second derivatives: give dt for fixed steps, "
+        "or adjoint=diffrax.ForwardMode() and take derivatives in forward mode only."
+    )

@@ -1,0 +1,116 @@
+"""What is not finite: found in the equations, and said when it is read in a result, with the time and the variable.
+
+While JAX traces, values are not known, and nothing can be said; it is said when the result is read outside.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import jax.numpy as jnp
+import numpy as np
+from jax.typing import ArrayLike
+from jaxtyping import Array, Float
+
+from acausal._jax import traced
+from acausal.codegen import Values
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+LIBRARY = str(Path(__file__).parents[1])
+
+
+AHEAD = (0.0, *np.geomspace(1e-6, 1.0, 7))
+"""Where to look for a value that is not finite, as fractions of the time ahead."""
+
+
+def explain_ahead(
+    system: System, at: Callable[[ArrayLike, Array], Values], point: Values, ahead: float
+) -> str | None:
+    """A sentence on an equation without a finite value at a point, or ahead of it along the states' derivatives.
+
+    Arguments:
+        system: the model.
+        at: (time, state) -> values.
+        point: where to begin.
+        ahead: how far to look [s].
+    """
+    derivative = jnp.zeros_like(point.x)
+    for h in AHEAD:
+        values = at(point.t + h * ahead, point.x + h * ahead * derivative)
+        if reason := system.explain_nonfinite(values):
+            return reason
+        if h == 0.0:
+            derivative = system.rates(values)
+    return None
+
+
+def warn_of_nonfinite(
+    system: System, values: Values, read: Mapping[str, Float[Array, " n"]]
+) -> None:
+    """Warn if a variable that is read is not finite everywhere.
+
+    Arguments:
+        system: the model.
+        values: its trajectory, n points.
+        read: variables by name.
+    """
+    if traced(values, read) or np.ndim(values.t) != 1:
+        return
+    bad = {n: ~np.isfinite(np.asarray(v)) for n, v in read.items()}
+    first = {n: int(np.argmax(rows)) for n, rows in bad.items() if rows.any()}
+    if not first:
+        return
+    name = min(first, key=lambda n: first[n])
+    k, ts = first[name], np.asarray(values.t)
+    others = f" (and {len(first) - 1} more)" if len(first) > 1 else ""
+    where = f"'{name}'{others} is {float(read[name][k])} first at t = {ts[k]:g} s"
+    warnings.warn(
+        f"{where}, and at {int(bad[name].sum())} of {len(ts)} times. {_reason(system, values, name, k)}",
+        stacklevel=user_level(),
+    )
+
+
+def _reason(system: System, values: Values, name: str, k: int) -> str:
+    """Why a variable is not finite at the point k of a trajectory."""
+    if name in system.inputs:
+        return "It is an input: check what is given for it."
+    if not np.isfinite(np.asarray(values.u[k])).all():
+        return f"The input '{_first_nonfinite(system.inputs, values.u[k])}' is not finite there."
+    broken = not np.isfinite(np.asarray(values.x[k])).all()
+    if broken and k == 0:
+        return (
+            f"The initial value of '{_first_nonfinite(system.states, values.x[0])}' is not finite."
+        )
+    if broken:
+        before, ts = _at(values, k - 1), np.asarray(values.t)
+        reason = explain_ahead(
+            system, lambda t, x: before._replace(t=t, x=x), before, float(ts[k] - ts[k - 1])
+        )
+    else:
+        reason = system.explain_nonfinite(_at(values, k), name)
+    if reason is None:
+        return "The model may diverge there: check its parameters, initial values and inputs, or take a smaller dt."
+    return f"{'On the way there' if broken else 'There'} {reason}"
+
+
+def _at(values: Values, k: int) -> Values:
+    """One point of a trajectory."""
+    return values._replace(t=np.asarray(values.t)[k], x=values.x[k], u=values.u[k])
+
+
+def _first_nonfinite(names: tuple[str, ...], row: Float[Array, " n"]) -> str:
+    return names[int(np.argmax(~np.isfinite(np.asarray(row))))]
+
+
+def user_level() -> int:
+    """How far up the first caller outside the library is, for `warnings.warn` in the function that asks."""
+    frame, level = sys._getframe(2), 2
+    while frame is not None and frame.f_code.co_filename.startswith(LIBRARY):
+        frame, level = frame.f_back, level + 1
+    return level

@@ -1,0 +1,68 @@
+"""Steps far outside the region of stability of an explicit solver: states may stay finite, derivatives are garbage."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+import equinox as eqx
+import jax
+import numpy as np
+from jaxtyping import Array, Float
+
+from acausal.codegen import Values
+from acausal.simulation.finite import user_level
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+POINTS = 16
+"""Points of a trajectory at which modes are computed."""
+
+LARGEST = 50
+"""Models with more states are not examined: eigenvalues would take too long."""
+
+FAR = 10.0
+"""Steps times the rate of a damped mode that are outside the region of stability of every explicit solver."""
+
+
+def long_steps(system: System, values: Values, h: float) -> str | None:
+    """A sentence on steps of an explicit solver that are far too long somewhere along a trajectory, or None.
+
+    Arguments:
+        system: the model.
+        values: its trajectory, n points; none of them traced.
+        h: the steps' length [s].
+    """
+    if not 0 < len(system.states) <= LARGEST:
+        return None
+    rows = np.unique(np.linspace(0, len(values.x) - 1, POINTS).astype(int))
+    t = np.asarray(values.t)[rows]
+    points = values._replace(t=t, x=np.asarray(values.x)[rows], u=np.asarray(values.u)[rows])
+    jacobians = np.asarray(_jacobians(system, points))
+    if not np.isfinite(jacobians).all():
+        return None
+    modes = np.linalg.eigvals(jacobians)
+    damping = np.where(-modes.real >= np.abs(modes.imag), -modes.real, 0.0).max(axis=1)
+    worst = int(np.argmax(damping))
+    if damping[worst] * h <= FAR:
+        return None
+    return (
+        f"Steps of {h:g} s are far too long for the model's fastest mode, {damping[worst]:.3g} 1/s at "
+        f"t = {t[worst]:g} s: even where states look right, derivatives are wrong. Choose dt below "
+        f"{1 / damping[worst]:.1g} s, an implicit solver, or leave dt out."
+    )
+
+
+def warn_of_long_steps(system: System, values: Values, h: float) -> None:
+    """Warn of such steps."""
+    if sentence := long_steps(system, values, h):
+        warnings.warn(sentence, stacklevel=user_level())
+
+
+@eqx.filter_jit
+def _jacobians(system: System, points: Values) -> Float[Array, "n n_states n_states"]:
+    def jacobian(at: Values) -> Float[Array, "n_states n_states"]:
+        return jax.jacfwd(lambda x: system.rates(at._replace(x=x)))(at.x)
+
+    return jax.vmap(jacobian, (Values(0, 0, 0, None),))(points)  # pyright: ignore[reportArgumentType]

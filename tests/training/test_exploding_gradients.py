@@ -1,0 +1,64 @@
+"""Trainings with steps far outside the solver's region of stability: the states are right, the gradients are not."""
+
+import functools
+import warnings
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.training.history import EVALUATIONS, Log
+from tests.support.friction import sticking
+
+MEND = r"Its steps are too long for the solver to be stable: take a smaller dt"
+
+
+@functools.cache
+def record() -> ac.Data:
+    """The clutch sticks for a second, and slips for another one."""
+    time = np.linspace(0, 2, 2001)
+    push = np.where(time < 1, 1.0, 400.0)
+    run = ac.simulate(sticking(), (0, 2), inputs={"push": (time, push)}, saveat=time)
+    return ac.Data(time, {"push": push, **{n: run[n] for n in ("v", "w")}})
+
+
+def train(**options):
+    return ac.fit(
+        sticking(), record(), ["v", "w"], modifiers=["limit"], params={"limit": 51.0},
+        solver="euler", progress=False, **options,
+    )  # fmt: skip
+
+
+def test_sequences_whose_gradients_explode_are_left_out():
+    with pytest.warns(UserWarning, match=r"in its gradient alone\); left out\. " + MEND):
+        fit = train(epochs=10, sequence_length=0.4, batch_size=16)
+    left_out = fit.history.divergences
+    assert all(0 < d.exploded == d.count < 16 for d in left_out)
+    assert not any(d.rejected for d in left_out)
+    assert np.isfinite(fit.history.loss).all()
+    assert -0.05 < fit.modifiers["limit"] < 0  # those that slip move it towards the truth, 50
+
+
+@pytest.mark.parametrize("strategy", ["whole_record", "gauss_newton"])
+def test_a_training_whose_gradient_explodes_ends_with_a_mend(strategy):
+    with pytest.raises(
+        ac.TrainingError, match=r"the gradient of the sequence from t = 0 s explodes\. " + MEND
+    ):
+        train(epochs=60, strategy=strategy)
+
+
+def test_a_training_that_finds_nothing_is_told_of_its_steps():
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        train(epochs=2, strategy="whole_record")
+    sentence = "Training found nothing better than its start. Steps of 0.001 s are far too long"
+    assert any(str(w.message).startswith(sentence) for w in said)
+
+
+def test_logs_of_earlier_versions_are_continued():
+    log = Log(np.arange(3.0), (), ())
+    columns = {n: np.zeros(2, int) for n in ("diverged", "first", "rejected")}
+    columns = {**columns, "loss": np.ones(2), "seconds": np.ones(2), EVALUATIONS: np.zeros((0, 3))}
+    log.go_on(columns | {"rejected": np.zeros(2, bool)})
+    assert log.epochs == 2
+    assert log.rows().columns()["exploded"].tolist() == [0, 0]
