@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
 from acausal._jax import floating
+from acausal.caches import LeavesCaches
 from acausal.codegen import (
     Packed,
     ParameterLayout,
@@ -71,7 +72,7 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class System:
+class System(LeavesCaches):
     """A compiled model: ``dx/dt = vector_field(t, x, u, params)`` and any variable by `observe`.
 
     All functions are pure and can be jitted, differentiated and vmapped.

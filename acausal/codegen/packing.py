@@ -73,13 +73,12 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
         )
     else:
         free = jnp.asarray(np.asarray(given, dtype=float)[layout.order])
-    values = free
+    arrays = [free]
     for group in layout.bound:
-        arguments = {symbol: read_elements(g, [values]) for symbol, g in group.arguments}
-        computed = jnp.broadcast_to(
-            jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
-        )
-        values = jnp.concatenate([values, computed])
+        arguments = {symbol: read_elements(g, arrays) for symbol, g in group.arguments}
+        value = jnp.asarray(evaluate(group.expression, arguments))
+        arrays.append(value if group.size == 1 else jnp.broadcast_to(value, (group.size,)))
+    values = jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if layout.bound else free
     laws = [n for n in layout.module_names if not callable(params[n])]
     if laws:
         raise DataError(f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}")

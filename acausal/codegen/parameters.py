@@ -10,14 +10,19 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather, gather
 from acausal.errors import DataError, DeclarationError, listing, nearest
-from acausal.flattening import Binding, FlatModel, Integers
+from acausal.flattening import Binding, FlatModel, Integers, binding_levels
 
 
 @dataclass(frozen=True)
 class BoundGroup:
-    """Bound parameters with one expression: computed side by side from earlier ones."""
+    """Bound parameters with one expression: computed side by side from earlier ones.
+
+    Attributes:
+        arguments: by symbol, where it is read: array 0 holds the free parameters, array 1 + i the i-th group.
+    """
 
     expression: sp.Expr
     arguments: tuple[tuple[sp.Symbol, Gather], ...]
@@ -25,7 +30,7 @@ class BoundGroup:
 
 
 @dataclass(frozen=True)
-class ParameterLayout:
+class ParameterLayout(LeavesCaches):
     """Where every parameter lies in `Packed`.
 
     Attributes:
@@ -115,47 +120,34 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     bound[[b.target for b in model.bindings]] = True
     free = np.flatnonzero(~bound & ~model.folded)
     rank = np.lexsort((free, *_kind(model, free)))
-    position = np.full(n, -1, dtype=np.int64)
-    position[free[rank]] = np.arange(len(free))
-    groups: list[BoundGroup] = []
-    filled = len(free)
-    waiting = [
-        b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]
-    ]
-    while waiting:
-        ready = [
-            b for b in waiting if all(_is_placed(a, target, position, model) for a in b.arguments)
-        ]
-        if not ready:
-            names = [model.layout.parameter(b.target) for b in waiting]
-            raise DeclarationError(
-                f"parameters are bound in a circle: {listing(names)}; give one a number"
-            )
+    source, index, position = (np.full(n, -1, dtype=np.int64) for _ in range(3))
+    source[free] = 0
+    index[free[rank]] = position[free[rank]] = np.arange(len(free))
+    groups, sizes = list[BoundGroup](), [len(free)]
+    levels, circular = binding_levels(
+        [b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]],
+        target,
+    )
+    if circular:
+        names = [model.layout.parameter(b.target) for b in circular]
+        raise DeclarationError(
+            f"parameters are bound in a circle: {listing(names)}; give one a number"
+        )
+    for ready in levels:
         for expression, members in _by_expression(ready, model, target):
-            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).reshape(
-                len(members), -1
-            )
+            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).T
             arguments = tuple(
-                (
-                    s,
-                    gather(
-                        np.zeros(len(members), dtype=np.int64), position[columns[:, i]], [filled]
-                    ),
-                )
-                for i, s in enumerate(members[0].symbols)
+                (s, gather(source[column], index[column], sizes))
+                for s, column in zip(members[0].symbols, columns, strict=True)
                 if s in expression.free_symbols
             )
             groups.append(BoundGroup(expression, arguments, len(members)))
-            position[[b.target for b in members]] = filled + np.arange(len(members))
-            filled += len(members)
-        done = {b.target for b in ready}
-        waiting = [b for b in waiting if b.target not in done]
+            own = [b.target for b in members]
+            source[own], index[own] = len(groups), np.arange(len(members))
+            position[own] = sum(sizes) + index[own]
+            sizes.append(len(members))
     position = position[target]
     return ParameterLayout(model, free, rank, position, tuple(groups), _module_targets(model))
-
-
-def _is_placed(argument: int, target: Integers, position: Integers, model: FlatModel) -> bool:
-    return bool(position[target[argument]] >= 0 or model.folded[target[argument]])
 
 
 def _kind(model: FlatModel, free: Integers) -> tuple[Integers, Integers]:

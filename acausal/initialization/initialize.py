@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import traced
+from acausal.caches import LeavesCaches
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
@@ -77,7 +78,7 @@ class Initialization:
 
 
 @dataclass(frozen=True)
-class Initializer:
+class Initializer(LeavesCaches):
     """The initialization problem of a model.
 
     States with a fixed start take it. The others start from their guess and move as little as possible,

@@ -176,3 +176,32 @@ def test_an_expression_that_divides_by_a_folded_parameter_is_told():
 def test_a_number_is_no_network():
     with pytest.raises(ac.DataError, match=r"^params: 'extra\.net' must be networks, got 3\.0$"):
         learned().pack({"extra.net": 3.0})
+
+
+class Chain(ac.Component):
+    """Every parameter is bound to the one before."""
+
+    net = ac.Module(lambda key: Scale(jax.random.normal(key)))
+
+    def __init__(self, n):
+        super().__init__()
+        parts = [Called(gain=1.0, net=self.net)]
+        for _ in range(n):
+            parts.append(Called(gain=0.5 * parts[-1].gain + 1.0, net=self.net))
+        self.parts = parts
+
+
+def test_a_long_chain_of_bound_parameters_is_packed_in_linear_time():
+    system = ac.compile(Chain(400))
+    values = system.pack().values
+    np.testing.assert_allclose(values[:4], [1.0, 1.5, 1.75, 1.875])
+    assert values[-1] == pytest.approx(2.0)
+    params = system.parameters()
+
+    def packed(gain):
+        return system.pack({**params, "parts[1].gain": gain}).values
+
+    operations = jax.make_jaxpr(packed)(1.0).eqns
+    numbers = sum(v.aval.size for operation in operations for v in operation.outvars)
+    assert numbers < 10 * len(values)  # a vector that grows step by step would add up to its square
+    np.testing.assert_allclose(jax.jit(jax.jacfwd(packed))(1.0)[:4], [1.0, 0.5, 0.25, 0.125])
