@@ -81,6 +81,32 @@ class ParameterLayout(LeavesCaches):
             if name not in known:
                 raise DataError(f"params: {self._why_unknown(name)}")
 
+    def out_of_range(self, values: np.ndarray) -> str | None:
+        """A clause on values outside of the ranges that are declared, or None; the model's own count as inside.
+
+        Arguments:
+            values: of the free parameters, in order; nan where one is not known.
+        """
+        low, high = self._ranges
+        outside = ((values < low) | (values > high)) & (values != self.model.value[self.free])
+        if not outside.any():
+            return None
+        first, *others = np.flatnonzero(outside).tolist()
+        value, unit = values[first], self.model.layout.parameter_declaration(self.free[first]).unit
+        limit = f"at least {low[first]:g}" if value < low[first] else f"at most {high[first]:g}"
+        clause = f"'{self.names[first]}' is {value:g}, but must be {limit} {unit}".rstrip()
+        if not others:
+            return clause
+        also = listing(self.names[i] for i in others)
+        return f"{clause}; {also} {'is' if len(others) == 1 else 'are'} out of range, too"
+
+    @cached_property
+    def _ranges(self) -> tuple[np.ndarray, np.ndarray]:
+        """The least and the largest value of every free parameter."""
+        declared = [self.model.layout.parameter_declaration(int(i)) for i in self.free]
+        low = [-np.inf if d.min is None else d.min for d in declared]
+        return np.asarray(low), np.asarray([np.inf if d.max is None else d.max for d in declared])
+
     def _why_unknown(self, name: str) -> str:
         index = self.model.layout.find_parameter(name)
         if index is None:

@@ -12,13 +12,39 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import cast, traced
-from acausal.errors import SimulationError, StepLimitError
+from acausal.errors import DataError, SimulationError, StepLimitError
 from acausal.simulation import solvers
 from acausal.simulation.inputs import evaluate, evaluate_all, jumps
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 
 Tolerance = float | Array
+
+
+def check_tolerances(rtol: Tolerance, atol: Tolerance) -> None:
+    """Refuse tolerances with which no step can be accepted.
+
+    Raises:
+        DataError: for one that is negative or not a finite number, or if all are zero.
+    """
+    if traced(rtol, atol):
+        return
+    for name, given in {"rtol": rtol, "atol": atol}.items():
+        if not _is_nonnegative(given):
+            raise DataError(
+                f"{name}={given!r:.80} is not a tolerance; give a positive number, such as {name}=1e-6."
+            )
+    if not (np.any(rtol) or np.any(atol)):
+        raise DataError("rtol and atol are both zero; give rtol=1e-6, say.")
+
+
+def _is_nonnegative(given: ArrayLike) -> bool:
+    """Whether this is a finite number, or an array of these, none below zero."""
+    try:
+        values = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        return False
+    return bool((np.isfinite(values) & (values >= 0)).all())
 
 
 class Solved(NamedTuple):

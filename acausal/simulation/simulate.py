@@ -12,11 +12,11 @@ from jax.typing import DTypeLike
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import precision
+from acausal._jax import need_double_precision, precision
 from acausal.data import Data, Signal
 from acausal.errors import DataError, StepLimitError, need_compiled
 from acausal.simulation import solvers
-from acausal.simulation.adaptive import Tolerance, simulate_adaptive
+from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
 from acausal.simulation.inputs import evaluate_all, functions_of_time
 from acausal.simulation.run import EIGENVALUES, Run
@@ -82,6 +82,8 @@ def simulate(
         SimulationError: if the solution stops short of the end, with the time reached.
     """
     need_compiled(system, "simulate")
+    need_double_precision()
+    check_tolerances(rtol, atol)
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)

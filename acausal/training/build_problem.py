@@ -53,6 +53,7 @@ def build_problem(
         DataError: if the data are not sufficient for the training.
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
+    system.pack(params)  # refuses what does not fit
     chosen = _networks(options.train, params)
     changed = modifiers(options.modifiers, options.gamma, params)
     if not chosen and not changed.names:

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import PyTree
 from numpy.typing import ArrayLike
 
+from acausal._jax import need_double_precision
 from acausal.data import Data
 from acausal.errors import TrainingError, listing
 from acausal.training import checkpoint as checkpoints
@@ -58,6 +59,7 @@ def train_from_starts(
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
+    need_double_precision()
     for seed in seeds:
         if not isinstance(seed, int | np.integer):
             raise TrainingError(f"seed={seed!r}; give a whole number.")
@@ -143,8 +145,21 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
             f"Training did not move {listing(unmoved)}: no target depends on it. "
             "Fit a target that does, or leave it out (train=..., modifiers=...)."
         )
+    if clause := _out_of_range(problem, trained.best.trainable):
+        yield (
+            f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
+        )
     changes = changes_of(problem, trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
+
+
+def _out_of_range(problem: Problem, trained: Trainable) -> str | None:
+    """A clause on trained parameters outside of their declared ranges."""
+    params, moved = problem.assemble(trained), problem.modifiers.names
+    layout = problem.system.layout
+    return layout.out_of_range(
+        np.asarray([float(params[n]) if n in moved else np.nan for n in layout.names])
+    )
 
 
 def _unmoved(start: Trainable, end: Trainable) -> list[str]:

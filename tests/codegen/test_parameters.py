@@ -136,6 +136,38 @@ def test_wrong_parameters_are_told(params, told):
         system.pack(params)
 
 
+@pytest.mark.parametrize(
+    ("params", "told"),
+    [
+        ({"a.m": -1.0}, r"^params: 'a\.m' is -1, but must be at least 0 kg\.$"),
+        ({"a.m": jnp.asarray(-1)}, "'a.m' is -1, but must be at least 0 kg"),
+        ({"a.m": -1, "b.m": -2.0}, r"at least 0 kg; 'b\.m' is out of range, too\.$"),
+        ({"g.gain": 11.0}, "'g.gain' is 11, but must be at most 10"),
+    ],
+)
+def test_values_out_of_range_are_told(params, told):
+    class Limited(ac.Component):
+        gain = ac.Parameter(1.0, max=10)
+        x = ac.Variable()
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), self.gain)
+
+    system = ac.compile(model(a=Mass(m=1.0), b=Mass(m=1.0), g=Limited(gain=2.0)))
+    for refused in (system.pack, system.initialize, lambda p: ac.linearize(system, params=p)):
+        with pytest.raises(ac.DataError, match=told):
+            refused(params)
+    with pytest.raises(ac.DataError, match=told):
+        ac.simulate(system, (0, 1), dt=0.1, params=params)
+
+
+def test_values_that_jax_traces_are_let_pass():
+    system = ac.compile(model(a=Mass(m=1.0)))
+    found = jax.jit(lambda m: system.pack({"a.m": m}).values)(-1.0)
+    assert found.tolist() == [-1.0]
+    assert system.pack(system.parameters() | {"a.m": 0.0}).values.tolist() == [0.0]
+
+
 def test_a_bound_parameter_cannot_be_set():
     system = ac.compile(Box())
     with pytest.raises(ac.DataError, match=r"'last\.gain' is bound to an expression"):

@@ -334,6 +334,15 @@ def test_what_is_no_span(t):
         ac.simulate(plain(), t, inputs=NO_FORCE)
 
 
+@pytest.mark.parametrize("given", [-1, np.nan, np.inf, "fine", None, [1e-6, -1e-6]])
+@pytest.mark.parametrize("name", ["rtol", "atol"])
+def test_what_is_no_tolerance(name, given):
+    with pytest.raises(ac.DataError, match=rf"^{name}=.* is not a tolerance; give a positive"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, **{name: given})
+    with pytest.raises(ac.DataError, match=r"^rtol and atol are both zero"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, rtol=0, atol=0)
+
+
 @pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast"])
 def test_what_is_no_step(dt):
     with pytest.raises(ac.DataError, match=r"^dt=.* is not a step"):

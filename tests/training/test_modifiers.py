@@ -166,3 +166,25 @@ def test_mistakes_get_one_sentence(kind: Any, value: float, sentence: str):
     with pytest.raises(ac.TrainingError) as error:
         chosen(kind, value)
     assert str(error.value) == sentence
+
+
+def test_a_parameter_that_leaves_its_range_is_told():
+    """A damper that drives: only a shift lets it go there, and only a trained model may have it."""
+    system, times = plain(), np.linspace(0, 2, 101)
+    inputs = {"push.f": force(times)}
+
+    @jax.jit
+    def driven(d: float) -> ac.Solution:
+        params = {**system.parameters(), "spring.d": d}
+        return ac.simulate(system, (0, 2), dt=0.02, inputs=inputs, params=params)
+
+    data = ac.Data(times, {"mass.s": driven(-0.5)["mass.s"], **inputs})
+    options: dict[str, Any] = {
+        "modifiers": {"spring.d": ac.Shift(1.0)}, "x0": "model", "strategy": "whole_record",
+        "sequence_length": None, "epochs": 10, "progress": False,
+    }  # fmt: skip
+    told = r"After training, 'spring\.d' is -0\.[45]\d*, but must be at least 0 N\.s/m\. .*Bounded"
+    with pytest.warns(UserWarning, match=told):
+        fit = ac.fit(system, data, "mass.s", **options)
+    with pytest.raises(ac.DataError, match=r"params: 'spring\.d' is -0"):
+        ac.fit(system, data, "mass.s", params=fit.params, **options)
