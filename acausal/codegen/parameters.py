@@ -79,7 +79,11 @@ class ParameterLayout(LeavesCaches):
         known = {*self.names, *self.module_names}
         for name in params:
             if name not in known:
-                raise DataError(f"params: {self._why_unknown(name)}")
+                reason = self.why_not_free(name)
+                if reason is None:
+                    hint = nearest(name, [*self.names, *self.module_names])
+                    reason = f"the model has no parameter '{name}'; {hint}"
+                raise DataError(f"params: {reason}")
 
     def out_of_range(self, values: np.ndarray) -> str | None:
         """A clause on values outside of the ranges that are declared, or None; the model's own count as inside.
@@ -107,10 +111,11 @@ class ParameterLayout(LeavesCaches):
         low = [-np.inf if d.min is None else d.min for d in declared]
         return np.asarray(low), np.asarray([np.inf if d.max is None else d.max for d in declared])
 
-    def _why_unknown(self, name: str) -> str:
+    def why_not_free(self, name: str) -> str | None:
+        """A clause on a parameter of the model that cannot be changed; None for any other name."""
         index = self.model.layout.find_parameter(name)
-        if index is None:
-            return f"the model has no parameter '{name}'; {nearest(name, [*self.names, *self.module_names])}"
+        if index is None or name in self.names:
+            return None
         if self.model.folded[index]:
             return (
                 f"'{name}' was left at its default of zero and is folded out of the equations; "

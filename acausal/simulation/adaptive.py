@@ -20,6 +20,9 @@ from acausal.simulation.solution import Solution
 
 Tolerance = float | Array
 
+SHORTEST = 1e-30
+"""The shortest step, as a fraction of the span: only a model without finite values leads there."""
+
 
 def check_tolerances(rtol: Tolerance, atol: Tolerance) -> None:
     """Refuse tolerances with which no step can be accepted.
@@ -116,7 +119,9 @@ def _solve(
         values, inputs = eqx.combine(args, rest)
         return run.system.rates(values._replace(t=t, x=x, u=evaluate(inputs, t)))
 
-    controller: dfx.AbstractStepSizeController[Any, Any] = dfx.PIDController(rtol=rtol, atol=atol)
+    controller: dfx.AbstractStepSizeController[Any, Any] = dfx.PIDController(
+        rtol=rtol, atol=atol, dtmin=SHORTEST * (run.end - run.begin), force_dtmin=False
+    )
     if jump_times.shape[0]:
         controller = dfx.ClipStepSizeController(controller, jump_ts=jump_times)
     solution: Any = dfx.diffeqsolve(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +15,7 @@ from jaxtyping import PyTree
 from numpy.typing import ArrayLike
 
 from acausal._jax import need_double_precision
+from acausal.analysis import in_switches
 from acausal.data import Data
 from acausal.errors import TrainingError, listing
 from acausal.training import checkpoint as checkpoints
@@ -141,16 +142,29 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
         yield "The trained model diverges over the whole record: its loss is infinite."
     unmoved = _unmoved(start, trained.last)
     if unmoved and len(diverged) < epochs and trained.history.full_loss[0, 1] > EXACT:
-        yield (
-            f"Training did not move {listing(unmoved)}: no target depends on it. "
-            "Fit a target that does, or leave it out (train=..., modifiers=...)."
-        )
+        yield from _reasons(unmoved, in_switches(problem.system))
     if clause := _out_of_range(problem, trained.best.trainable):
         yield (
             f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
         )
     changes = changes_of(problem, trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
+
+
+def _reasons(unmoved: Sequence[str], in_switches: Set[str]) -> Iterator[str]:
+    """Why training did not move some networks and parameters."""
+    switching = [n for n in unmoved if n in in_switches]
+    others = [n for n in unmoved if n not in in_switches]
+    if switching:
+        yield (
+            f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, "
+            "and a switch has no gradient. Smooth it (tanh in the place of sign), or leave the parameter out (train=..., modifiers=...)."
+        )
+    if others:
+        yield (
+            f"Training did not move {listing(others)}: no target depends on it. "
+            "Fit a target that does, or leave it out (train=..., modifiers=...)."
+        )
 
 
 def _out_of_range(problem: Problem, trained: Trainable) -> str | None:

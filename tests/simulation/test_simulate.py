@@ -1,3 +1,5 @@
+import time
+
 import diffrax
 import jax
 import jax.numpy as jnp
@@ -8,6 +10,7 @@ import acausal as ac
 from acausal.data.record import Data
 from acausal.simulation.solvers import RK4, SOLVERS
 from tests.support.oscillator import C, M, force, plain, record, undamped
+from tests.support.parts import Equations
 
 OMEGA = np.sqrt(C / M)
 AT_ONE = {"mass.s": 1.0}
@@ -386,3 +389,17 @@ def test_an_unstable_model_is_named_as_the_cause():
         ac.simulate(plain(), (0, 20), dt=0.01, inputs=NO_FORCE, x0=AT_ONE, params=params)
     with pytest.raises(ac.SimulationError, match="stopped at t = "):
         ac.simulate(plain(), (0, 20), inputs=NO_FORCE, x0=AT_ONE, params=params, max_steps=500)
+
+
+def test_a_model_without_a_real_solution_says_so_in_seconds():
+    """The adaptive solver gives up its steps, and no step is searched for long once a value is not finite."""
+    impossible = Equations(
+        "x y", lambda s: [ac.Eq(ac.der(s.x), s.y), ac.Eq(s.y**2 + ac.exp(s.y) + s.x**2 + 1, 0)]
+    )
+    system, told = ac.compile(impossible), r"no solution of the equations for 'y'"
+    begin = time.perf_counter()
+    with pytest.raises(ac.SimulationError, match=told):
+        ac.simulate(system, (0, 1), solver="heun")
+    with pytest.raises(ac.SimulationError, match=told):
+        ac.simulate(system, (0, 10), dt=0.001, solver="heun")
+    assert time.perf_counter() - begin < 30

@@ -162,7 +162,7 @@ def test_modifiers_find_a_mass_and_a_stiffness():
 
 
 def test_modifiers_stay_within_gamma():
-    chosen = modifiers({"mass.m": 0.3}, 0.2, plain().parameters())
+    chosen = modifiers({"mass.m": 0.3}, 0.2, plain().parameters(), plain().layout.why_not_free)
     for delta in (-50.0, 50.0):
         assert abs(chosen.changes({"mass.m": jnp.asarray(delta)})["mass.m"]) <= 0.3
 

@@ -21,8 +21,12 @@ ZERO = (
 )
 
 
+def nothing(name: str) -> None:
+    """No parameter of the model that `name` could be, free or not."""
+
+
 def chosen(kind: Any, value: float) -> Modifiers:
-    return modifiers({"p": kind}, 0.2, {"p": value})
+    return modifiers({"p": kind}, 0.2, {"p": value}, nothing)
 
 
 @pytest.mark.parametrize(
@@ -147,7 +151,7 @@ def test_the_prior_deviation_of_a_change(kind: Any, value: float, size: float):
 
 
 def test_one_name_is_no_list_of_letters():
-    assert modifiers("mass", 0.2, {"mass": 1.0}).names == ("mass",)
+    assert modifiers("mass", 0.2, {"mass": 1.0}, nothing).names == ("mass",)
 
 
 @pytest.mark.parametrize(
@@ -188,3 +192,15 @@ def test_a_parameter_that_leaves_its_range_is_told():
         fit = ac.fit(system, data, "mass.s", **options)
     with pytest.raises(ac.DataError, match=r"params: 'spring\.d' is -0"):
         ac.fit(system, data, "mass.s", params=fit.params, **options)
+
+
+def test_a_parameter_that_is_not_free_is_explained():
+    model = ac.Component()
+    model.a = tl.Mass(m=2.0)
+    model.b = tl.Mass(m=2 * model.a.m)
+    model.connect(model.a.flange_b, model.b.flange_a)
+    system = ac.compile(model)
+    data = ac.Data(np.arange(3.0), {"a.s": np.arange(3.0)})
+    for name, told in {"a.L": "default of zero and is folded", "b.m": "bound to an expr"}.items():
+        with pytest.raises(ac.TrainingError, match=rf"no parameter '{name}' to train: .*{told}"):
+            ac.fit(system, data, "a.s", modifiers=[name], progress=False)
