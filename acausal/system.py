@@ -76,7 +76,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
 class System(LeavesCaches):
     """A compiled model: ``dx/dt = vector_field(t, x, u, params)`` and any variable by `observe`.
 
-    All functions are pure and can be jitted, differentiated and vmapped.
+    All functions are pure and can be jitted, differentiated and vmapped. A system can be copied, pickled and sent to
+    other processes, and so can its solutions and fits.
 
     Attributes:
         model: the component tree it came from.
@@ -305,11 +306,13 @@ class System(LeavesCaches):
                     raise DataError(
                         f"{argument}: '{name}' is not an input; {nearest(name, self.inputs)}"
                     )
-            u = [given.get(name, 0.0) for name in self.inputs]
+            numbers: Any = [given.get(name, 0.0) for name in self.inputs]
+        else:
+            numbers = u
         try:
-            values = jnp.asarray(u, dtype=float)
+            values = jnp.asarray(numbers, dtype=float)
         except (TypeError, ValueError):
-            raise DataError(f"{argument}={u!r:.80}: inputs are numbers at one time.") from None
+            raise DataError(f"{argument}={numbers!r:.80}: inputs are numbers at one time.") from None
         if values.shape != (len(self.inputs),):
             raise DataError(
                 f"{argument} has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"

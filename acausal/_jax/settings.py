@@ -24,7 +24,7 @@ def need_double_precision() -> None:
     Raises:
         AcausalError: with what to do instead.
     """
-    if not jax.config.jax_enable_x64:
+    if not jax.config.jax_enable_x64:  # pyright: ignore[reportAttributeAccessIssue]
         raise AcausalError(
             "Double precision was switched off after the import of acausal, which needs it to find initial values: "
             "jax.config.update('jax_enable_x64', True); to simulate or fit in single precision, give dtype='float32'."

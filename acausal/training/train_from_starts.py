@@ -157,8 +157,8 @@ def _reasons(unmoved: Sequence[str], in_switches: Set[str]) -> Iterator[str]:
     others = [n for n in unmoved if n not in in_switches]
     if switching:
         yield (
-            f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, "
-            "and a switch has no gradient. Smooth it (tanh in the place of sign), or leave the parameter out (train=..., modifiers=...)."
+            f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, and has "
+            "no gradient. Smooth it (tanh in the place of sign), or leave it out (train=..., modifiers=...)."
         )
     if others:
         yield (

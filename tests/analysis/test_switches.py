@@ -37,7 +37,7 @@ def test_what_switches_depend_on():
 
 def test_a_switch_is_told_where_training_moves_nothing():
     data = ac.Data(np.linspace(0, 1, 11), {"x": np.linspace(0, 1, 11) ** 2})
-    told = r"^Training did not move 'limit': a switch \(where, .*has no gradient\. Smooth it"
+    told = r"^Training did not move 'limit': a switch \(where, .*and has no gradient\. Smooth it"
     with pytest.warns(UserWarning, match=told):
         ac.fit(
             ac.compile(Switching(limit=0.5, gain=1.0)), data, "x", modifiers=["limit"], x0="model",
