@@ -312,7 +312,9 @@ class System(LeavesCaches):
         try:
             values = jnp.asarray(numbers, dtype=float)
         except (TypeError, ValueError):
-            raise DataError(f"{argument}={numbers!r:.80}: inputs are numbers at one time.") from None
+            raise DataError(
+                f"{argument}={numbers!r:.80}: inputs are numbers at one time."
+            ) from None
         if values.shape != (len(self.inputs),):
             raise DataError(
                 f"{argument} has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"

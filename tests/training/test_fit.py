@@ -472,4 +472,4 @@ def test_a_parameter_at_zero_cannot_be_modified():
     with pytest.raises(
         ac.TrainingError, match=r"Parameter 'spring\.d' is 0, and a modifier multiplies"
     ):
-        modifiers(["spring.d"], 0.2, params)
+        modifiers(["spring.d"], 0.2, params, plain().layout.why_not_free)
