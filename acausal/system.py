@@ -15,8 +15,9 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import floating
+from acausal._jax import floating, need_double_precision
 from acausal.by_name import names_in
+from acausal.caches import LeavesCaches
 from acausal.codegen import (
     Packed,
     ParameterLayout,
@@ -62,6 +63,7 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
+    need_double_precision()
     flat = flatten(model, budget)
     if check_units:
         check_dimensions(flat)
@@ -74,10 +76,11 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class System:
+class System(LeavesCaches):
     """A compiled model: ``dx/dt = vector_field(t, x, u, params)`` and any variable by `observe`.
 
-    All functions are pure and can be jitted, differentiated and vmapped.
+    All functions are pure and can be jitted, differentiated and vmapped. A system can be copied, pickled and sent to
+    other processes, and so can its solutions and fits.
 
     Attributes:
         model: the component tree it came from.
@@ -162,6 +165,7 @@ class System:
         Raises:
             DataError: for an unknown name or a missing module.
         """
+        need_double_precision()
         if params is None:
             params = self.parameters()
         return pack(self.layout, params)
@@ -257,7 +261,7 @@ class System:
         self,
         params: Params | None = None,
         x0: Mapping[str, Numbers] | Numbers | None = None,
-        u0: Numbers | None = None,
+        u0: Mapping[str, Numbers] | Numbers | None = None,
         t0: float = 0.0,
         *,
         steady: bool | Sequence[str] = False,
@@ -270,23 +274,24 @@ class System:
 
         Arguments:
             x0: states by name (the rest from the model's starts), or all of them as an array.
-            u0: inputs at the initial time, where initial conditions depend on them.
+            u0: inputs at the initial time, by name (the rest zero) or all of them as an array; by default zero.
             steady: whether all states without a fixed start or a value in ``x0`` are to be at rest, or the names
                 of those that are.
             least_squares: whether contradictory conditions are met in the least-squares sense, with fixed
                 starts and rates in nominal values, and initial equations unscaled.
 
         Raises:
-            DataError: if ``x0`` or ``steady`` does not fit.
+            DataError: if ``x0``, ``u0`` or ``steady`` does not fit.
             InitializationError: if the conditions contradict each other.
         """
-        return self.initializer(self.pack(params), x0, u0, t0, steady, least_squares)
+        packed, u = self.pack(params), self.input_values(u0, "u0")
+        return self.initializer(packed, x0, u, t0, steady, least_squares)
 
     def initialize(
         self,
         params: Params | None = None,
         x0: Mapping[str, Numbers] | None = None,
-        u0: Numbers | None = None,
+        u0: Mapping[str, Numbers] | Numbers | None = None,
         t0: float = 0.0,
         *,
         steady: bool | Sequence[str] = False,
@@ -296,26 +301,40 @@ class System:
 
         Arguments and errors as in `initial_state`.
         """
-        return self.initializer.report(self.pack(params), x0, u0, t0, steady, least_squares)
+        packed, u = self.pack(params), self.input_values(u0, "u0")
+        return self.initializer.report(packed, x0, u, t0, steady, least_squares)
 
     def input_values(
-        self, u: Mapping[str, Numbers] | Numbers | None = None
+        self, u: Mapping[str, Numbers] | Numbers | None = None, argument: str = "u"
     ) -> Float[Array, " n_inputs"]:
         """Inputs as an array, shape (n_inputs,), from a mapping by name (the rest zero), an array or None.
 
+        Arguments:
+            u: the inputs.
+            argument: its name in messages.
+
         Raises:
-            DataError: for a name that is not an input, or an array of another length.
+            DataError: for a name that is not an input, an array of another length, or what is not a number.
         """
         if u is None or isinstance(u, Mapping):
             given = dict(u or {})
             for name in given:
                 if name not in self.inputs:
-                    raise DataError(f"u: '{name}' is not an input; {nearest(name, self.inputs)}")
-            return jnp.asarray([given.get(name, 0.0) for name in self.inputs], dtype=float)
-        values = jnp.asarray(u, dtype=float)
+                    raise DataError(
+                        f"{argument}: '{name}' is not an input; {nearest(name, self.inputs)}"
+                    )
+            numbers: Any = [given.get(name, 0.0) for name in self.inputs]
+        else:
+            numbers = u
+        try:
+            values = jnp.asarray(numbers, dtype=float)
+        except (TypeError, ValueError):
+            raise DataError(
+                f"{argument}={numbers!r:.80}: inputs are numbers at one time."
+            ) from None
         if values.shape != (len(self.inputs),):
             raise DataError(
-                f"u has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"
+                f"{argument} has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"
             )
         return values
 

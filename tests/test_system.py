@@ -283,3 +283,23 @@ class Inductive(ac.Component):
         yield ac.Eq(self.p.v - self.n.v, self.L * ac.der(self.i))
         yield ac.Eq(self.p.i, self.i)
         yield ac.Eq(self.n.i, -self.i)
+
+
+def test_double_precision_that_was_switched_off_is_noticed(linear):
+    x, params, model = np.zeros(5), linear.parameters(), QuarterVehicle(learn=False)
+    record = ac.Data(np.arange(3.0), {"road.v_ref": np.ones(3), "body.a": np.arange(3.0)})
+    calls = [
+        lambda: ac.compile(model),
+        lambda: ac.simulate(linear, (0, 1), dt=0.1, inputs={"road.v_ref": 1.0}),
+        lambda: ac.fit(linear, record, "body.a", modifiers=["body.m"]),
+        lambda: linear.vector_field(0.0, x, np.zeros(1), params),
+        lambda: ac.linearize(linear, x),
+        linear.initialize,
+    ]
+    jax.config.update("jax_enable_x64", False)
+    try:
+        for call in calls:
+            with pytest.raises(ac.AcausalError, match=r"switched off.*'jax_enable_x64', True"):
+                call()
+    finally:
+        jax.config.update("jax_enable_x64", True)

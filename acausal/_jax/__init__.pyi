@@ -8,5 +8,5 @@ from .dtypes import (
 )
 from .jacobian import value_and_jacobian as value_and_jacobian
 from .scan import stored_scan as stored_scan
-from .settings import configure as configure
+from .settings import configure as configure, need_double_precision as need_double_precision
 from .tracing import array as array, known as known, traced as traced

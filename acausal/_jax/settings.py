@@ -8,6 +8,7 @@ import jax
 from jaxlib.version import __version__ as jaxlib_version
 
 from acausal._jax import compilation_cache, xla
+from acausal.errors import AcausalError
 
 
 def configure() -> None:
@@ -15,3 +16,16 @@ def configure() -> None:
     jax.config.update("jax_enable_x64", True)
     xla.compile_small_loops(os.environ, jaxlib_version)
     compilation_cache.begin(os.environ)
+
+
+def need_double_precision() -> None:
+    """Refuse to compute after double precision was switched off.
+
+    Raises:
+        AcausalError: with what to do instead.
+    """
+    if not jax.config.jax_enable_x64:  # pyright: ignore[reportAttributeAccessIssue]
+        raise AcausalError(
+            "Double precision was switched off after the import of acausal, which needs it to find initial values: "
+            "jax.config.update('jax_enable_x64', True); to simulate or fit in single precision, give dtype='float32'."
+        )

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 
+from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather
 from acausal.flattening import Integers
 from acausal.structure import Pattern
@@ -178,7 +179,7 @@ class Balances:
 
 
 @dataclass(frozen=True)
-class SolveSparseLoop:
+class SolveSparseLoop(LeavesCaches):
     """Solve a large algebraic loop by Newton's method, or directly if it is linear.
 
     Attributes:

@@ -136,6 +136,7 @@ def root(
     unit = jnp.abs(guess) + scale
     units = jnp.append(unit, 1.0)
     first = equations.residual(guess)
+    begins = jnp.all(jnp.isfinite(first))
     upward = jnp.zeros_like(units).at[-1].set(1.0)
     begin = jnp.append(guess / unit, 0.0)
 
@@ -162,7 +163,7 @@ def root(
         back = lost & w.upward
         good = walking & ~lost & arrived & (straight | (jnp.abs(w.direction[-1]) == 1))
         passed = good & (point[-1] >= 1)
-        ends = jnp.where(arrived, DONE, jnp.where(w.phase == ALONE, ON_THE_WAY, LOST))
+        ends = jnp.where(arrived, DONE, jnp.where((w.phase == ALONE) & begins, ON_THE_WAY, LOST))
         on = jnp.where(passed, AT_THE_END, jnp.where(lost & ~back, LOST, ON_THE_WAY))
         part = jnp.where(passed, (1 - w.point[-1]) / (point[-1] - w.point[-1]), 1.0)
         kept = jnp.where(good, w.point + part * taken, jnp.where(back, begin, w.point))
@@ -217,7 +218,8 @@ def _newton(
         dz, _ = jax.lax.while_loop(too_far, halve, (2 * full, jnp.inf * jnp.ones_like(size)))
         there, stopped = _is_tiny(full, z), _is_tiny(dz, z)
         arrived = there | (stopped & _is_tiny(full, z, STALLED))
-        status = jnp.where(arrived, ARRIVED, jnp.where(stopped, STUCK, GOING))
+        stuck = stopped | ~jnp.all(jnp.isfinite(full))
+        status = jnp.where(arrived, ARRIVED, jnp.where(stuck, STUCK, GOING))
         return z - jnp.where(there, full, dz), status, k + 1
 
     def unfinished(state: _State) -> Array:

@@ -14,6 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import Array
+from jax.core import Tracer
 
 from acausal.codegen.lower import evaluate
 from acausal.codegen.parameters import ParameterLayout
@@ -53,7 +54,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     """Collect a parameter dict into arrays; numbers that it lacks keep the model's values.
 
     Raises:
-        DataError: for an unknown name, a missing module or what is not a number.
+        DataError: for an unknown name, a missing module, what is not a number or is outside of its declared range.
     """
     if isinstance(params, Packed):
         return params
@@ -66,20 +67,19 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     if wrong:
         raise DataError(f"params: {listing(wrong)} must be numbers, got {params[wrong[0]]!r}")
     if any(isinstance(v, jax.Array) for v in given):
-        free = (
-            jnp.stack([jnp.asarray(given[i], dtype=float) for i in layout.order])
-            if given
-            else jnp.zeros(0)
-        )
+        known = np.asarray([np.nan if isinstance(v, Tracer) else v for v in given], dtype=float)
+        free = jnp.stack([jnp.asarray(given[i], dtype=float) for i in layout.order])
     else:
-        free = jnp.asarray(np.asarray(given, dtype=float)[layout.order])
-    values = free
+        known = np.asarray(given, dtype=float)
+        free = jnp.asarray(known[layout.order])
+    if clause := layout.out_of_range(known):
+        raise DataError(f"params: {clause}.")
+    arrays = [free]
     for group in layout.bound:
-        arguments = {symbol: read_elements(g, [values]) for symbol, g in group.arguments}
-        computed = jnp.broadcast_to(
-            jnp.asarray(evaluate(group.expression, arguments)), (group.size,)
-        )
-        values = jnp.concatenate([values, computed])
+        arguments = {symbol: read_elements(g, arrays) for symbol, g in group.arguments}
+        value = jnp.asarray(evaluate(group.expression, arguments))
+        arrays.append(value if group.size == 1 else jnp.broadcast_to(value, (group.size,)))
+    values = jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if layout.bound else free
     laws = [n for n in layout.module_names if not callable(params[n])]
     if laws:
         raise DataError(f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}")

@@ -10,14 +10,19 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather, gather
 from acausal.errors import DataError, DeclarationError, listing, nearest
-from acausal.flattening import Binding, FlatModel, Integers
+from acausal.flattening import Binding, FlatModel, Integers, binding_levels
 
 
 @dataclass(frozen=True)
 class BoundGroup:
-    """Bound parameters with one expression: computed side by side from earlier ones."""
+    """Bound parameters with one expression: computed side by side from earlier ones.
+
+    Attributes:
+        arguments: by symbol, where it is read: array 0 holds the free parameters, array 1 + i the i-th group.
+    """
 
     expression: sp.Expr
     arguments: tuple[tuple[sp.Symbol, Gather], ...]
@@ -25,7 +30,7 @@ class BoundGroup:
 
 
 @dataclass(frozen=True)
-class ParameterLayout:
+class ParameterLayout(LeavesCaches):
     """Where every parameter lies in `Packed`.
 
     Attributes:
@@ -74,12 +79,43 @@ class ParameterLayout:
         known = {*self.names, *self.module_names}
         for name in params:
             if name not in known:
-                raise DataError(f"params: {self._why_unknown(name)}")
+                reason = self.why_not_free(name)
+                if reason is None:
+                    hint = nearest(name, [*self.names, *self.module_names])
+                    reason = f"the model has no parameter '{name}'; {hint}"
+                raise DataError(f"params: {reason}")
 
-    def _why_unknown(self, name: str) -> str:
+    def out_of_range(self, values: np.ndarray) -> str | None:
+        """A clause on values outside of the ranges that are declared, or None; the model's own count as inside.
+
+        Arguments:
+            values: of the free parameters, in order; nan where one is not known.
+        """
+        low, high = self._ranges
+        outside = ((values < low) | (values > high)) & (values != self.model.value[self.free])
+        if not outside.any():
+            return None
+        first, *others = np.flatnonzero(outside).tolist()
+        value, unit = values[first], self.model.layout.parameter_declaration(self.free[first]).unit
+        limit = f"at least {low[first]:g}" if value < low[first] else f"at most {high[first]:g}"
+        clause = f"'{self.names[first]}' is {value:g}, but must be {limit} {unit}".rstrip()
+        if not others:
+            return clause
+        also = listing(self.names[i] for i in others)
+        return f"{clause}; {also} {'is' if len(others) == 1 else 'are'} out of range, too"
+
+    @cached_property
+    def _ranges(self) -> tuple[np.ndarray, np.ndarray]:
+        """The least and the largest value of every free parameter."""
+        declared = [self.model.layout.parameter_declaration(int(i)) for i in self.free]
+        low = [-np.inf if d.min is None else d.min for d in declared]
+        return np.asarray(low), np.asarray([np.inf if d.max is None else d.max for d in declared])
+
+    def why_not_free(self, name: str) -> str | None:
+        """A clause on a parameter of the model that cannot be changed; None for any other name."""
         index = self.model.layout.find_parameter(name)
-        if index is None:
-            return f"the model has no parameter '{name}'; {nearest(name, [*self.names, *self.module_names])}"
+        if index is None or name in self.names:
+            return None
         if self.model.folded[index]:
             return (
                 f"'{name}' was left at its default of zero and is folded out of the equations; "
@@ -115,47 +151,34 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     bound[[b.target for b in model.bindings]] = True
     free = np.flatnonzero(~bound & ~model.folded)
     rank = np.lexsort((free, *_kind(model, free)))
-    position = np.full(n, -1, dtype=np.int64)
-    position[free[rank]] = np.arange(len(free))
-    groups: list[BoundGroup] = []
-    filled = len(free)
-    waiting = [
-        b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]
-    ]
-    while waiting:
-        ready = [
-            b for b in waiting if all(_is_placed(a, target, position, model) for a in b.arguments)
-        ]
-        if not ready:
-            names = [model.layout.parameter(b.target) for b in waiting]
-            raise DeclarationError(
-                f"parameters are bound in a circle: {listing(names)}; give one a number"
-            )
+    source, index, position = (np.full(n, -1, dtype=np.int64) for _ in range(3))
+    source[free] = 0
+    index[free[rank]] = position[free[rank]] = np.arange(len(free))
+    groups, sizes = list[BoundGroup](), [len(free)]
+    levels, circular = binding_levels(
+        [b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]],
+        target,
+    )
+    if circular:
+        names = [model.layout.parameter(b.target) for b in circular]
+        raise DeclarationError(
+            f"parameters are bound in a circle: {listing(names)}; give one a number"
+        )
+    for ready in levels:
         for expression, members in _by_expression(ready, model, target):
-            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).reshape(
-                len(members), -1
-            )
+            columns = np.asarray([[target[a] for a in b.arguments] for b in members]).T
             arguments = tuple(
-                (
-                    s,
-                    gather(
-                        np.zeros(len(members), dtype=np.int64), position[columns[:, i]], [filled]
-                    ),
-                )
-                for i, s in enumerate(members[0].symbols)
+                (s, gather(source[column], index[column], sizes))
+                for s, column in zip(members[0].symbols, columns, strict=True)
                 if s in expression.free_symbols
             )
             groups.append(BoundGroup(expression, arguments, len(members)))
-            position[[b.target for b in members]] = filled + np.arange(len(members))
-            filled += len(members)
-        done = {b.target for b in ready}
-        waiting = [b for b in waiting if b.target not in done]
+            own = [b.target for b in members]
+            source[own], index[own] = len(groups), np.arange(len(members))
+            position[own] = sum(sizes) + index[own]
+            sizes.append(len(members))
     position = position[target]
     return ParameterLayout(model, free, rank, position, tuple(groups), _module_targets(model))
-
-
-def _is_placed(argument: int, target: Integers, position: Integers, model: FlatModel) -> bool:
-    return bool(position[target[argument]] >= 0 or model.folded[target[argument]])
 
 
 def _kind(model: FlatModel, free: Integers) -> tuple[Integers, Integers]:

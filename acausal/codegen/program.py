@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather, gather
 from acausal.codegen.instructions import Instruction
 from acausal.flattening import Integers
@@ -21,7 +22,7 @@ STATES, INPUTS, ZERO = 0, 1, 2
 
 
 @dataclass(frozen=True)
-class Program:
+class Program(LeavesCaches):
     """The instructions that compute the values of a model.
 
     Attributes:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import sympy as sp
@@ -104,6 +105,10 @@ class _Sparse:
         return r, _Jacobian(self.matrix, entries)
 
 
+_Functions = tuple[Callable[[Array], Array], Callable[[Array], Array]]
+"""Residuals and entries of the Jacobian, as pytrees of all values that they read."""
+
+
 def _linear(equations: _Sparse, guess: Array, scale: Array) -> Array:
     del scale
     origin = jnp.zeros_like(guess)
@@ -113,19 +118,21 @@ def _linear(equations: _Sparse, guess: Array, scale: Array) -> Array:
 def _nonlinear(equations: _Sparse, guess: Array, scale: Array) -> Array:
     """A root near the guess, NaN if it is not reached; gradients by the implicit function theorem."""
     matrix = equations.matrix
-    residual, read = jax.closure_convert(equations.residual, guess)
-    entries, also_read = jax.closure_convert(equations.entries, guess)
+    residual = eqx.filter_closure_convert(equations.residual, guess)
+    entries = eqx.filter_closure_convert(equations.entries, guess)
+    return _root((residual, entries), matrix, guess, scale)
 
-    @jax.custom_jvp
-    def solved(read: Any, also_read: Any) -> Array:
-        filled = _Sparse(matrix, lambda z: residual(z, *read), lambda z: entries(z, *also_read))
-        z, arrived = root(filled, guess, scale)
-        return jnp.where(arrived, z, jnp.nan)
 
-    @solved.defjvp
-    def _(known: Any, tangents: Any) -> tuple[Array, Array]:
-        z = solved(*known)
-        change = jax.jvp(lambda read: residual(z, *read), known[:1], tangents[:1])[1]
-        return z, -matrix.solve(entries(z, *known[1]), change)
+@eqx.filter_custom_jvp
+def _root(functions: _Functions, matrix: SparseMatrix, guess: Array, scale: Array) -> Array:
+    """The root as a function of all that the equations read."""
+    z, arrived = root(_Sparse(matrix, *functions), guess, scale)
+    return jnp.where(arrived, z, jnp.nan)
 
-    return solved(read, also_read)
+
+@_root.def_jvp
+def _(primals: Any, tangents: Any) -> tuple[Array, Array]:
+    (residual, entries), matrix, _, _ = primals
+    z = _root(*primals)
+    change = eqx.filter_jvp(lambda function: function(z), (residual,), (tangents[0][0],))[1]
+    return z, -matrix.solve(entries(z), change)

@@ -4,7 +4,7 @@ In: a `Component`. Out: a frozen `FlatModel`.
 It knows declarations; neither JAX nor any later stage.
 """
 
-from acausal.flattening.bindings import Binding as Binding
+from acausal.flattening.bindings import Binding as Binding, binding_levels as binding_levels
 from acausal.flattening.equation_group import EquationGroup as EquationGroup
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
 from acausal.flattening.layout import Layout as Layout, tiled as tiled

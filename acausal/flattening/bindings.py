@@ -79,3 +79,37 @@ def parameter_aliases(bindings: Sequence[Binding], n_parameters: int) -> Integer
     circular = np.flatnonzero(target[target] != target)  # refused when parameters are laid out
     target[circular] = circular
     return target
+
+
+def binding_levels(
+    bindings: Sequence[Binding], aliases: Integers
+) -> tuple[list[list[Binding]], list[Binding]]:
+    """Bindings in an order in which they can be computed: those of a level need earlier levels only.
+
+    Arguments:
+        aliases: (n_parameters,) which parameter is read in the place of each.
+
+    Returns:
+        The levels, and the bindings in a circle or behind one.
+    """
+    number = {b.target: i for i, b in enumerate(bindings)}
+    needs = [
+        {number[a] for a in aliases[list(b.arguments)].tolist() if a in number} for b in bindings
+    ]
+    needed_by: list[list[int]] = [[] for _ in bindings]
+    for i, needed in enumerate(needs):
+        for j in sorted(needed):
+            needed_by[j].append(i)
+    left = [len(needed) for needed in needs]
+    levels: list[list[Binding]] = []
+    ready = [i for i, n in enumerate(left) if n == 0]
+    while ready:
+        levels.append([bindings[i] for i in ready])
+        after: list[int] = []
+        for i in ready:
+            for j in needed_by[i]:
+                left[j] -= 1
+                if left[j] == 0:
+                    after.append(j)
+        ready = sorted(after)
+    return levels, [b for b, n in zip(bindings, left, strict=True) if n > 0]

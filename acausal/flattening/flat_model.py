@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from acausal.caches import LeavesCaches
 from acausal.flattening.attributes import variable_attributes
 from acausal.flattening.bindings import Binding, parameter_aliases
 from acausal.flattening.connections import connection_groups, connection_sets, model_inputs
@@ -19,7 +20,7 @@ from acausal.modeling import PYTHON, Budget, Component, spending
 
 
 @dataclass(frozen=True)
-class FlatModel:
+class FlatModel(LeavesCaches):
     """A model without hierarchy: numbered variables, and equations as instances of templates.
 
     Attributes:

@@ -196,8 +196,7 @@ def _symbols(expression: sp.Expr) -> list[sp.Symbol]:
 def _creation_order(symbol: sp.Symbol) -> tuple[int, int]:
     """References in the order in which they were made: sympy's own order of arguments depends on names."""
     reference, order = _undifferentiated(symbol)
-    serial = int(reference.name.rpartition("#")[2]) if isinstance(reference, Reference) else -1
-    return serial, order
+    return (reference.serial if isinstance(reference, Reference) else -1), order
 
 
 def _undifferentiated(symbol: sp.Symbol) -> tuple[sp.Symbol, int]:

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from acausal.caches import LeavesCaches
 from acausal.errors import DeclarationError, nearest
 from acausal.flattening.template import Integers
 from acausal.modeling import (
@@ -30,7 +31,7 @@ T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True)
-class Form:
+class Form(LeavesCaches):
     """The local names that all instances of one class with the same structural choices share.
 
     Attributes:
@@ -62,7 +63,7 @@ class Form:
 
 
 @dataclass(frozen=True)
-class Layout:
+class Layout(LeavesCaches):
     """The components of a model and the numbers of everything that they declare.
 
     Attributes:

@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy as sp
 
+from acausal.caches import LeavesCaches
 from acausal.flattening.template import KeptSlots, Template, slot
 
 FEW = 8
@@ -19,7 +20,7 @@ FEW = 8
 
 
 @dataclass(frozen=True)
-class Sum:
+class Sum(LeavesCaches):
     """The equation ``sum(coefficients[i] * slot[i]) = 0``; no coefficient is zero.
 
     It has the interface of a `Template`; ``residual`` over ``variables`` spells it out for people and messages.

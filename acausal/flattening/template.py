@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.relational import Relational
 
+from acausal.caches import LeavesCaches
 from acausal.errors import StructureError
 from acausal.modeling import Prescribed, time
 
@@ -24,7 +25,7 @@ KeptSlots = tuple[list[int], list[int], list[int]]
 
 
 @dataclass(frozen=True)
-class Template:
+class Template(LeavesCaches):
     """The equation ``residual = 0`` over slots.
 
     Attributes:

@@ -13,6 +13,7 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
+from acausal.caches import LeavesCaches
 from acausal.codegen import (
     Packed,
     ParameterLayout,
@@ -39,7 +40,7 @@ class FixedStart:
 
 
 @dataclass(frozen=True)
-class Conditions:
+class Conditions(LeavesCaches):
     """The initial conditions of a model.
 
     Attributes:

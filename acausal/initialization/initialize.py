@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, traced
 from acausal.by_name import ByName, names_in
+from acausal.caches import LeavesCaches
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
@@ -91,7 +92,7 @@ class Initialization(ByName):
 
 
 @dataclass(frozen=True)
-class Initializer:
+class Initializer(LeavesCaches):
     """The initialization problem of a model.
 
     States with a fixed start take it. The others start from their guess and move as little as possible,
@@ -113,8 +114,8 @@ class Initializer:
     def __call__(
         self,
         packed: Packed,
-        x0: Mapping[str, ArrayLike] | ArrayLike | None = None,
-        u0: ArrayLike | None = None,
+        x0: Mapping[str, ArrayLike] | ArrayLike | None,
+        u0: Float[Array, " n_inputs"],
         t0: float = 0.0,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
@@ -123,21 +124,21 @@ class Initializer:
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
         x, plan = self._posed(packed, x0 or {}, steady, least_squares)
-        at = Values(jnp.asarray(t0, float), x, self._inputs(u0), packed)
+        at = Values(jnp.asarray(t0, float), x, u0, packed)
         return x if plan is None else self._found(plan, at)[0]
 
     def report(
         self,
         packed: Packed,
-        x0: Mapping[str, ArrayLike] | None = None,
-        u0: ArrayLike | None = None,
+        x0: Mapping[str, ArrayLike] | None,
+        u0: Float[Array, " n_inputs"],
         t0: float = 0.0,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
     ) -> Initialization:
         """Initial states and how each was found; see `System.initialize`."""
         x, plan = self._posed(packed, x0 or {}, steady, least_squares)
-        at = Values(jnp.asarray(t0, float), x, self._inputs(u0), packed)
+        at = Values(jnp.asarray(t0, float), x, u0, packed)
         roles = [
             "given" if name in (x0 or {}) else "fixed" if fixed else "start"
             for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
@@ -161,9 +162,6 @@ class Initializer:
                 f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
             )
         return x
-
-    def _inputs(self, u0: ArrayLike | None) -> Array:
-        return jnp.zeros(len(self.reduced.inputs)) if u0 is None else jnp.asarray(u0, dtype=float)
 
     def _posed(
         self,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
@@ -177,6 +178,10 @@ class Component:
         above.children[name] = part
         part.modify(**above.early_modifiers.pop(name, {}))
         return part
+
+    def __copy__(self) -> Self:
+        """A component of its own, with parts of its own: as `copy.deepcopy`."""
+        return copy.deepcopy(self)
 
     def _read(self, declared: Declaration | Connector) -> Any:
         """Called by the declarations of the class when they are read on an instance."""

@@ -49,6 +49,7 @@ class Declaration:
     """
 
     name: str = ""
+    _class: type | None = None
 
     def __init__(
         self, *, unit: str = "", shape: DeclaredShape = None, when: str | None = None, doc: str = ""
@@ -59,7 +60,13 @@ class Declaration:
         )
 
     def __set_name__(self, owner: type, name: str) -> None:
-        self.name = name
+        self._class, self.name = owner, name
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """What a class declares is pickled by name, as the class is; only what an instance declares is copied."""
+        if self._class is None:
+            return super().__reduce_ex__(protocol)
+        return _declared_in, (self._class, self.name)
 
     @overload
     def __get__(self, instance: None, owner: type) -> Declaration: ...
@@ -67,6 +74,10 @@ class Declaration:
     def __get__(self, instance: object, owner: type) -> Any: ...
     def __get__(self, instance: Any, owner: type) -> Any:
         return self if instance is None else instance._read(self)
+
+
+def _declared_in(owner: type, name: str) -> Declaration:
+    return vars(owner)[name]
 
 
 class Parameter(Declaration):

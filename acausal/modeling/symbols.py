@@ -42,19 +42,51 @@ class Owner(Protocol):
 
 
 class Reference(sp.Symbol):
-    """A symbol that knows which component owns it (by its node) and its local name there."""
+    """A symbol that knows which component owns it (by its node) and its local name there.
+
+    Attributes:
+        owner: the component's node. ``path``: the name in the component. ``declaration``: what is declared there.
+        serial: grows with every reference of a model, to put them in order of creation.
+    """
 
     owner: Owner
     path: str
     declaration: Declaration
+    serial: int
 
-    _serial = count()
+    _names, _serials = count(), count()
 
     def __new__(cls, owner: Owner, path: str, declaration: Declaration) -> Reference:
         """A new symbol, unlike any other."""
-        symbol = super().__new__(cls, f"{path}#{next(cls._serial)}", real=True)
-        symbol.owner, symbol.path, symbol.declaration = owner, path, declaration
+        symbol = cls._unlike_any_other(path)
+        symbol.owner, symbol.declaration, symbol.serial = owner, declaration, next(cls._serials)
         return symbol
+
+    @classmethod
+    def _unlike_any_other(cls, path: str) -> Reference:
+        symbol = super().__new__(cls, f"{path}#{next(cls._names)}", real=True)
+        symbol.path = path
+        return symbol
+
+    @classmethod
+    def _again(cls, path: str, serial: int) -> Reference:
+        """A symbol in a copy of its model; symbols that are added to the copy come after it."""
+        symbol = cls._unlike_any_other(path)
+        symbol.serial = serial
+        if next(cls._serials) <= serial:
+            cls._serials = count(serial + 1)
+        return symbol
+
+    def __copy__(self) -> Reference:
+        return self
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """A copy of the model has symbols of its own: a process may have one of this name already.
+
+        The owner holds the symbol and follows when the symbol exists.
+        """
+        owner = {"owner": self.owner, "declaration": self.declaration}
+        return Reference._again, (self.path, self.serial), owner
 
     def _sympystr(self, printer: Any) -> str:
         return self.path

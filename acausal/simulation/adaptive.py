@@ -13,13 +13,42 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import cast, traced, two_modes
-from acausal.errors import SimulationError, StepLimitError
+from acausal.errors import DataError, SimulationError, StepLimitError
 from acausal.simulation import solvers
 from acausal.simulation.inputs import evaluate, evaluate_all, jumps
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 
 Tolerance = float | Array
+
+SHORTEST = 1e-30
+"""The shortest step, as a fraction of the span: only a model without finite values leads there."""
+
+
+def check_tolerances(rtol: Tolerance, atol: Tolerance) -> None:
+    """Refuse tolerances with which no step can be accepted.
+
+    Raises:
+        DataError: for one that is negative or not a finite number, or if all are zero.
+    """
+    if traced(rtol, atol):
+        return
+    for name, given in {"rtol": rtol, "atol": atol}.items():
+        if not _is_nonnegative(given):
+            raise DataError(
+                f"{name}={given!r:.80} is not a tolerance; give a positive number, such as {name}=1e-6."
+            )
+    if not (np.any(rtol) or np.any(atol)):
+        raise DataError("rtol and atol are both zero; give rtol=1e-6, say.")
+
+
+def _is_nonnegative(given: ArrayLike) -> bool:
+    """Whether this is a finite number, or an array of these, none below zero."""
+    try:
+        values = np.asarray(given, dtype=float)
+    except (TypeError, ValueError):
+        return False
+    return bool((np.isfinite(values) & (values >= 0)).all())
 
 
 class Solved(NamedTuple):
@@ -112,7 +141,9 @@ def _diffeqsolve(
         values, inputs = eqx.combine(args, rest)
         return run.system.rates(values._replace(t=t, x=x, u=evaluate(inputs, t)))
 
-    controller: dfx.AbstractStepSizeController[Any, Any] = dfx.PIDController(rtol=rtol, atol=atol)
+    controller: dfx.AbstractStepSizeController[Any, Any] = dfx.PIDController(
+        rtol=rtol, atol=atol, dtmin=SHORTEST * (run.end - run.begin), force_dtmin=False
+    )
     if jump_times.shape[0]:
         controller = dfx.ClipStepSizeController(controller, jump_ts=jump_times)
     solution: Any = dfx.diffeqsolve(

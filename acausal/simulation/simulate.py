@@ -12,11 +12,11 @@ from jax.typing import DTypeLike
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import is_real, precision, traced
+from acausal._jax import is_real, need_double_precision, precision, traced
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, StepLimitError, need_compiled
 from acausal.simulation import solvers
-from acausal.simulation.adaptive import Tolerance, simulate_adaptive
+from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
 from acausal.simulation.inputs import (
     TimeFunction,
@@ -97,6 +97,8 @@ def simulate(
             explicit solver.
     """
     need_compiled(system, "simulate")
+    need_double_precision()
+    check_tolerances(rtol, atol)
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)

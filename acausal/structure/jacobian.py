@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.flattening import FlatModel, Integers, Statement
+from acausal.flattening import FlatModel, Integers, Statement, binding_levels
 from acausal.modeling import ModuleCall, Prescribed, time
 
 TIME = 0.37
@@ -56,11 +56,8 @@ def is_constant(template: Statement, column: int) -> bool:
 def parameter_values(model: FlatModel) -> np.ndarray:
     """The model's own values of all parameters, bound ones computed (nan: bound in a circle)."""
     value = np.array(model.value)
-    waiting = list(model.bindings)
-    while waiting:
-        ready = [b for b in waiting if not np.isnan(value[list(b.arguments)]).any()]
-        if not ready:
-            break
+    levels, _ = binding_levels(model.bindings, np.arange(len(value)))
+    for ready in levels:
         groups: dict[Any, list[Any]] = {}
         for b in ready:
             groups.setdefault((b.expression, b.symbols), []).append(b)
@@ -69,8 +66,6 @@ def parameter_values(model: FlatModel) -> np.ndarray:
             with np.errstate(all="ignore"):
                 computed = _function(expression, symbols)(TIME, *value[arguments].T)
             value[[b.target for b in members]] = np.nan_to_num(computed)
-        done = {b.target for b in ready}
-        waiting = [b for b in waiting if b.target not in done]
     return value
 
 

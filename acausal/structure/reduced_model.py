@@ -10,6 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
+from acausal.caches import LeavesCaches
 from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers
 from acausal.structure import graph
@@ -24,7 +25,7 @@ OFF_ZERO = 1e-3
 
 
 @dataclass(frozen=True)
-class ReducedModel:
+class ReducedModel(LeavesCaches):
     """A model ready for code: states, inputs and the steps that compute everything else.
 
     Nodes are those of `AliasFree`, then further derivatives that index reduction introduced.

@@ -9,6 +9,7 @@ from acausal.flattening import FlatModel
 from acausal.modeling import Potential
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
+from acausal.structure.suspects import forgotten_equations, inputs_that_are_set
 
 
 def explain_singularity(
@@ -53,7 +54,10 @@ def explain_singularity(
         )
     floating = any(_is_potential(model, node) for node in unmatched)
     excess = bool(surplus or aliases.redundant)
-    return "; ".join(parts) + ". " + _mend(bool(missing), excess, floating)
+    mend = (missing and forgotten_equations(model)) or _mend(bool(missing), excess, floating)
+    if is_set := inputs_that_are_set(model, (*surplus, *aliases.redundant)):
+        mend = f"{is_set} {mend}"
+    return "; ".join(parts) + f". {mend}"
 
 
 def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:

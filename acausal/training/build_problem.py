@@ -54,8 +54,9 @@ def build_problem(
         DataError: if the data are not sufficient for the training.
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
+    system.pack(params)  # refuses what does not fit
     chosen = _networks(options.train, params)
-    changed = modifiers(options.modifiers, options.gamma, params)
+    changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
     if not chosen and not changed.names:
         raise TrainingError(
             "There is nothing to train: no network is in the model or chosen by train=[...]. "

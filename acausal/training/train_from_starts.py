@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +14,8 @@ import numpy as np
 from jaxtyping import PyTree
 from numpy.typing import ArrayLike
 
+from acausal._jax import need_double_precision
+from acausal.analysis import in_switches
 from acausal.by_name import names_in
 from acausal.codegen import Values
 from acausal.data import Data
@@ -62,6 +64,7 @@ def train_from_starts(
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
+    need_double_precision()
     for seed in seeds:
         if not isinstance(seed, int | np.integer):
             raise TrainingError(f"seed={seed!r}; give a whole number.")
@@ -146,9 +149,10 @@ def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[
         yield f"Training found nothing better than its start. {sentence}"
     unmoved = _unmoved(start, trained.last)
     if unmoved and len(diverged) < epochs and trained.history.full_loss[0, 1] > EXACT:
+        yield from _reasons(unmoved, in_switches(problem.system))
+    if clause := _out_of_range(problem, trained.best.trainable):
         yield (
-            f"Training did not move {listing(unmoved)}: no target depends on it. "
-            "Fit a target that does, or leave it out (train=..., modifiers=...)."
+            f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
         )
     changes = changes_of(problem, trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
@@ -161,6 +165,31 @@ def _long_steps(problem: Problem, best: Best) -> str | None:
     packed = problem.system.pack(problem.assemble(best.trainable))
     values = Values(problem.times, best.simulated.x, problem.inputs, packed)
     return long_steps(problem.system, values, problem.longest_step)
+
+
+def _reasons(unmoved: Sequence[str], in_switches: Set[str]) -> Iterator[str]:
+    """Why training did not move some networks and parameters."""
+    switching = [n for n in unmoved if n in in_switches]
+    others = [n for n in unmoved if n not in in_switches]
+    if switching:
+        yield (
+            f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, and has "
+            "no gradient. Smooth it (tanh in the place of sign), or leave it out (train=..., modifiers=...)."
+        )
+    if others:
+        yield (
+            f"Training did not move {listing(others)}: no target depends on it. "
+            "Fit a target that does, or leave it out (train=..., modifiers=...)."
+        )
+
+
+def _out_of_range(problem: Problem, trained: Trainable) -> str | None:
+    """A clause on trained parameters outside of their declared ranges."""
+    params, moved = problem.assemble(trained), problem.modifiers.names
+    layout = problem.system.layout
+    return layout.out_of_range(
+        np.asarray([float(params[n]) if n in moved else np.nan for n in layout.names])
+    )
 
 
 def _unmoved(start: Trainable, end: Trainable) -> list[str]:

@@ -136,6 +136,38 @@ def test_wrong_parameters_are_told(params, told):
         system.pack(params)
 
 
+@pytest.mark.parametrize(
+    ("params", "told"),
+    [
+        ({"a.m": -1.0}, r"^params: 'a\.m' is -1, but must be at least 0 kg\.$"),
+        ({"a.m": jnp.asarray(-1)}, "'a.m' is -1, but must be at least 0 kg"),
+        ({"a.m": -1, "b.m": -2.0}, r"at least 0 kg; 'b\.m' is out of range, too\.$"),
+        ({"g.gain": 11.0}, "'g.gain' is 11, but must be at most 10"),
+    ],
+)
+def test_values_out_of_range_are_told(params, told):
+    class Limited(ac.Component):
+        gain = ac.Parameter(1.0, max=10)
+        x = ac.Variable()
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), self.gain)
+
+    system = ac.compile(model(a=Mass(m=1.0), b=Mass(m=1.0), g=Limited(gain=2.0)))
+    for refused in (system.pack, system.initialize, lambda p: ac.linearize(system, params=p)):
+        with pytest.raises(ac.DataError, match=told):
+            refused(params)
+    with pytest.raises(ac.DataError, match=told):
+        ac.simulate(system, (0, 1), dt=0.1, params=params)
+
+
+def test_values_that_jax_traces_are_let_pass():
+    system = ac.compile(model(a=Mass(m=1.0)))
+    found = jax.jit(lambda m: system.pack({"a.m": m}).values)(-1.0)
+    assert found.tolist() == [-1.0]
+    assert system.pack(system.parameters() | {"a.m": 0.0}).values.tolist() == [0.0]
+
+
 def test_a_bound_parameter_cannot_be_set():
     system = ac.compile(Box())
     with pytest.raises(ac.DataError, match=r"'last\.gain' is bound to an expression"):
@@ -176,3 +208,32 @@ def test_an_expression_that_divides_by_a_folded_parameter_is_told():
 def test_a_number_is_no_network():
     with pytest.raises(ac.DataError, match=r"^params: 'extra\.net' must be networks, got 3\.0$"):
         learned().pack({"extra.net": 3.0})
+
+
+class Chain(ac.Component):
+    """Every parameter is bound to the one before."""
+
+    net = ac.Module(lambda key: Scale(jax.random.normal(key)))
+
+    def __init__(self, n):
+        super().__init__()
+        parts = [Called(gain=1.0, net=self.net)]
+        for _ in range(n):
+            parts.append(Called(gain=0.5 * parts[-1].gain + 1.0, net=self.net))
+        self.parts = parts
+
+
+def test_a_long_chain_of_bound_parameters_is_packed_in_linear_time():
+    system = ac.compile(Chain(400))
+    values = system.pack().values
+    np.testing.assert_allclose(values[:4], [1.0, 1.5, 1.75, 1.875])
+    assert values[-1] == pytest.approx(2.0)
+    params = system.parameters()
+
+    def packed(gain):
+        return system.pack({**params, "parts[1].gain": gain}).values
+
+    operations = jax.make_jaxpr(packed)(1.0).eqns
+    numbers = sum(v.aval.size for operation in operations for v in operation.outvars)
+    assert numbers < 10 * len(values)  # a vector that grows step by step would add up to its square
+    np.testing.assert_allclose(jax.jit(jax.jacfwd(packed))(1.0)[:4], [1.0, 0.5, 0.25, 0.125])

@@ -310,6 +310,27 @@ def test_at_rest(hanging_system):
     np.testing.assert_allclose(derivative, [0.25, 0.0], atol=1e-12)
 
 
+@pytest.mark.parametrize("u0", [{"f.f": 2.0}, {"f.f": jnp.asarray(2.0)}, [2.0], np.array([2])])
+def test_inputs_at_the_start_by_name_or_in_order(hanging_system, u0):
+    found = hanging_system.initialize(u0=u0, steady=True)
+    np.testing.assert_allclose(found.x, [1.5, 0.0], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("u0", "told"),
+    [
+        ({"f.F": 1.0}, r"^u0: 'f\.F' is not an input; did you mean 'f\.f'\?$"),
+        ([1.0, 2.0], r"^u0 has shape \(2,\); the model has the inputs \(f\.f\)$"),
+        ({"f.f": "much"}, r"^u0=\['much'\]: inputs are numbers at one time\.$"),
+        ({"f.f": [1.0, 2.0]}, r"^u0 has shape \(1, 2\)"),
+    ],
+)
+def test_inputs_that_do_not_fit_are_told(hanging_system, u0, told):
+    for find in (hanging_system.initialize, hanging_system.initial_state):
+        with pytest.raises(ac.DataError, match=told):
+            find(u0=u0, steady=True)
+
+
 def test_some_states_at_rest(hanging_system):
     found = hanging_system.initialize(x0={"m.v": 2.0}, u0=[0.0], steady=["m.v"])
     np.testing.assert_allclose(found.x, [0.75, 2.0])

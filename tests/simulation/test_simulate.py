@@ -1,3 +1,5 @@
+import time
+
 import diffrax
 import jax
 import jax.numpy as jnp
@@ -8,6 +10,7 @@ import acausal as ac
 from acausal.data.record import Data
 from acausal.simulation.solvers import RK4, SOLVERS
 from tests.support.oscillator import C, M, force, plain, record, undamped
+from tests.support.parts import Equations
 
 OMEGA = np.sqrt(C / M)
 AT_ONE = {"mass.s": 1.0}
@@ -436,6 +439,15 @@ def test_what_is_no_span(t):
         ac.simulate(plain(), t, inputs=NO_FORCE)
 
 
+@pytest.mark.parametrize("given", [-1, np.nan, np.inf, "fine", None, [1e-6, -1e-6]])
+@pytest.mark.parametrize("name", ["rtol", "atol"])
+def test_what_is_no_tolerance(name, given):
+    with pytest.raises(ac.DataError, match=rf"^{name}=.* is not a tolerance; give a positive"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, **{name: given})
+    with pytest.raises(ac.DataError, match=r"^rtol and atol are both zero"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, rtol=0, atol=0)
+
+
 @pytest.mark.parametrize("dt", [0, -0.1, np.inf, "fast", True])
 def test_what_is_no_step(dt):
     with pytest.raises(ac.DataError, match=r"^dt=.* is not a step"):
@@ -474,8 +486,26 @@ def test_steps_too_long_are_named_as_the_cause():
 
 
 def test_an_unstable_model_is_named_as_the_cause():
-    params = plain().parameters() | {"spring.c": -1e4}
+    unstable = Equations(
+        "x v",
+        lambda s: [ac.Eq(ac.der(s.x), s.v), ac.Eq(ac.der(s.v), 5000 * s.x - 0.5 * s.v)],
+    )
+    system, at_one = ac.compile(unstable), {"x": 1.0, "v": 0.0}
     with pytest.raises(ac.SimulationError, match=r"unstable: a mode grows by 70\.5 1/s"):
-        ac.simulate(plain(), (0, 20), dt=0.01, inputs=NO_FORCE, x0=AT_ONE, params=params)
+        ac.simulate(system, (0, 20), dt=0.01, x0=at_one)
     with pytest.raises(ac.SimulationError, match="stopped at t = "):
-        ac.simulate(plain(), (0, 20), inputs=NO_FORCE, x0=AT_ONE, params=params, max_steps=500)
+        ac.simulate(system, (0, 20), x0=at_one, max_steps=500)
+
+
+def test_a_model_without_a_real_solution_says_so_in_seconds():
+    """The adaptive solver gives up its steps, and no step is searched for long once a value is not finite."""
+    impossible = Equations(
+        "x y", lambda s: [ac.Eq(ac.der(s.x), s.y), ac.Eq(s.y**2 + ac.exp(s.y) + s.x**2 + 1, 0)]
+    )
+    system, told = ac.compile(impossible), r"no solution of the equations for 'y'"
+    begin = time.perf_counter()
+    with pytest.raises(ac.SimulationError, match=told):
+        ac.simulate(system, (0, 1), solver="heun")
+    with pytest.raises(ac.SimulationError, match=told):
+        ac.simulate(system, (0, 10), dt=0.001, solver="heun")
+    assert time.perf_counter() - begin < 30

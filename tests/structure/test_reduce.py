@@ -557,6 +557,13 @@ def test_small_models(variables, stated, states):
 # -- diagnosis ----------------------------------------------------------------------------------------------------
 
 
+class Forgetful(SpringDamper):
+    """A spring without its base classes' equations."""
+
+    def equations(self):
+        yield Eq(self.f, self.c * self.s_rel)
+
+
 @pytest.mark.parametrize(
     ("whole", "told"),
     [
@@ -630,6 +637,17 @@ def test_small_models(variables, stated, states):
         (
             lambda: Equations("x", lambda s: [Eq(s.x, s.u), Eq(s.x, 3)], inputs="u"),
             ["overdetermined; redundant equations: 'Equations: x = 3'"],
+        ),
+        (
+            lambda: model(part=Equations("x", lambda s: [Eq(der(s.x), s.u), Eq(s.u, 3)], inputs="u")),
+            ["part (Equations: u = 3)", "set the Input 'part.u', to which nothing is", "an Output."],
+        ),
+        (
+            lambda: model(
+                "c.flange - s.flange_a", "s.flange_b - m.flange_a",
+                c=Fixed(), s=Forgetful(c=1.0, d=0.0), m=Mass(m=1.0),
+            ),
+            ["undetermined", "'s' (Forgetful) states none of the equations of its base class SpringDamper"],
         ),
     ],
 )  # fmt: skip

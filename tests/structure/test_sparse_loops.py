@@ -203,3 +203,25 @@ def test_the_place_of_a_breakdown():
     params = {**singular.parameters(), "coupling": 0.5}  # of an even ring: y, -y, y, ... is free
     with pytest.raises(ac.SimulationError, match=r"linear equations for 'y0', .* are singular"):
         ac.simulate(singular, (0, 1), dt=0.5, params=params)
+
+
+@pytest.mark.usefixtures("mesh_from_ten")
+def test_gradients_of_a_simulation_in_every_mode():
+    make = lambda k: el.Diode() if k % 5 == 4 else el.Resistor(R=100.0 + k)  # noqa: E731
+    system = ac.compile(Net(3, make))
+    assert any(isinstance(s, SparseLoop) for s in system.reduced.steps)
+    params, x0 = system.parameters(), jnp.zeros(2)
+
+    def loss(r):
+        packed = system.pack({**params, "edge[2].R": r})
+        step = lambda x, u: (x + 0.1 * system.vector_field(0.0, x, u, packed), None)  # noqa: E731
+        return jax.lax.scan(step, x0, jnp.full((3, 1), 5.0))[0][0]
+
+    r, h = 102.0, 0.01
+    backward = jax.jit(jax.value_and_grad(loss))
+    values, gradients = jax.jit(jax.vmap(backward))(jnp.asarray([r - h, r, r + h]))
+    slope = (values[2] - values[0]) / (2 * h)
+    assert abs(slope) > 1e-6
+    forward = jax.jit(lambda r: jax.jvp(loss, (r,), (1.0,)))
+    for found in ((values[1], gradients[1]), backward(r), forward(r)):
+        np.testing.assert_allclose(found, (values[1], slope), rtol=1e-6)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -54,6 +56,19 @@ def test_every_member_is_the_training_of_its_seed():
     assert member.validation_loss == pytest.approx(alone.validation_loss, rel=1e-6)
     np.testing.assert_allclose(member.predicted_before, alone.predicted_before)
     assert member.loss != trained().fits[0].loss
+
+
+def test_copies_answer_as_the_ensemble_and_its_fits(tmp_path):
+    ensemble = pickle.loads(pickle.dumps(trained()))
+    assert str(ensemble) == str(trained())
+    fit, other = trained().fits[0], ensemble.fits[0]
+    assert other.system is ensemble.fits[1].system is not fit.system
+    assert str(other) == str(copy.copy(fit)) == str(copy.deepcopy(fit)) == str(fit)
+    at = {"dt": 0.01, "inputs": {"push.f": np.ones(101)}}
+    found, expected = (ac.simulate(f.system, (0, 1), params=f.params, **at) for f in (other, fit))
+    np.testing.assert_array_equal(found.x, expected.x)
+    assert other.residuals()[0].share == fit.residuals()[0].share
+    assert "mass.m" in other.report(tmp_path).read_text()
 
 
 def test_members_side_by_side_find_the_same():

@@ -21,8 +21,12 @@ ZERO = (
 )
 
 
+def nothing(name: str) -> None:
+    """No parameter of the model that `name` could be, free or not."""
+
+
 def chosen(kind: Any, value: float) -> Modifiers:
-    return modifiers({"p": kind}, 0.2, {"p": value})
+    return modifiers({"p": kind}, 0.2, {"p": value}, nothing)
 
 
 @pytest.mark.parametrize(
@@ -147,7 +151,7 @@ def test_the_prior_deviation_of_a_change(kind: Any, value: float, size: float):
 
 
 def test_one_name_is_no_list_of_letters():
-    assert modifiers("mass", 0.2, {"mass": 1.0}).names == ("mass",)
+    assert modifiers("mass", 0.2, {"mass": 1.0}, nothing).names == ("mass",)
 
 
 @pytest.mark.parametrize(
@@ -166,3 +170,37 @@ def test_mistakes_get_one_sentence(kind: Any, value: float, sentence: str):
     with pytest.raises(ac.TrainingError) as error:
         chosen(kind, value)
     assert str(error.value) == sentence
+
+
+def test_a_parameter_that_leaves_its_range_is_told():
+    """A damper that drives: only a shift lets it go there, and only a trained model may have it."""
+    system, times = plain(), np.linspace(0, 2, 101)
+    inputs = {"push.f": force(times)}
+
+    @jax.jit
+    def driven(d: float) -> ac.Solution:
+        params = {**system.parameters(), "spring.d": d}
+        return ac.simulate(system, (0, 2), dt=0.02, inputs=inputs, params=params)
+
+    data = ac.Data(times, {"mass.s": driven(-0.5)["mass.s"], **inputs})
+    options: dict[str, Any] = {
+        "modifiers": {"spring.d": ac.Shift(1.0)}, "x0": "model", "strategy": "whole_record",
+        "sequence_length": None, "epochs": 10, "progress": False,
+    }  # fmt: skip
+    told = r"After training, 'spring\.d' is -0\.[45]\d*, but must be at least 0 N\.s/m\. .*Bounded"
+    with pytest.warns(UserWarning, match=told):
+        fit = ac.fit(system, data, "mass.s", **options)
+    with pytest.raises(ac.DataError, match=r"params: 'spring\.d' is -0"):
+        ac.fit(system, data, "mass.s", params=fit.params, **options)
+
+
+def test_a_parameter_that_is_not_free_is_explained():
+    model = ac.Component()
+    model.a = tl.Mass(m=2.0)
+    model.b = tl.Mass(m=2 * model.a.m)
+    model.connect(model.a.flange_b, model.b.flange_a)
+    system = ac.compile(model)
+    data = ac.Data(np.arange(3.0), {"a.s": np.arange(3.0)})
+    for name, told in {"a.L": "default of zero and is folded", "b.m": "bound to an expr"}.items():
+        with pytest.raises(ac.TrainingError, match=rf"no parameter '{name}' to train: .*{told}"):
+            ac.fit(system, data, "a.s", modifiers=[name], progress=False)

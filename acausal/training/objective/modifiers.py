@@ -238,8 +238,15 @@ def modifiers(
     given: Mapping[str, float | Modifier] | Iterable[str] | None,
     gamma: float,
     params: Mapping[str, Any],
+    why_not_free: Callable[[str], str | None],
 ) -> Modifiers:
     """Check a user's choice: names with a modifier or a γ each, or names that share ``gamma``.
+
+    Arguments:
+        given: the choice.
+        gamma: of names without a modifier.
+        params: all parameters where training starts.
+        why_not_free: why a parameter is not among them, see `ParameterLayout.why_not_free`.
 
     Raises:
         TrainingError: for a name that is no numeric parameter, or a modifier that does not fit its value.
@@ -252,7 +259,7 @@ def modifiers(
     for name, wanted in chosen.items():
         if name not in numbers:
             raise TrainingError(
-                f"There is no parameter '{name}' to train: {nearest(name, numbers)}"
+                f"There is no parameter '{name}' to train: {why_not_free(name) or nearest(name, numbers)}"
             )
         kind = Factor(float(wanted)) if isinstance(wanted, Real) else wanted
         if not hasattr(kind, "refusal"):
