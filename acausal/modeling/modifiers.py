@@ -51,6 +51,8 @@ def record_modifier(
                 raise DeclarationError(f"{where}={value!r} must be one of {choices}")
             if isinstance(declared.default, bool) and not isinstance(value, bool):
                 raise DeclarationError(f"{where}={value!r}: True or False is needed")
+            if _is_whole(declared.default) and not _is_whole(value):
+                raise DeclarationError(f"{where}={value!r:.60}: a whole number is needed")
             node.options[name] = value
         case Variable():
             _merge_start(node, name, start_of(where, value))
@@ -70,6 +72,10 @@ def record_modifier(
                     node.read(declared)
         case _:
             raise DeclarationError(f"{where} cannot be modified")
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start | sp.Expr) -> None:
@@ -133,7 +139,7 @@ def _check_start(where: str, value: Any) -> None:
 def _is_finite(value: Any) -> bool:
     try:
         return math.isfinite(float(value))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
 
 
@@ -179,7 +185,7 @@ def _number(where: str, declaration: Parameter, value: Any) -> Any:
         return value
     try:
         number = float("" if isinstance(value, str | bool) else value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise DeclarationError(
             f"{where}={value!r}: a number or an expression of parameters is needed"
         ) from None

@@ -818,7 +818,12 @@ def neural_options(rng: random.Random, doc: Document) -> Wrong:
         made.connect(made.mass.flange_a, made.extra.flange_b)
         return ac.compile(made)
 
-    return Wrong(make, f"a neural element: {what}", ("extra", "Compliance", "Resistance"), certain)
+    return Wrong(
+        make,
+        f"a neural element: {what}",
+        ("extra", "Compliance", "Resistance", "'net'", "secondary"),
+        certain,
+    )
 
 
 def mutant(seed: int) -> Mutant:

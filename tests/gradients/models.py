@@ -21,7 +21,7 @@ from acausal.components import (
     translational as tl,
 )
 from tests.fuzz.sound import SOUND, build, plain
-from tests.support.parts import Equations, Pendulum
+from tests.support.parts import Equations
 
 E, der = ac.Eq, ac.der
 
@@ -46,6 +46,15 @@ class Case:
 
 def sound(name: str) -> Callable[[], ac.Component]:
     return lambda: build(plain(SOUND[name]), SOUND[name]["connections"])
+
+
+def pendulum(s: Any) -> Iterable[ac.Eq]:
+    """In Cartesian coordinates."""
+    yield E(der(s.x), s.v)
+    yield E(der(s.y), s.w)
+    yield E(der(s.v), -s.f * s.x)
+    yield E(der(s.w), -s.f * s.y - s.g)
+    yield E(s.x**2 + s.y**2, s.L**2)
 
 
 def control_loop() -> ac.Component:
@@ -246,7 +255,9 @@ CASES: dict[str, Case] = {
     "neural": Case(sound("neural"), 0.5),
     "motor": Case(sound("motor"), 0.05),
     # mechanics
-    "pendulum of index 3": Case(lambda: Pendulum(x=at(0.6), w=at(0.1), y=ac.Start(-0.8)), 0.3),
+    "pendulum of index 3": Case(
+        lambda: Equations("x y v w f", pendulum, L=1.0, g=9.81), 0.3, x0={"x": 0.6, "v": 0.1}
+    ),
     "cubic spring": Case(sledge(CubicSpring), 0.5),
     "gap in contact": Case(sledge(lambda: tl.ElastoGap(c=100.0, d=5.0, s_rel0=1.0, n=1.5)), 0.1),
     "geared train": Case(drive(element=rot.IdealGear(ratio=2.0)), 0.4),
