@@ -12,7 +12,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
 
-from acausal.errors import need_compiled
+from acausal.errors import DataError, need_compiled
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -91,6 +91,8 @@ def linearize(
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")
+    if isinstance(outputs, str) or not isinstance(outputs, Sequence):
+        raise DataError(f"outputs={outputs!r:.60} are not names; give a list of variables")
     packed = system.pack(params)
     point = system.input_values(u)
     state = system.initial_state(packed, x, point, t)

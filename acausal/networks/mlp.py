@@ -13,7 +13,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DeclarationError
+from acausal.errors import DataError, DeclarationError
 from acausal.networks.activations import ACTIVATIONS, checked
 
 LARGEST = 10_000
@@ -152,6 +152,8 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
 
 def as_key(key: Key) -> Array:
     """A JAX key, from a key or a seed."""
+    if not isinstance(key, int | jax.Array):
+        raise DataError(f"key={key!r:.60} makes no network; give a JAX key or a whole number")
     return jax.random.key(key) if isinstance(key, int) else key
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import networkx as nx
 
+from acausal.errors import ModelError
 from acausal.modeling import Component, Connector, Module, owner_and_name
 
 if TYPE_CHECKING:
@@ -42,6 +43,8 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     """
     import matplotlib.pyplot as plt
 
+    if not isinstance(model, Component):
+        raise ModelError(f"diagram needs a Component, got {type(model).__name__}")
     wires = _wires(model)
     positions = _layers(model, wires)
     if ax is None:

@@ -76,13 +76,14 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
     "dt": (_is_number, "a number of seconds"),
     "x0": (lambda v: isinstance(v, str | Mapping), "a text, nor values by name"),
+    "devices": (_are_many, "devices; give some of jax.devices()"),
     "evaluate_every": (_is_count, "a whole number of updates"),
     "patience": (_is_count, "a whole number of evaluations"),
     "observers": (_are_many, "several functions"),
     "checkpoint": (lambda v: isinstance(v, str | Path), "a path"),
     "checkpoint_every": (_is_number, "a number of seconds"),
 }
-"""What the values of options must be, in words for a message. Others check solvers, precisions and devices."""
+"""What the values of options must be, in words for a message."""
 
 RENAMED = {"tolerances": "parameter_spread"}
 """Old names of options, which are accepted for one release."""

@@ -90,7 +90,9 @@ def limited() -> Iterator[None]:
     before = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (settings("VmData") + MEMORY, before[1]))
     old = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, LIMIT, 1.0)  # again: some callbacks swallow what is raised in them
+    signal.setitimer(
+        signal.ITIMER_REAL, LIMIT, 1.0
+    )  # again: some callbacks swallow what is raised in them
     try:
         yield
     finally:

@@ -1,4 +1,4 @@
-"""A thousand wrong models, made by chance: each is refused in one clear sentence, or turns out to be sound.
+"""More than a thousand wrong models, made by chance: each is refused in one clear sentence, or turns out to be sound.
 
 Every mutant follows from its kind and seed alone. To see one by itself, with its traceback::
 
@@ -20,7 +20,7 @@ from .outcome import GOOD, Mutant, Outcome, outcome, table
 MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
     "netlists": (netlists.mutant, 400),
     "models": (lambda seed, folder: models.mutant(seed), 350),
-    "calls": (calls.mutant, 250),
+    "calls": (calls.mutant, len(calls.ALL)),
 }
 """By kind: what makes the mutant of a seed, and how many are tried."""
 
@@ -49,7 +49,7 @@ def test_a_mutant_is_made_from_its_seed_alone(tmp_path: Path) -> None:
 
 def test_mutants_are_various(tmp_path: Path) -> None:
     made = [make(seed, tmp_path) for make, n in MAKERS.values() for seed in range(n)]
-    assert len(made) == 1000
+    assert len(made) >= 1000
     assert len({m.kind for m in made}) > 80
     assert len({m.domain for m in made}) == 11
     assert len({(m.domain, m.kind, m.detail) for m in made}) > 900
