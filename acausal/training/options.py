@@ -74,7 +74,6 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "strategy": (_are_texts, "a strategy, nor several: give their names"),
     "epochs": (lambda v: _is_number(v) or _are(_is_number, v), "a number of updates, nor several"),
     "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
-    "dt": (_is_number, "a number of seconds"),
     "x0": (lambda v: isinstance(v, str | Mapping), "a text, nor values by name"),
     "devices": (_are_many, "devices; give some of jax.devices()"),
     "evaluate_every": (_is_count, "a whole number of updates"),

@@ -1228,7 +1228,7 @@ def mutant(seed: int, folder: Path) -> Mutant:
         domain,
         kind,
         what,
-        (*places, c.input, c.state, c.parameter),
+        (*places, str(folder), c.input, c.state, c.parameter),
         certain,
         lambda: call(c, folder),
     )
