@@ -647,7 +647,7 @@ GALLERY: dict[str, Wrong] = {
     "a default that cannot be computed": (
         lambda: declared(ac.Parameter(float)),
         ac.DeclarationError,
-        ("Part.q: its default is not computed",),
+        ("Part.q: its default cannot be computed (float() argument",),
     ),
     "a start that is none": (
         lambda: declared(ac.Variable(start=math.nan)),
@@ -677,7 +677,7 @@ GALLERY: dict[str, Wrong] = {
     "a width of text": (
         lambda: compiled(part=neural.Compliance(width="wide")),
         ac.DeclarationError,
-        ("width='wide'", "give positive whole numbers"),
+        ("Compliance.width='wide': a whole number is needed",),
     ),
     "fewer than no inputs": (
         lambda: neural.Compliance(secondary=-1),

@@ -164,7 +164,7 @@ def _computed_default(component: Component, declaration: Parameter) -> Any:
         return default if is_bound(default) else float(default)
     except (TypeError, ValueError, OverflowError) as error:
         where = f"{component._node.label}.{declaration.name}"
-        raise DeclarationError(f"{where}: its default is not computed ({error})") from error
+        raise DeclarationError(f"{where}: its default cannot be computed ({error})") from None
 
 
 def module_values(layout: Layout) -> tuple[Callable[..., Any] | int, ...]:
