@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from types import UnionType
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -134,11 +133,11 @@ def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
                 f"{where}: {attribute}='{value:.60}' names nothing in the component"
             )
         value = getattr(component, value)
-    kinds: dict[str, type | UnionType] = {
-        "start": int | float | np.number | sp.Expr | tuple,
-        "nominal": int | float | np.number,
-        "fixed": bool | np.bool_,
-        "state": str,
+    kinds: dict[str, tuple[type[Any], ...]] = {
+        "start": (int, float, np.number, sp.Expr, tuple),
+        "nominal": (int, float, np.number),
+        "fixed": (bool, np.bool_),
+        "state": (str,),
     }
     if not isinstance(value, kinds[attribute]) or isinstance(value, np.complexfloating):
         raise DeclarationError(f"{where}: {attribute}={value!r:.60} is of the wrong kind")

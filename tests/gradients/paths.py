@@ -179,12 +179,13 @@ class Path:
         return not self.adaptive
 
 
-FIXED, ADAPTIVE = 1e-7, 1e-5
+FIXED, ADAPTIVE = 1e-7, 1e-4
 """The largest error allowed, relative to the largest component.
 
 In fixed steps both are derivatives of one smooth function, and the differences are good to 1e-9: what remains is the
 tolerance of Newton's method. Adaptive steps are chosen anew for every difference: each choice moves the result by
-about the tolerance, 1e-10 of it, which a step of 1e-3 makes 1e-7 of the derivative; inputs with kinks make it more.
+about the tolerance, 1e-10 of it, which a step of 1e-3 makes 1e-7 of the derivative; where a table or an input is not
+smooth at its samples, errors of steps are larger, and so is what is left (1e-5 for a cubic record).
 """
 
 TIGHT = {"rtol": 1e-10, "atol": 1e-12, "max_steps": 4096}
