@@ -954,6 +954,7 @@ for _option, _values in FIT.items():
                 certain,
                 (
                     _option,
+                    "regularizer",
                     "training",
                     "trained",
                     "record",
