@@ -132,7 +132,7 @@ def _check_start(where: str, value: Any) -> None:
         ):
             return
         raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
-    if isinstance(value, str) or not _is_finite(value):
+    if isinstance(value, str | bool) or not _is_finite(value):
         raise DeclarationError(f"{where}: a start is a finite number, got {value!r}")
 
 
