@@ -56,22 +56,23 @@ def reason(error: OSError) -> str:
     return error.strerror or str(error)
 
 
-def shortened(text: str, limit: int = 80) -> str:
-    """A text of at most `limit` characters for a message."""
+def shortened(text: object, limit: int = 80) -> str:
+    """A text of at most `limit` characters for a message; a name that a user gives may be anything."""
+    text = str(text)
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
-def listing(names: Iterable[str], limit: int = 12) -> str:
+def listing(names: Iterable[object], limit: int = 12) -> str:
     """Join names for a message: quoted, at most `limit`, the rest counted."""
     quoted = [f"'{shortened(name)}'" for name in names]
     shown = ", ".join(quoted[:limit])
     return shown if len(quoted) <= limit else f"{shown} and {len(quoted) - limit} more"
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
+def nearest(name: object, known: Iterable[str]) -> str:
     """A clause that names the nearest known name, or the known ones where none is near."""
     candidates = list(known)
-    close = get_close_matches(name[:200], candidates, n=1, cutoff=0.6)
+    close = get_close_matches(str(name)[:200], candidates, n=1, cutoff=0.6)
     if close:
         return f"did you mean '{close[0]}'?"
     if not candidates:

@@ -18,12 +18,29 @@ hypothesis.settings.load_profile("acausal")
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
-    """A table of what tests have measured: errors against the reference trajectories."""
+    """Tables of what tests have measured: errors against references and differences, and what became of mutants."""
     reports = [r for kind in ("passed", "failed") for r in terminalreporter.getreports(kind)]
-    rows = [value for r in reports for key, value in r.user_properties if key == "oracle"]
-    if rows:
-        terminalreporter.section(
-            "largest errors against reference trajectories, relative to the range"
-        )
-        for name, column, error in sorted(map(tuple, rows)):
-            terminalreporter.write_line(f"{name:<52} {column:<30} {error:.1e}")
+
+    def measured(kind: str) -> list[Any]:
+        return sorted(value for r in reports for key, value in r.user_properties if key == kind)
+
+    def write(title: str, lines: list[str]) -> None:
+        if lines:
+            terminalreporter.section(title)
+            for line in lines:
+                terminalreporter.write_line(line)
+
+    oracles = [f"{name:<52} {column:<30} {e:.1e}" for name, column, e in measured("oracle")]
+    write("largest errors against reference trajectories, relative to the range", oracles)
+    gradients = measured("gradient")
+    lines = []
+    for path in dict.fromkeys(path for path, *_ in gradients):
+        errors = [(e, name) for p, e, name in gradients if p == path]
+        worst, name = max(errors)
+        lines.append(f"{path:<24} {len(errors):>3} models, worst {worst:.1e}: {name}")
+    if gradients:
+        e, path, name = max((e, p, n) for p, e, n in gradients)
+        lines.append(f"{len(gradients)} gradients compared, worst {e:.1e}: {name}, {path}")
+    write("gradients against central differences, relative to the largest component", lines)
+    for name, lines in measured("mutants"):
+        write(f"what became of wrong {name}", lines)

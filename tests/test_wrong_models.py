@@ -165,6 +165,11 @@ def start_at_a_mass() -> None:
     ac.compile(whole)
 
 
+def declared(declaration: Any) -> None:
+    """Compile a model with one declaration more."""
+    ac.compile(type("Part", (Lag,), {"q": declaration})())
+
+
 GALLERY: dict[str, Wrong] = {
     # -- structure -------------------------------------------------------------------------------------
     "an unconnected flange": (
@@ -598,6 +603,87 @@ GALLERY: dict[str, Wrong] = {
             "or connect instead",
         ),
     ),
+    "a list in an equation": (
+        lambda: own(lambda s: [ac.Eq(s.x, [1, 2])]),
+        ac.DeclarationError,
+        ("Equations, line ", " of test_wrong_models.py: an equation's right side is list [1, 2]"),
+    ),
+    "a derivative of nothing": (
+        lambda: own(lambda s: [ac.Eq(ac.der(None), 1)]),
+        ac.DeclarationError,
+        ("Equations, line ", "what der(...) differentiates is NoneType None"),
+    ),
+    "sympy's derivative": (
+        lambda: own(lambda s: [ac.Eq(sp.Derivative(s.x, ac.time), 1)]),
+        ac.DeclarationError,
+        ("Equations: ", "cannot be computed; a derivative in time is ac.der(...)"),
+    ),
+    # -- declarations ----------------------------------------------------------------------------------
+    "a condition on nothing": (
+        lambda: declared(ac.Parameter(1.0, when="useQ")),
+        ac.DeclarationError,
+        ("Part: when='useQ' names no option; there are none to choose from.",),
+    ),
+    "a condition on itself": (
+        lambda: declared(ac.Parameter(1.0, when="q")),
+        ac.DeclarationError,
+        ("Part: when='q' names no option",),
+    ),
+    "a number as unit": (
+        lambda: declared(ac.Parameter(1.0, unit=3)),  # type: ignore[arg-type]
+        ac.UnitError,
+        ("3 is not a unit; a text is needed",),
+    ),
+    "a default that is no number": (
+        lambda: declared(ac.Parameter(1j)),
+        ac.DeclarationError,
+        ("Part.q: its default 1j, min=None, max=None: numbers are needed",),
+    ),
+    "a default out of range": (
+        lambda: declared(ac.Parameter(-1.0, min=0.0)),
+        ac.DeclarationError,
+        ("Part.q: its default -1 is not within 0 and inf",),
+    ),
+    "a default that cannot be computed": (
+        lambda: declared(ac.Parameter(float)),
+        ac.DeclarationError,
+        ("Part.q: its default cannot be computed (float() argument",),
+    ),
+    "a start that is none": (
+        lambda: declared(ac.Variable(start=math.nan)),
+        ac.DeclarationError,
+        ("'q' has start=nan; a finite number is needed",),
+    ),
+    "a nominal value of zero": (
+        lambda: declared(ac.Variable(nominal=0.0)),
+        ac.DeclarationError,
+        ("'q' has nominal=0; a finite number, not zero, is needed",),
+    ),
+    "a start by an unknown name": (
+        lambda: declared(ac.Variable(start="q_start")),
+        ac.DeclarationError,
+        ("Part.q: start='q_start' names nothing in the component",),
+    ),
+    "a huge integer": (
+        lambda: tl.Mass(m=10**400),
+        ac.DeclarationError,
+        ("Mass.m=1000", "a number or an expression of parameters is needed"),
+    ),
+    "a fraction as number of signals": (
+        lambda: blocks.Sum(nin=1.5),
+        ac.DeclarationError,
+        ("Sum.nin=1.5: a whole number is needed",),
+    ),
+    "a width of text": (
+        lambda: compiled(part=neural.Compliance(width="wide")),
+        ac.DeclarationError,
+        ("Compliance.width='wide': a whole number is needed",),
+    ),
+    "fewer than no inputs": (
+        lambda: neural.Compliance(secondary=-1),
+        ac.DeclarationError,
+        ("secondary=-1 are the further inputs of a network; give their names, or how many",),
+    ),
     # -- units -----------------------------------------------------------------------------------------
     "a parameter in a wrong unit": (
         lambda: compiled(bump=Bump("N/m")),
@@ -866,8 +952,12 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
         ("line 2, column 2: not JSON (Expecting ',' delimiter)",),
     ),
     "a number that is none": (
-        '{"parameters": {"a": NaN}}',
-        ("NaN is not a finite number",),
+        '{"parameters": {"a": [1, NaN]}}',
+        ("wrong.json: parameters.a[1]: NaN is not a finite number",),
+    ),
+    "a number that is too large": (
+        '{"parameters": {"b": 1, "a": {"=": 1e999}}}',
+        ("wrong.json: parameters.a.=: 1e999 is not a finite number",),
     ),
 }
 

@@ -220,7 +220,16 @@ def _relation(function: Callable[[Any, Any], Any]) -> LoweringRule:
 
 def _module(node: Any, visit: Visit) -> Any:
     module, orders, *args = node.args
-    return visit(module)(tuple(int(n) for n in orders), *(jnp.asarray(visit(a)) for a in args))
+    call, values = visit(module), [jnp.asarray(visit(a)) for a in args]
+    try:
+        return call(tuple(int(n) for n in orders), *values)
+    except (TypeError, ValueError) as error:
+        reason = str(error).partition("\n")[0]
+        numbers = f"{len(args)} number{'s' * (len(args) != 1)}"
+        raise ModelError(
+            f"the network '{module}' cannot be evaluated ({reason}); it is called with {numbers} that JAX traces, "
+            "and gives one: write it with jax.numpy"
+        ) from error
 
 
 RULES: dict[type, LoweringRule] = {

@@ -57,7 +57,23 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
             bindings.append(shifted(layout, *start_of_form[key], number, variable))
         if component._node.modifiers:
             bindings += _modified_starts(layout, number, declared)
+    _check(layout, declared)
     return replace(declared, start_bindings=tuple(bindings))
+
+
+def _check(layout: Layout, found: VariableAttributes) -> None:
+    """Refuse starts and nominal values that are no numbers to compute with."""
+    no_nominal = ~np.isfinite(found.nominal) | (found.nominal == 0)
+    checks = (
+        ("start", found.start, ~np.isfinite(found.start)),
+        ("nominal", found.nominal, no_nominal),
+    )
+    for attribute, values, wrong in checks:
+        for i in np.flatnonzero(wrong):
+            needed = "a finite number" + ", not zero," * (attribute == "nominal")
+            raise DeclarationError(
+                f"'{layout.variable(int(i))}' has {attribute}={values[i]:g}; {needed} is needed"
+            )
 
 
 def _declared_attributes(layout: Layout) -> VariableAttributes:
@@ -110,8 +126,21 @@ def _modified_starts(layout: Layout, number: int, found: VariableAttributes) -> 
 def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
     """A declared attribute of a variable; it may be the name of another attribute of the component."""
     value = getattr(variable, attribute)
+    where = f"{component._node.label}.{variable.name}"
     if isinstance(value, str) and value not in STATE_SELECT:
-        return getattr(component, value)
+        if not hasattr(component, value):
+            raise DeclarationError(
+                f"{where}: {attribute}='{value:.60}' names nothing in the component"
+            )
+        value = getattr(component, value)
+    kinds: dict[str, tuple[type[Any], ...]] = {
+        "start": (int, float, np.number, sp.Expr, tuple),
+        "nominal": (int, float, np.number),
+        "fixed": (bool, np.bool_),
+        "state": (str,),
+    }
+    if not isinstance(value, kinds[attribute]) or isinstance(value, np.complexfloating):
+        raise DeclarationError(f"{where}: {attribute}={value!r:.60} is of the wrong kind")
     return value
 
 

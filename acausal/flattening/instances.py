@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import sympy as sp
+from sympy.concrete.expr_with_limits import ExprWithLimits
 
 from acausal.errors import DeclarationError
 from acausal.flattening.equation_group import EquationGroup
@@ -81,14 +82,23 @@ def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances
             found.append(equation)
         return found
     except (TypeError, ValueError, ArithmeticError) as error:
-        reason = str(error).partition("\n")[0]
-        frames = traceback.extract_tb(error.__traceback__)
-        own = [f for f in frames if "site-packages" not in f.filename and f.filename != __file__]
-        line = f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
+        reason, line = str(error).partition("\n")[0], _line(error)
         raise DeclarationError(
             f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
             "the method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
         ) from None
+    except DeclarationError as error:
+        if component._node.label in str(error):
+            raise
+        raise DeclarationError(f"{component._node.label}{_line(error)}: {error}") from None
+
+
+def _line(error: Exception) -> str:
+    """The line of the user's file that raised an error."""
+    frames = traceback.extract_tb(error.__traceback__)
+    inner = ("site-packages", __file__, str(Path("acausal", "modeling")))
+    own = [f for f in frames if not any(part in f.filename for part in inner)]
+    return f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
 
 
 def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template, _Places]:
@@ -146,6 +156,10 @@ def _check_residual(residual: sp.Expr, where: str) -> None:
             raise DeclarationError(
                 f"{where}: '{call.func}' cannot be computed; use the functions that acausal exports"
             )
+    for whole in residual.atoms(sp.Derivative, ExprWithLimits):
+        raise DeclarationError(
+            f"{where}: '{whole}' cannot be computed; a derivative in time is ac.der(...)"
+        )
 
 
 def _with_names(equation: Eq, names: dict[sp.Basic, sp.Basic]) -> Eq:

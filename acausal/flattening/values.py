@@ -12,7 +12,14 @@ import sympy as sp
 from acausal.errors import DeclarationError
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, members_of_forms, tiled
-from acausal.modeling import Declaration, ModuleReference, Parameter, Start, element_names
+from acausal.modeling import (
+    Component,
+    Declaration,
+    ModuleReference,
+    Parameter,
+    Start,
+    element_names,
+)
 
 
 @dataclass(frozen=True)
@@ -96,13 +103,30 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
         return np.nan
     if declaration.shape is not None and declaration.name in form.prototype._node.modifiers:
         return np.nan  # all instances of the form have such an array of their own
-    if declaration.shape is not None:
-        index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
-        default = np.broadcast_to(
-            np.asarray(default, dtype=float),
-            form.prototype._node.shape(declaration.name, declaration) or (),
-        )[index]
-    return float(default)
+    where = f"{form.prototype._node.label}.{declaration.name}"
+    try:
+        if declaration.shape is not None:
+            index = tuple(int(i) - 1 for i in path[path.rindex("[") + 1 : -1].split(","))
+            default = np.broadcast_to(
+                np.asarray(default, dtype=float),
+                form.prototype._node.shape(declaration.name, declaration) or (),
+            )[index]
+        number = float(default)
+        low, high = float(_or(declaration.min, -np.inf)), float(_or(declaration.max, np.inf))
+    except (TypeError, ValueError, OverflowError):
+        given = (
+            f"its default {default!r:.60}, min={declaration.min!r:.40}, max={declaration.max!r:.40}"
+        )
+        raise DeclarationError(f"{where}: {given}: numbers are needed") from None
+    if not (np.isfinite(number) and low <= number <= high):
+        raise DeclarationError(
+            f"{where}: its default {number:g} is not within {low:g} and {high:g}"
+        )
+    return number
+
+
+def _or(value: float | None, otherwise: float) -> float:
+    return otherwise if value is None else value
 
 
 def _default_bindings(layout: Layout, value: Numbers, bound: set[int]) -> list[Binding]:
@@ -124,13 +148,23 @@ def _default_bindings(layout: Layout, value: Numbers, bound: set[int]) -> list[B
             if not left:
                 continue
             first, index = left[0]
-            default: Any = declaration.default(layout.components[first])
+            default = _computed_default(layout.components[first], declaration)
             if is_bound(default):
                 binding = bind(layout, index, default, layout.parameter)
                 bindings += [shifted(layout, first, binding, m, k) for m, k in left]
             else:
-                value[[k for _, k in left]] = float(default)
+                value[[k for _, k in left]] = default
     return bindings
+
+
+def _computed_default(component: Component, declaration: Parameter) -> Any:
+    """What a default that is a function comes to: a number, or an expression."""
+    try:
+        default: Any = declaration.default(component)
+        return default if is_bound(default) else float(default)
+    except (TypeError, ValueError, OverflowError) as error:
+        where = f"{component._node.label}.{declaration.name}"
+        raise DeclarationError(f"{where}: its default cannot be computed ({error})") from None
 
 
 def module_values(layout: Layout) -> tuple[Callable[..., Any] | int, ...]:

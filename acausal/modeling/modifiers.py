@@ -52,6 +52,8 @@ def record_modifier(
                 raise DeclarationError(f"{where}={value!r} must be one of {choices}")
             if isinstance(declared.default, bool) and not isinstance(value, bool):
                 raise DeclarationError(f"{where}={value!r}: True or False is needed")
+            if _is_whole(declared.default) and not _is_whole(value):
+                raise DeclarationError(f"{where}={value!r:.60}: a whole number is needed")
             node.options[name] = value
         case Variable():
             _merge_start(node, name, start_of(where, value))
@@ -71,6 +73,10 @@ def record_modifier(
                     node.read(declared)
         case _:
             raise DeclarationError(f"{where} cannot be modified")
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start | sp.Expr) -> None:
@@ -127,14 +133,14 @@ def _check_start(where: str, value: Any) -> None:
         ):
             return
         raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
-    if isinstance(value, str) or not _is_finite(value):
+    if isinstance(value, str | bool) or not _is_finite(value):
         raise DeclarationError(f"{where}: a start is a finite number, got {value!r}")
 
 
 def _is_finite(value: Any) -> bool:
     try:
         return math.isfinite(float(value))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
 
 
@@ -182,7 +188,7 @@ def _number(where: str, declaration: Parameter, value: Any) -> Any:
         return value
     try:
         number = float("" if isinstance(value, str | bool) else value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise DeclarationError(
             f"{where}={value!r}: a number or an expression of parameters is needed"
         ) from None

@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar, cast
 
 import numpy as np
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, nearest
 from acausal.modeling.budget import Budget, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Declaration, Module, Option, Parameter
@@ -107,7 +107,16 @@ class Node(Generic[C]):
         when = _condition(declared)
         if when is None:
             return True
+        if not isinstance(when, str):
+            raise DeclarationError(f"{self.label}: when={when!r:.40} is not the name of an option")
         inverted, option = when.startswith("not "), when.removeprefix("not ")
+        known = self.own_declarations.get(option, self.class_declarations.get(option))
+        is_option = hasattr(self.component, option) if known is None else isinstance(known, Option)
+        if not is_option:
+            options = [n for n, d in self.class_declarations.items() if isinstance(d, Option)]
+            raise DeclarationError(
+                f"{self.label}: when='{when}' names no option; {nearest(option, options)}"
+            )
         return bool(getattr(self.component, option)) is not inverted
 
     def declare(self, name: str, declared: Declaration | Connector) -> Any:

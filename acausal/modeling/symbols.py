@@ -100,6 +100,12 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
 
     nargs = 1
 
+    def __new__(cls, argument: Any, **options: Any) -> Any:
+        """Of an expression or a number; sympy would read a text."""
+        return super().__new__(
+            cls, _expression(argument, "what der(...) differentiates"), **options
+        )
+
     def _eval_is_real(self) -> bool:
         return True
 
@@ -178,9 +184,9 @@ def _expression(value: Any, where: str) -> sp.Expr:
         return value
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise DeclarationError(
-            f"{where} is {type(value).__name__} {value!r}; an expression or a number is needed"
+            f"{where} is {type(value).__name__} {value!r:.80}; an expression or a number is needed"
         ) from None
     if not math.isfinite(number):
         raise DeclarationError(f"{where} is {number}; a finite number is needed")

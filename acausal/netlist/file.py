@@ -37,15 +37,16 @@ def read(path: Path) -> dict[str, Any]:
             or a number that is not finite.
     """
     where = path.name
+    unfit = _Unfit()
     try:
         if path.stat().st_size > MAX_BYTES:
             raise NetlistError(f"{where}: larger than {MAX_BYTES // 1_000_000} MB")
         document = json.loads(
             path.read_text(encoding="utf-8"),
             object_pairs_hook=_unique,
-            parse_constant=_refuse,
-            parse_float=_float,
-            parse_int=_int,
+            parse_constant=unfit.constant,
+            parse_float=unfit.float,
+            parse_int=unfit.int,
         )
     except OSError as error:
         raise NetlistError(f"{path}: cannot be read ({error.strerror})") from None
@@ -60,6 +61,8 @@ def read(path: Path) -> dict[str, Any]:
         raise NetlistError(f"{where}: {error}") from None
     if _deeper(document, MAX_NESTING):
         raise NetlistError(f"{where}: nested more than {MAX_NESTING} deep")
+    for number, reason in unfit.numbers[:1]:
+        raise NetlistError(f"{where}: {_place(document, number)}{reason}")
     if not isinstance(document, dict):
         raise NetlistError(f"{where}: a model is an object {{...}}, not {kind(document)}")
     return cast(dict[str, Any], document)
@@ -132,22 +135,50 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _refuse(name: str) -> Any:
-    raise ValueError(f"{name} is not a finite number")
+class _Unfit:
+    """Reads numbers, and keeps those that are not finite until the document shows where they are.
+
+    Attributes:
+        numbers: what was read in their place, an object that is nowhere else; and why they are refused.
+    """
+
+    def __init__(self) -> None:
+        self.numbers: list[tuple[Any, str]] = []
+
+    def constant(self, name: str) -> Any:
+        return self._kept(f"{name} is not a finite number")
+
+    def float(self, text: str) -> Any:
+        value = float(text)
+        return (
+            value
+            if math.isfinite(value)
+            else self._kept(f"{shortened(text, 40)} is not a finite number")
+        )
+
+    def int(self, text: str) -> Any:
+        if len(text) > MAX_DIGITS:
+            return self._kept(f"{shortened(text, 40)} is too large, with {len(text)} digits")
+        value = int(text)
+        return value if abs(value) <= 2**53 else self.float(text)
+
+    def _kept(self, reason: str) -> Any:
+        self.numbers.append((object(), reason))
+        return self.numbers[-1][0]
 
 
-def _float(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise ValueError(f"{shortened(text, 40)} is not a finite number")
-    return value
-
-
-def _int(text: str) -> int | float:
-    if len(text) > MAX_DIGITS:
-        raise ValueError(f"{shortened(text, 40)} is too large, with {len(text)} digits")
-    value = int(text)
-    return value if abs(value) <= 2**53 else _float(text)
+def _place(document: Any, sought: Any) -> str:
+    """Where a value stands in a document, such as ``components.mass.with.m: ``."""
+    waiting: list[tuple[str, Any]] = [("", document)]
+    while waiting:
+        place, value = waiting.pop()
+        if value is sought:
+            return f"{place}: " if place else ""
+        if isinstance(value, dict):
+            waiting += [(f"{place}.{shortened(k)}".lstrip("."), v) for k, v in value.items()]
+        elif isinstance(value, list):
+            waiting += [(f"{place}[{i}]", v) for i, v in enumerate(value)]
+    return ""
 
 
 def _deeper(document: Any, limit: int) -> bool:

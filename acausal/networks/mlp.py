@@ -9,12 +9,16 @@ from functools import partial
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DeclarationError
+from acausal.errors import DataError, DeclarationError
 from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.arity import check_inputs
+
+LARGEST = 10_000
+"""Neurons in a layer, or layers: more are a mistake, and fill the memory."""
 
 SPREAD = 2.0
 """Bound of the first layer's weights and biases."""
@@ -140,9 +144,11 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
     Raises:
         DeclarationError: if no network has them.
     """
-    if min(in_size, width) < 1 or depth < 0:
+    whole = all(isinstance(n, int | np.integer) for n in (in_size, width, depth))
+    if not whole or min(in_size, width) < 1 or depth < 0 or max(in_size, width, depth) > LARGEST:
         raise DeclarationError(
-            f"no network has in_size={in_size}, width={width}, depth={depth}; give positive sizes"
+            f"no network has in_size={in_size!r:.40}, width={width!r:.40}, depth={depth!r:.40}; "
+            f"give positive whole numbers up to {LARGEST}"
         )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
         raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
@@ -150,6 +156,8 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
 
 def as_key(key: Key) -> Array:
     """A JAX key, from a key or a seed."""
+    if not isinstance(key, int | jax.Array):
+        raise DataError(f"key={key!r:.60} makes no network; give a JAX key or a whole number")
     return jax.random.key(key) if isinstance(key, int) else key
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, TypedDict, get_args
+
+import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.networks.extrapolation import Extrapolation, check_limits
@@ -26,6 +27,10 @@ class Layers(TypedDict):
 
 KNOWN = 3.0
 """Without limits, the data are assumed to reach this many input scales from zero."""
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float | np.number) and bool(np.isfinite(value))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,14 +78,18 @@ class NetworkSpec:
                 raise DeclarationError(
                     f"{name}={value!r} must be one of {', '.join(map(repr, choices))}"
                 )
+        if not (isinstance(self.secondary, int) and self.secondary >= 0):
+            raise DeclarationError(
+                f"secondary={self.secondary!r:.40} is a number of further inputs; give zero or more"
+            )
         check_sizes(self.in_size, self.width, self.depth, self.input_scale)
         scales = self.input_scale if isinstance(self.input_scale, tuple) else (self.input_scale,)
-        if not all(0 < s < math.inf for s in (*scales, self.output_scale)):
+        if not all(_is_number(s) and s > 0 for s in (*scales, self.output_scale)):
             raise DeclarationError(
                 "input_scale and output_scale are magnitudes; give positive numbers"
             )
         for name, value in (("floor", self.floor), ("start", self.start)):
-            if not 0 <= value < math.inf:
+            if not (_is_number(value) and value >= 0):
                 raise DeclarationError(
                     f"{name}={value} is a derivative of an increasing law; give zero or more"
                 )

@@ -11,6 +11,7 @@ import jax
 from jaxtyping import Array
 
 from acausal.data import Signal
+from acausal.errors import DataError
 from acausal.networks.energy import Levelled
 from acausal.networks.scaled import EnergyLaw
 from acausal.networks.zero import OffsetCorrected
@@ -38,6 +39,8 @@ def remove_offset(
 
     For an energy the derivative at zero is removed, which is the offset of its law.
     """
+    if not isinstance(params, Mapping):
+        raise DataError(f"remove_offset needs a model's parameters, got {type(params).__name__}")
     chosen = networks(params) if names is None else names
     return {n: _corrected(leaf) if n in chosen else leaf for n, leaf in params.items()}
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import networkx as nx
 
+from acausal.errors import ModelError
 from acausal.modeling import Component, Connector, Module, owner_and_name
 from acausal.reporting.drawing import pyplot
 
@@ -41,6 +42,8 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     Returns:
         The axes drawn on.
     """
+    if not isinstance(model, Component):
+        raise ModelError(f"diagram needs a Component, got {type(model).__name__}")
     plt = pyplot()
     wires = _wires(model)
     positions = _layers(model, wires)

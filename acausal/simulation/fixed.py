@@ -55,7 +55,8 @@ def simulate_fixed(
     steps = Steps(jnp.asarray(ends[:-1]), jnp.asarray(h), samples)
     start = run.start._replace(t=jnp.asarray(ends[0]))  # an array: other times need no compilation
     start, steps = cast((start, steps), dtype)
-    x = _scan_steps(run.system, start, steps, solvers.for_fixed_steps(solver, dtype), direct)
+    scheme = solvers.for_fixed_steps(solver, dtype, direct=direct)
+    x = _scan_steps(run.system, start, steps, scheme, direct)
     if not traced(x):
         _check(run, ends, np.asarray(x))
     t = jnp.asarray(ends)[rows]

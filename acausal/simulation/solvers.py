@@ -110,12 +110,15 @@ def for_adaptive_steps(solver: Solver) -> Solver:
     return solver
 
 
-def for_fixed_steps(solver: Solver, dtype: DTypeLike = np.float64) -> Solver:
+def for_fixed_steps(
+    solver: Solver, dtype: DTypeLike = np.float64, *, direct: bool = False
+) -> Solver:
     """The solver for fixed steps: an implicit one gets its own tolerances, as there is no step-size controller.
 
     Arguments:
         solver: as the user chose it.
         dtype: precision of the steps.
+        direct: whether derivatives in forward mode must work, too.
 
     Raises:
         SimulationError: for a solver that is not a Runge–Kutta scheme.
@@ -129,6 +132,9 @@ def for_fixed_steps(solver: Solver, dtype: DTypeLike = np.float64) -> Solver:
         )
     tolerance = STAGE_TOLERANCE[np.dtype(dtype).name]
     newton = StageNewton(rtol=tolerance, atol=tolerance, diverges=np.inf)
+    if direct and isinstance(solver, dfx.AbstractRungeKutta):
+        # diffrax's own loop over the stages takes derivatives in reverse mode only
+        solver = eqx.tree_at(lambda s: s.scan_kind, solver, "bounded", is_leaf=lambda a: a is None)
     return eqx.tree_at(
         lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, STAGE_STEPS)
     )

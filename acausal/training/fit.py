@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import need_compiled
+from acausal.errors import DataError, TrainingError, need_compiled
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import train_from_starts
@@ -52,6 +53,14 @@ def fit(
     """
     need_compiled(system, "fit")
     chosen = FitOptions.of("fit", options)
+    if not isinstance(params, Mapping | None):
+        raise DataError(f"params={params!r:.60} are not parameters; give a mapping by name.")
+    if not isinstance(seed, int | np.integer):
+        raise TrainingError(f"seed={seed!r:.60}; give a whole number.")
+    if not isinstance(targets, Sequence):
+        raise TrainingError(
+            f"targets={targets!r:.60} are not names; give some of the model's variables."
+        )
     start = {**system.parameters(seed), **(params or {})}
     (trained,) = train_from_starts(system, data, targets, chosen, seeds=(seed,), params=(start,))
     return trained

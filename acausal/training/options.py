@@ -7,18 +7,19 @@ keywords of a function only from a `TypedDict`; a test compares the two.
 from __future__ import annotations
 
 import inspect
+import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import Any, TypedDict, TypeVar, cast
 
 import numpy as np
 import optax
 from jax.typing import DTypeLike
 
-from acausal.errors import TrainingError, nearest
+from acausal.errors import TrainingError, nearest, shortened
 from acausal.simulation import Solver
 from acausal.training.objective.held_out import Validation
 from acausal.training.objective.initial_state import InitialState
@@ -30,6 +31,58 @@ from acausal.training.progress import Observer
 
 UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
 """The parts that a strategy is made of, and how many updates each makes by default."""
+
+
+def _is_number(value: Any) -> bool:
+    real = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+    return real and not np.iscomplexobj(value) and math.isfinite(value)
+
+
+def _is_count(value: Any) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
+
+
+def _are(one: Callable[[Any], bool], values: Any) -> bool:
+    """Whether they are some of that kind; what can be read only once is taken as it is."""
+    if not isinstance(values, Iterable):
+        return False
+    return isinstance(values, Iterator) or all(map(one, cast(Iterable[Any], values)))
+
+
+def _are_many(values: Any) -> bool:
+    return isinstance(values, Iterable) and not isinstance(values, str)
+
+
+def _are_texts(values: Any) -> bool:
+    return _are(lambda value: isinstance(value, str), values)
+
+
+def _is_optimizer(value: Any) -> bool:
+    return not isinstance(value, type) and hasattr(value, "init") and hasattr(value, "update")
+
+
+KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "train": (_are_texts, "names of networks"),
+    "modifiers": (_are_texts, "names of parameters, nor modifiers by name"),
+    "gamma": (_is_number, "a number"),
+    "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
+    "loss": (lambda v: isinstance(v, str) or callable(v), "a loss, by name or as a function"),
+    "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
+    "sequence_length": (_is_number, "a number of seconds"),
+    "batch_size": (_is_count, "a whole number"),
+    "subsample": (_is_number, "a fraction"),
+    "strategy": (_are_texts, "a strategy, nor several: give their names"),
+    "epochs": (lambda v: _is_number(v) or _are(_is_number, v), "a number of updates, nor several"),
+    "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
+    "x0": (lambda v: isinstance(v, str | Mapping), "a text, nor values by name"),
+    "devices": (_are_many, "devices; give some of jax.devices()"),
+    "evaluate_every": (_is_count, "a whole number of updates"),
+    "patience": (_is_count, "a whole number of evaluations"),
+    "observers": (_are_many, "several functions"),
+    "checkpoint": (lambda v: isinstance(v, str | Path), "a path"),
+    "checkpoint_every": (_is_number, "a number of seconds"),
+}
+"""What the values of options must be, in words for a message."""
 
 RENAMED = {"tolerances": "parameter_spread"}
 """Old names of options, which are accepted for one release."""
@@ -177,6 +230,11 @@ class FitOptions:
         Raises:
             TrainingError: for a value that does not fit any training.
         """
+        for name, (fits, wanted) in KINDS.items():
+            value = getattr(self, name)
+            left_out = value is None and FitOptions.__dataclass_fields__[name].default is None
+            if not (left_out or fits(value)):
+                raise TrainingError(f"{name}={shortened(repr(value))} is not {wanted}.")
         for function in (*self.penalties, *self.all_observers):
             if not callable(function):
                 raise TrainingError(
@@ -189,10 +247,6 @@ class FitOptions:
             raise TrainingError(f"patience={self.patience}; at least one evaluation is needed.")
         if self.evaluate_every is not None and self.evaluate_every < 1:
             raise TrainingError(f"evaluate_every={self.evaluate_every}; give one update or more.")
-        if self.optimizer is not None and not hasattr(self.optimizer, "update"):
-            raise TrainingError(
-                f"optimizer={self.optimizer!r:.80} is not an optax optimizer; give one such as optax.adam(0.01)."
-            )
         self._check_updates()
 
     def _check_updates(self) -> None:

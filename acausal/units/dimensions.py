@@ -96,6 +96,8 @@ def dimension(text: str) -> Dimension | None:
     Raises:
         UnitError: for text that is not a unit; it names the nearest one.
     """
+    if not isinstance(text, str):
+        raise UnitError(f"{text!r:.40} is not a unit; a text is needed, such as 'N/m'")
     return _read(text) if text.strip() else None
 
 

@@ -192,5 +192,10 @@ class PartialNeural(PartialTwoPort, PartialLaw):
 
 def _named(secondary: int | Sequence[str]) -> tuple[str, ...]:
     """Names of secondary inputs; of a number of them ``u1``, ``u2`` and so on."""
-    names = [f"u{i + 1}" for i in range(secondary)] if isinstance(secondary, int) else secondary
-    return tuple(names)
+    if isinstance(secondary, int) and secondary >= 0:
+        return tuple(f"u{i + 1}" for i in range(secondary))
+    if not isinstance(secondary, list | tuple) or not all(isinstance(n, str) for n in secondary):
+        raise ac.DeclarationError(
+            f"secondary={secondary!r:.60} are the further inputs of a network; give their names, or how many"
+        )
+    return tuple(secondary)

@@ -7,7 +7,9 @@ import jax
 import jax.numpy as jnp
 import pytest
 
+import acausal as ac
 from acausal.simulation import solvers
+from tests.support.parts import Equations
 
 CAPACITY = 1e-7
 
@@ -65,3 +67,14 @@ def test_fixed_steps_far_beyond_the_fastest_mode_are_found(name: str) -> None:
     )
     assert found.ys is not None
     assert abs(float(clamped(0.05, found.ys[-1, 0], 5.0))) < 1e-3 * 10 / 20 / CAPACITY
+
+
+def test_fixed_implicit_steps_are_differentiated_in_both_modes() -> None:
+    system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -s.k * s.x**3)], k=2.0))
+
+    def end(k: Any, adjoint: Any) -> Any:
+        how = {"dt": 0.25, "solver": "kvaerno3", "adjoint": adjoint}
+        return ac.simulate(system, (0.0, 0.5), params={"k": k}, x0={"x": 1.0}, **how).x[-1, 0]
+
+    forward = jax.jit(jax.jacfwd(lambda k: end(k, dfx.ForwardMode())))(2.0)
+    assert float(forward) == pytest.approx(float(jax.jit(jax.grad(lambda k: end(k, None)))(2.0)))

@@ -48,3 +48,37 @@ def test_one_number_of_updates_counts_for_every_part() -> None:
     options = FitOptions(strategy=("equation_error", "whole_record"), epochs=7)
     assert options.updates == (7, 7)
     assert FitOptions(strategy="gauss_newton").updates == (50,)
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"train": 3}, "train=3 is not names of networks."),
+        ({"modifiers": [None]}, "modifiers=[None] is not names of parameters, nor modifiers by name."),
+        ({"gamma": "x"}, "gamma='x' is not a number."),
+        ({"loss": 3}, "loss=3 is not a loss, by name or as a function."),
+        ({"batch_size": 1.5}, "batch_size=1.5 is not a whole number."),
+        ({"strategy": None}, "strategy=None is not a strategy, nor several: give their names."),
+        ({"epochs": float("nan")}, "epochs=nan is not a number of updates, nor several."),
+        ({"optimizer": 3}, "optimizer=3 is not an optax optimizer; give one such as optax.adam(0.01)."),
+        ({"patience": "x"}, "patience='x' is not a whole number of evaluations."),
+        ({"checkpoint": 3}, "checkpoint=3 is not a path."),
+    ],
+)  # fmt: skip
+def test_values_of_the_wrong_kind_get_one_sentence(given: Any, sentence: str) -> None:
+    with pytest.raises(ac.TrainingError) as found:
+        FitOptions(**given)
+    assert str(found.value) == sentence
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"loss": lambda: 0.0}, "The loss cannot be computed: "),
+        ({"loss": lambda p, m, s: p[:, 0]}, "The loss has the shape"),
+        ({"regularizers": lambda p, c: None}, "The regularizer '<lambda>' cannot be computed: "),
+    ],
+)
+def test_what_functions_of_a_training_give_is_checked(given: Any, sentence: str) -> None:
+    with pytest.raises(ac.TrainingError, match=sentence):
+        ac.fit(learned(), record(end=2.0), "mass.a", sequence_length=0.2, progress=False, **given)

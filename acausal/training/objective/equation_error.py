@@ -12,6 +12,7 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray
 
 from acausal.codegen import Values
 from acausal.errors import TrainingError, listing
+from acausal.training.objective.losses import number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.record import Batch
@@ -59,7 +60,7 @@ class EquationError(eqx.Module):
         predicted = jax.vmap(lambda t, x, u: p.system.read(p.targets, Values(t, x, u, packed)))(
             t, self.x, u
         )
-        return p.loss(predicted, y, p.sigma)[None]
+        return number("The loss", p.loss, predicted, y, p.sigma)[None]
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""

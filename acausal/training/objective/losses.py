@@ -27,6 +27,22 @@ def nrmse(
     return jnp.sqrt(jnp.maximum(jnp.mean(squares), jnp.finfo(squares.dtype).tiny))
 
 
+def number(what: str, function: Callable[..., object], *arguments: object) -> Float[Array, ""]:
+    """The number that a user's function gives.
+
+    Raises:
+        TrainingError: if it cannot be computed so, or is something else.
+    """
+    try:
+        value = jnp.asarray(function(*arguments))
+    except (TypeError, ValueError) as error:
+        reason = str(error).partition("\n")[0]
+        raise TrainingError(f"{what} cannot be computed: {reason}") from error
+    if value.shape:
+        raise TrainingError(f"{what} has the shape {value.shape}; a single number is needed.")
+    return value
+
+
 LOSSES: dict[str, Loss] = {"nrmse": nrmse}
 
 

@@ -18,7 +18,7 @@ from acausal._jax import cast
 from acausal.codegen import Packed, Values
 from acausal.simulation import Solver, Steps, integrate
 from acausal.training.objective.arguments import arguments
-from acausal.training.objective.losses import Loss
+from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.parameter_spread import ParameterSpread
@@ -129,7 +129,7 @@ class Problem(eqx.Module):
         self, predicted: Float[Array, "n_samples n_targets"], rows: slice = slice(None)
     ) -> Float[Array, ""]:
         """The loss of predictions of the whole record, over some of its samples."""
-        return self.loss(predicted[rows], self.measured[rows], self.sigma)
+        return number("The loss", self.loss, predicted[rows], self.measured[rows], self.sigma)
 
     # -- what is trained -----------------------------------------------------------------------------
 
@@ -198,7 +198,7 @@ class Problem(eqx.Module):
             _, predicted, end = self._integrate(packed, x0, steps)
             if points is not None:
                 predicted, measured = predicted[points], measured[points]
-            loss = self.loss(predicted, measured, self.sigma)
+            loss = number("The loss", self.loss, predicted, measured, self.sigma)
             if self.shooting is None:
                 return loss
             return loss + self.shooting.gap(trainable.states, start // self.shooting.length, end)
@@ -211,7 +211,10 @@ class Problem(eqx.Module):
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
         params = self.assemble(trainable)
-        return {name: jnp.asarray(r(params, self.context)) for name, r in self.regularizers.items()}
+        return {
+            name: number(f"The regularizer '{name}'", r, params, self.context)
+            for name, r in self.regularizers.items()
+        }
 
     # -- the whole record ----------------------------------------------------------------------------
 

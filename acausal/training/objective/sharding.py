@@ -37,6 +37,10 @@ def device_mesh(devices: Sequence[Device] | None, batch_size: int) -> Mesh | Non
     """
     if devices is None:
         return None
+    if isinstance(devices, str) or not all(hasattr(d, "platform") for d in devices):
+        raise TrainingError(
+            f"devices={devices!r:.60} are not JAX devices; give some of jax.devices()."
+        )
     if not len(devices) or batch_size % len(devices):
         raise TrainingError(
             f"A batch of {batch_size} has no equal shares for {len(devices)} devices; "
