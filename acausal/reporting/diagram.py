@@ -9,7 +9,7 @@ import networkx as nx
 
 from acausal.errors import ModelError
 from acausal.modeling import Component, Connector, Module, owner_and_name
-from acausal.reporting.drawing import pyplot
+from acausal.reporting.drawing import new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,13 +44,12 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     """
     if not isinstance(model, Component):
         raise ModelError(f"diagram needs a Component, got {type(model).__name__}")
-    plt = pyplot()
     wires = _wires(model)
     positions = _layers(model, wires)
     if ax is None:
         depth = max((x for x, _ in positions.values()), default=0.0)
         breadth = max((abs(y) for _, y in positions.values()), default=0.0)
-        _, ax = plt.subplots(figsize=(max(1.25 * depth + 2.2, 4), max(2.2 * breadth + 1.4, 2)))
+        (ax,) = new_axes((max(1.25 * depth + 2.2, 4), max(2.2 * breadth + 1.4, 2)))
     kinds = list(dict.fromkeys(w.kind for w in wires if w.kind is not None))
     for number, wire in enumerate(wires):
         color = SIGNAL if wire.kind is None else COLORS[kinds.index(wire.kind) % len(COLORS)]

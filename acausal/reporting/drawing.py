@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 from acausal.errors import AcausalError
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
-def pyplot() -> ModuleType:
-    """`matplotlib.pyplot`, which keeps the figures that notebooks and windows show.
+def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
+    """Axes one below another, with one time axis, in a figure that notebooks and windows show.
+
+    Arguments:
+        size: width and height of the figure, in inches.
 
     Raises:
         AcausalError: if matplotlib is not installed.
@@ -21,7 +24,8 @@ def pyplot() -> ModuleType:
         from matplotlib import pyplot as plt
     except ModuleNotFoundError as error:
         raise _missing(error) from None
-    return plt
+    _, grid = plt.subplots(rows, 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
+    return list(grid[:, 0])
 
 
 def new_figure(size: tuple[float, float]) -> Figure:

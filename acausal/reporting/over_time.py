@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 from jaxtyping import Float
 from numpy import ndarray
 
-from acausal.reporting.drawing import pyplot
+from acausal.reporting.drawing import new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +36,8 @@ def plot_over_time(
     groups: dict[str, list[str]] = {}
     for name in curves:
         groups.setdefault(units[name], []).append(name)
-    diagrams = _new_axes(len(groups)) if axes is None else axes
+    size = (7.0, 1.0 + 2.0 * len(groups))
+    diagrams = new_axes(size, len(groups)) if axes is None else axes
     for ax, (unit, members) in zip(diagrams, groups.items(), strict=True):
         for name in members:
             ax.plot(time, curves[name], label=name)
@@ -46,11 +47,3 @@ def plot_over_time(
             ax.legend()
     diagrams[-1].set_xlabel("time in s")
     return cast("Figure", diagrams[0].figure)
-
-
-def _new_axes(count: int) -> list[Axes]:
-    size = (7.0, 1.0 + 2.0 * count)
-    _, grid = pyplot().subplots(
-        count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
-    )
-    return list(grid[:, 0])
