@@ -5,6 +5,7 @@ import socket
 import subprocess
 import sys
 
+import jax
 import numpy as np
 import pytest
 
@@ -57,4 +58,4 @@ def test_the_same_weights(processes, devices, alone, tmp_path):
 
 def test_unequal_shares_are_refused():
     with pytest.raises(ac.TrainingError, match="batch of 4 has no equal shares for 3 devices"):
-        trained([None, None, None])
+        trained(3 * jax.devices()[:1])
