@@ -15,7 +15,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import floating, need_double_precision
+from acausal._jax import check_time, floating, is_real, need_double_precision
 from acausal.by_name import names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import (
@@ -33,7 +33,7 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, nearest
+from acausal.errors import DataError, ModelError, nearest, shown
 from acausal.flattening import FlatModel, flatten
 from acausal.initialization import Initialization, Initializer, initializer
 from acausal.modeling import Budget, Component
@@ -133,6 +133,7 @@ class System(LeavesCaches):
 
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""
+        (name,) = names_in([name])
         if name.startswith("der(") and name.endswith(")"):
             unit = self.unit(name[4:-1])
             return f"({unit})/s" if "/" in unit else f"{unit}/s" if unit else ""
@@ -151,12 +152,16 @@ class System(LeavesCaches):
 
         Arguments:
             key: a jax PRNG key (or an integer seed) for fresh weights of networks; 0 by default.
+
+        Raises:
+            DataError: for what is neither.
         """
-        key = (
-            jax.random.key(0 if key is None else key)
-            if key is None or isinstance(key, int)
-            else key
-        )
+        if key is None or isinstance(key, int | np.integer):
+            key = jax.random.key(int(key or 0))
+        elif not _is_key(key):
+            raise DataError(
+                f"key={shown(key)} is no key; give a whole number, or jax.random.key(0)."
+            )
         return default_parameters(self.layout, key)
 
     def pack(self, params: Params | None = None) -> Packed:
@@ -221,8 +226,9 @@ class System(LeavesCaches):
         """The values at which a model is evaluated, in one record; arguments as for `vector_field`.
 
         Raises:
-            DataError: for states or inputs of another shape, or parameters that do not fit.
+            DataError: for what is not a time, not real numbers or of another shape, or parameters that do not fit.
         """
+        check_time(t)
         x, u = self._check_shapes(x, u)
         return Values(t, x, u, self.pack(params))
 
@@ -281,9 +287,10 @@ class System(LeavesCaches):
                 starts and rates in nominal values, and initial equations unscaled.
 
         Raises:
-            DataError: if ``x0``, ``u0`` or ``steady`` does not fit.
+            DataError: if ``x0``, ``u0``, ``t0`` or ``steady`` does not fit.
             InitializationError: if the conditions contradict each other.
         """
+        check_time(t0, "t0")
         packed, u = self.pack(params), self.input_values(u0, "u0")
         return self.initializer(packed, x0, u, t0, steady, least_squares)
 
@@ -301,6 +308,7 @@ class System(LeavesCaches):
 
         Arguments and errors as in `initial_state`.
         """
+        check_time(t0, "t0")
         packed, u = self.pack(params), self.input_values(u0, "u0")
         return self.initializer.report(packed, x0, u, t0, steady, least_squares)
 
@@ -326,12 +334,9 @@ class System(LeavesCaches):
             numbers: Any = [given.get(name, 0.0) for name in self.inputs]
         else:
             numbers = u
-        try:
-            values = jnp.asarray(numbers, dtype=float)
-        except (TypeError, ValueError):
-            raise DataError(
-                f"{argument}={numbers!r:.80}: inputs are numbers at one time."
-            ) from None
+        if not is_real(numbers):
+            raise DataError(f"{argument}={shown(u)} are not inputs at one time; give real numbers.")
+        values = jnp.asarray(numbers, dtype=float)
         if values.shape != (len(self.inputs),):
             raise DataError(
                 f"{argument} has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"
@@ -364,6 +369,9 @@ class System(LeavesCaches):
         return [node for node, _ in found], np.asarray([sign for _, sign in found])
 
     def _check_shapes(self, x: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
+        for argument, given in (("x", x), ("u", u)):
+            if not (is_real(given) or (given is u is None)):
+                raise DataError(f"{argument}={shown(given)} are not real numbers.")
         x = floating(x)
         u = jnp.zeros(0, x.dtype) if u is None else floating(u)
         if x.shape != (len(self.reduced.states),):
@@ -391,3 +399,12 @@ class System(LeavesCaches):
     def _repr_latex_(self) -> str:
         rows = [f"{sp.latex(e.lhs)} &= {sp.latex(e.rhs)}" for e in self.equations]
         return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
+
+
+def _is_key(value: object) -> bool:
+    """Whether this is one key of JAX, of the new kind or of the old one."""
+    dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", None)
+    if dtype is None:
+        return False
+    is_new = jnp.issubdtype(dtype, jax.dtypes.prng_key)
+    return shape == () if is_new else dtype == np.uint32 and shape == (2,)

@@ -27,7 +27,7 @@ from acausal.data.band_limited import (
     deviation_from_line,
     polynomial_coefficients,
 )
-from acausal.errors import DataError
+from acausal.errors import DataError, shown
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
@@ -337,4 +337,4 @@ def _count(values: ArrayLike) -> str:
 
 def _check_choice(name: str, what: str, value: str, choices: tuple[str, ...]) -> None:
     if value not in choices:
-        raise DataError(f"'{name}' has {what}={value!r}; choose one of {', '.join(choices)}.")
+        raise DataError(f"'{name}' has {what}={shown(value)}; choose one of {', '.join(choices)}.")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, cast
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
 
 from jaxtyping import Float
 from numpy import ndarray
 
+from acausal.errors import DataError, listing, shown
 from acausal.reporting.drawing import pyplot
 
 if TYPE_CHECKING:
@@ -32,11 +33,16 @@ def plot_over_time(
 
     Returns:
         The figure.
+
+    Raises:
+        DataError: for axes that are not one for each unit, or if there is nothing to plot.
     """
+    if not curves:
+        raise DataError("There is nothing to plot: the model has no states; name some variables.")
     groups: dict[str, list[str]] = {}
     for name in curves:
         groups.setdefault(units[name], []).append(name)
-    diagrams = _new_axes(len(groups)) if axes is None else axes
+    diagrams = _new_axes(len(groups)) if axes is None else _as_many(axes, list(groups))
     for ax, (unit, members) in zip(diagrams, groups.items(), strict=True):
         for name in members:
             ax.plot(time, curves[name], label=name)
@@ -54,3 +60,14 @@ def _new_axes(count: int) -> list[Axes]:
         count, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
     )
     return list(grid[:, 0])
+
+
+def _as_many(axes: Any, units: list[str]) -> list[Axes]:
+    """The axes, if there is one for each unit."""
+    given: list[Any] = list(axes) if isinstance(axes, Iterable) else [axes]
+    if len(given) != len(units) or not all(hasattr(ax, "plot") for ax in given):
+        wanted = listing(unit or "1" for unit in units)
+        raise DataError(
+            f"axes={shown(axes)} are not a list of matplotlib axes, one for each unit: {wanted}."
+        )
+    return given

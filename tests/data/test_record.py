@@ -87,7 +87,7 @@ def test_temperatures_have_an_offset():
         ),
         (
             lambda: ac.Data(TIME, {0: TIME}),
-            "0 is not a name; give a text such as 'mass.s', or a list.",
+            "signals: 0 is not a name; give a text such as 'mass.s', or a list.",
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME}, after_end="stop"),

@@ -321,7 +321,10 @@ def test_inputs_at_the_start_by_name_or_in_order(hanging_system, u0):
     [
         ({"f.F": 1.0}, r"^u0: 'f\.F' is not an input; did you mean 'f\.f'\?$"),
         ([1.0, 2.0], r"^u0 has shape \(2,\); the model has the inputs \(f\.f\)$"),
-        ({"f.f": "much"}, r"^u0=\['much'\]: inputs are numbers at one time\.$"),
+        (
+            {"f.f": "much"},
+            r"^u0=\{'f.f': 'much'\} are not inputs at one time; give real numbers\.$",
+        ),
         ({"f.f": [1.0, 2.0]}, r"^u0 has shape \(1, 2\)"),
     ],
 )

@@ -416,8 +416,8 @@ def test_a_second_call_does_not_compile():
         ),
         (
             {"inputs": NO_FORCE, "x0": {"mass.s": np.nan}},
-            ac.SimulationError,
-            "The initial value of 'mass.s' is nan.",
+            ac.DataError,
+            "x0: 'mass.s' is nan; give one number that is real and finite.",
         ),
     ],
 )
