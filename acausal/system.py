@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeGuard
 
 import jax
 import jax.numpy as jnp
@@ -63,6 +63,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
+    if not isinstance(budget, Budget | None):
+        raise ModelError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
     need_double_precision()
     flat = flatten(model, budget)
     if check_units:
@@ -156,13 +158,12 @@ class System(LeavesCaches):
         Raises:
             DataError: for what is neither.
         """
-        if key is None or isinstance(key, int | np.integer):
-            key = jax.random.key(int(key or 0))
-        elif not _is_key(key):
+        key = 0 if key is None else key
+        if not (_is_seed(key) or _is_key(key)):
             raise DataError(
                 f"key={shown(key)} is no key; give a whole number, or jax.random.key(0)."
             )
-        return default_parameters(self.layout, key)
+        return default_parameters(self.layout, jax.random.key(key) if _is_seed(key) else key)
 
     def pack(self, params: Params | None = None) -> Packed:
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
@@ -259,7 +260,6 @@ class System(LeavesCaches):
             values: the point, from `values`.
             names: the variables whose equations are looked at; by default the derivatives of the states.
         """
-        names = (names,) if isinstance(names, str) else names
         nodes = None if names is None else self._find_all(names)[0]
         return explain_nonfinite(self.program, values, self.reduced.name, nodes)
 
@@ -363,9 +363,9 @@ class System(LeavesCaches):
             raise ModelError(f"the model does not differentiate '{name.removeprefix('der(')[:-1]}'")
         return found
 
-    def _find_all(self, names: Sequence[str]) -> tuple[list[int], np.ndarray]:
+    def _find_all(self, names: str | Sequence[str]) -> tuple[list[int], np.ndarray]:
         """Nodes and signs of variables and known derivatives."""
-        found = [self._find(name) for name in names]
+        found = [self._find(name) for name in names_in(names)]
         return [node for node, _ in found], np.asarray([sign for _, sign in found])
 
     def _check_shapes(self, x: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
@@ -399,6 +399,11 @@ class System(LeavesCaches):
     def _repr_latex_(self) -> str:
         rows = [f"{sp.latex(e.lhs)} &= {sp.latex(e.rhs)}" for e in self.equations]
         return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
+
+
+def _is_seed(value: object) -> TypeGuard[int]:
+    """Whether this is a whole number of at most 64 bits."""
+    return isinstance(value, int | np.integer) and abs(int(value)) < 2**63
 
 
 def _is_key(value: object) -> bool:

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
+from acausal._jax import check_time
 from acausal.by_name import ByName, names_in
 from acausal.data.signal import (
     Beyond,
@@ -80,6 +81,9 @@ class Data(ByName):
             raise DataError(
                 f"units={shown(units)} has no names; give a unit by name: {{'mass.s': 'm'}}."
             )
+        for name, unit in (units or {}).items():
+            if not isinstance(unit, str):
+                raise DataError(f"units: '{name}' has {shown(unit)}; give a text such as 'N/m'.")
         unit_of_time = (units or {}).get("time", "s")
         ts = np.asarray(time)
         check_time_base(ts, "The record")
@@ -175,6 +179,10 @@ class Data(ByName):
         Raises:
             DataError: for a name that is not a variable of the model, or a unit of another dimension.
         """
+        if not hasattr(system, "vector_field"):
+            raise DataError(
+                f"for_system needs a compiled model, got {shown(system)}: give ac.compile(model)."
+            )
         known = (*system.variables, *system.inputs)
         unknown = [n for n in self.signals if n not in known]
         if unknown:
@@ -221,8 +229,10 @@ class Data(ByName):
         """The samples with ``start <= time <= end``.
 
         Raises:
-            DataError: if there are fewer than two.
+            DataError: if there are fewer than two, or for what is not a time.
         """
+        check_time(start, "start")
+        check_time(end, "end")
         inside = (self.time >= start) & (self.time <= end)
         if inside.sum() < 2:
             raise DataError(

@@ -148,6 +148,8 @@ class Signal(eqx.Module):
 
     def __call__(self, t: Scalar) -> Float[Array, ""]:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
+        if not is_real(t):
+            raise DataError(f"A signal has no value at t={shown(t)}; give seconds.")
         t = jnp.asarray(t, self.ts.dtype)
         first, last = self.ts[0], self.ts[-1]
         if self.before_start == "periodic" or self.after_end == "periodic":

@@ -164,6 +164,9 @@ class Initializer(LeavesCaches):
             raise DataError(
                 f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
             )
+        bad = () if traced(x) else np.flatnonzero(~np.isfinite(np.asarray(x)))
+        if len(bad):
+            raise DataError(f"x0: '{self.names[bad[0]]}' is {x[bad[0]]}; give finite numbers.")
         return x
 
     def _posed(

@@ -53,11 +53,10 @@ def load(
         ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
             that does not exist, an expression that is malformed, a model that is larger than its budget.
     """
-    path, known, allowed = (
-        need_path(path, "load", ModelError),
-        _libraries(libraries),
-        budget or Budget(),
-    )
+    path, known = need_path(path, "load", ModelError), _libraries(libraries)
+    if not isinstance(budget, Budget | None):
+        raise ModelError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
+    allowed = budget or Budget()
     document = netlist_file.read(path)
     with spending(allowed):
         model = within(path.name, lambda: build(document, path.name, known))
@@ -107,5 +106,5 @@ def _check_sizes(model: Component) -> None:
 def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
     for module in modules if isinstance(modules, Iterable) else [modules]:
         if not isinstance(module, ModuleType) or module is modules:
-            raise ModelError(f"libraries=[...] lists modules, got {shown(modules)}")
+            raise ModelError(f"libraries=[...] lists modules, got {shown(module)}")
     return (*installed(), *(Library(module) for module in modules))

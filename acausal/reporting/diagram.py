@@ -9,7 +9,7 @@ import networkx as nx
 
 from acausal.errors import ModelError
 from acausal.modeling import Component, Connector, Module, owner_and_name
-from acausal.reporting.drawing import pyplot
+from acausal.reporting.drawing import need_axes, pyplot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,7 +47,9 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     plt = pyplot()
     wires = _wires(model)
     positions = _layers(model, wires)
-    if ax is None:
+    if ax is not None:
+        need_axes(ax)
+    else:
         depth = max((x for x, _ in positions.values()), default=0.0)
         breadth = max((abs(y) for _, y in positions.values()), default=0.0)
         _, ax = plt.subplots(figsize=(max(1.25 * depth + 2.2, 4), max(2.2 * breadth + 1.4, 2)))

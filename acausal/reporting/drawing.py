@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from acausal.errors import AcausalError
+from acausal.errors import AcausalError, DataError, shown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -35,6 +35,16 @@ def new_figure(size: tuple[float, float]) -> Figure:
     except ModuleNotFoundError as error:
         raise _missing(error) from None
     return Figure(figsize=size, layout="constrained")
+
+
+def need_axes(given: object, argument: str = "ax") -> None:
+    """Refuse what nothing can be drawn on.
+
+    Raises:
+        DataError: for it; it names the argument.
+    """
+    if isinstance(given, type) or not hasattr(given, "plot"):
+        raise DataError(f"{argument}={shown(given)} is no axes; give one of matplotlib's.")
 
 
 def _missing(error: ModuleNotFoundError) -> Exception:

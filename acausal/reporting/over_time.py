@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, cast
 from jaxtyping import Float
 from numpy import ndarray
 
-from acausal.errors import DataError, listing, shown
-from acausal.reporting.drawing import pyplot
+from acausal.errors import DataError, listing
+from acausal.reporting.drawing import need_axes, pyplot
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,9 +65,9 @@ def _new_axes(count: int) -> list[Axes]:
 def _as_many(axes: Any, units: list[str]) -> list[Axes]:
     """The axes, if there is one for each unit."""
     given: list[Any] = list(axes) if isinstance(axes, Iterable) else [axes]
-    if len(given) != len(units) or not all(hasattr(ax, "plot") for ax in given):
+    for ax in given:
+        need_axes(ax, "axes")
+    if len(given) != len(units):
         wanted = listing(unit or "1" for unit in units)
-        raise DataError(
-            f"axes={shown(axes)} are not a list of matplotlib axes, one for each unit: {wanted}."
-        )
+        raise DataError(f"axes: there are {len(given)}; give one for each unit: {wanted}.")
     return given
