@@ -159,11 +159,13 @@ class System(LeavesCaches):
             DataError: for what is neither.
         """
         key = 0 if key is None else key
-        if not (_is_seed(key) or _is_key(key)):
+        if _is_seed(key):
+            key = jax.random.key(key)
+        if not _is_key(key):
             raise DataError(
                 f"key={shown(key)} is no key; give a whole number, or jax.random.key(0)."
             )
-        return default_parameters(self.layout, jax.random.key(key) if _is_seed(key) else key)
+        return default_parameters(self.layout, key)
 
     def pack(self, params: Params | None = None) -> Packed:
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
@@ -406,10 +408,10 @@ def _is_seed(value: object) -> TypeGuard[int]:
     return isinstance(value, int | np.integer) and abs(int(value)) < 2**63
 
 
-def _is_key(value: object) -> bool:
+def _is_key(value: object) -> TypeGuard[Array]:
     """Whether this is one key of JAX, of the new kind or of the old one."""
     dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", None)
     if dtype is None:
         return False
     is_new = jnp.issubdtype(dtype, jax.dtypes.prng_key)
-    return shape == () if is_new else dtype == np.uint32 and shape == (2,)
+    return shape == () if is_new else bool(dtype == np.uint32) and shape == (2,)

@@ -164,7 +164,9 @@ class Initializer(LeavesCaches):
             raise DataError(
                 f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
             )
-        bad = () if traced(x) else np.flatnonzero(~np.isfinite(np.asarray(x)))
+        if traced(x):
+            return x
+        bad = np.flatnonzero(~np.isfinite(np.asarray(x)))
         if len(bad):
             raise DataError(f"x0: '{self.names[bad[0]]}' is {x[bad[0]]}; give finite numbers.")
         return x
@@ -183,7 +185,7 @@ class Initializer(LeavesCaches):
             if name in given:
                 if not is_number(given[name]):
                     raise DataError(
-                        f"x0: '{name}' is {shown(given[name])}; give one number that is real and finite."
+                        f"x0: '{name}' is {shown(given[name])}; give a real number that is finite."
                     )
                 x = x.at[i].set(given[name])
         is_given = np.asarray([n in given for n in self.names], dtype=bool)

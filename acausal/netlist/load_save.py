@@ -25,6 +25,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from acausal.errors import ModelError, need_path, shown
 from acausal.modeling import Budget, BudgetError, Component, Declaration, spending
@@ -104,7 +105,9 @@ def _check_sizes(model: Component) -> None:
 
 
 def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
-    for module in modules if isinstance(modules, Iterable) else [modules]:
-        if not isinstance(module, ModuleType) or module is modules:
-            raise ModelError(f"libraries=[...] lists modules, got {shown(module)}")
+    given: Any = modules
+    for module in given if isinstance(given, Iterable) else [None]:
+        if not isinstance(module, ModuleType):
+            wrong = given if module is None else module
+            raise ModelError(f"libraries=[...] lists modules, got {shown(wrong)}")
     return (*installed(), *(Library(module) for module in modules))

@@ -47,12 +47,11 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
     plt = pyplot()
     wires = _wires(model)
     positions = _layers(model, wires)
-    if ax is not None:
-        need_axes(ax)
-    else:
+    if ax is None:
         depth = max((x for x, _ in positions.values()), default=0.0)
         breadth = max((abs(y) for _, y in positions.values()), default=0.0)
         _, ax = plt.subplots(figsize=(max(1.25 * depth + 2.2, 4), max(2.2 * breadth + 1.4, 2)))
+    ax = need_axes(ax)
     kinds = list(dict.fromkeys(w.kind for w in wires if w.kind is not None))
     for number, wire in enumerate(wires):
         color = SIGNAL if wire.kind is None else COLORS[kinds.index(wire.kind) % len(COLORS)]

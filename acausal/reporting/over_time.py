@@ -64,10 +64,8 @@ def _new_axes(count: int) -> list[Axes]:
 
 def _as_many(axes: Any, units: list[str]) -> list[Axes]:
     """The axes, if there is one for each unit."""
-    given: list[Any] = list(axes) if isinstance(axes, Iterable) else [axes]
-    for ax in given:
-        need_axes(ax, "axes")
-    if len(given) != len(units):
+    found = [need_axes(ax, "axes") for ax in (axes if isinstance(axes, Iterable) else [axes])]
+    if len(found) != len(units):
         wanted = listing(unit or "1" for unit in units)
-        raise DataError(f"axes: there are {len(given)}; give one for each unit: {wanted}.")
-    return given
+        raise DataError(f"axes: there are {len(found)}; give one for each unit: {wanted}.")
+    return found

@@ -59,7 +59,9 @@ class Run(NamedTuple):
             ("At the start, the input", self.system.inputs, self.start.u),
         )
         for what, names, values in found:
-            bad = () if traced(values) else np.flatnonzero(~np.isfinite(np.asarray(values)))
+            if traced(values):
+                continue
+            bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
             if len(bad):
                 raise SimulationError(f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.")
 

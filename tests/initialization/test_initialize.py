@@ -342,7 +342,7 @@ def test_inputs_that_do_not_fit_are_told(hanging_system, u0, told):
         ({"steady": 3}, "^steady: 3 is not a name"),
         ({"x0": 3}, "^x0=3 has no names|^x0 has shape"),
         ({"x0": {3: 1.0}}, "^x0: 3 is not a name"),
-        ({"x0": {"m.v": "fast"}}, "^x0: 'm.v' is 'fast'; give one number that is real and finite"),
+        ({"x0": {"m.v": "fast"}}, "^x0: 'm.v' is 'fast'; give a real number that is finite"),
         ({"x0": {"m.v": np.ones(3)}}, "^x0: 'm.v' is array"),
         ({"x0": {"m.v": np.nan}}, "^x0: 'm.v' is nan"),
         ({"x0": {"m.v": 1j}}, "^x0: 'm.v' is 1j"),
