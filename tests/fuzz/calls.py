@@ -1406,7 +1406,7 @@ def mutant(seed: int, folder: Path) -> Mutant:
     """The wrong call of a seed; seeds in a row go through all of them, and then again on another model."""
     again, place = divmod(seed, len(ALL))
     kind, what = ORDER[place]
-    domain = list(DOMAINS)[again % len(DOMAINS)]
+    domain = list(DOMAINS)[(place + again) % len(DOMAINS)]
     call, certain, places = CALLS[kind][what]
     c = case(domain)
     return Mutant(

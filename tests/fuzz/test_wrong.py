@@ -20,7 +20,7 @@ from .outcome import GOOD, Mutant, Outcome, outcome, table
 MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
     "netlists": (netlists.mutant, 400),
     "models": (lambda seed, folder: models.mutant(seed), 350),
-    "calls": (calls.mutant, len(calls.ALL) * len(calls.DOMAINS)),
+    "calls": (calls.mutant, len(calls.ALL)),
 }
 """By kind: what makes the mutant of a seed, and how many are tried."""
 
