@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from typing import Any
 
-from acausal.errors import DataError
+from acausal.errors import DataError, shown
 
 
 class ByName(ABC):
@@ -44,8 +44,12 @@ class ByName(ABC):
         return iter(self.names)
 
 
-def names_in(given: Any) -> tuple[str, ...]:
+def names_in(given: Any, argument: str = "") -> tuple[str, ...]:
     """Names as Python's own texts: those of one text, or of any iterable of texts (NumPy's and pandas' too).
+
+    Arguments:
+        given: the names.
+        argument: of the function that was called with them, for the message.
 
     Raises:
         DataError: for anything else.
@@ -58,5 +62,8 @@ def names_in(given: Any) -> tuple[str, ...]:
         names = (given,)
     for name in names:
         if not isinstance(name, str):
-            raise DataError(f"{name!r:.80} is not a name; give a text such as 'mass.s', or a list.")
+            where = f"{argument}: " if argument else ""
+            raise DataError(
+                f"{where}{shown(name)} is not a name; give a text such as 'mass.s', or a list."
+            )
     return tuple(map(str, names))

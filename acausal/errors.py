@@ -3,8 +3,10 @@
 Every message says what is wrong, where (dotted names, at most a dozen), and how to fix it.
 """
 
+import os
 from collections.abc import Iterable
 from difflib import get_close_matches
+from pathlib import Path
 
 
 class AcausalError(Exception):
@@ -62,6 +64,11 @@ def shortened(text: object, limit: int = 80) -> str:
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
+def shown(value: object, limit: int = 80) -> str:
+    """A wrong value for a message: as Python writes it, but on one line and not too long."""
+    return shortened(" ".join(repr(value).split()), limit)
+
+
 def listing(names: Iterable[object], limit: int = 12) -> str:
     """Join names for a message: quoted, at most `limit`, the rest counted."""
     quoted = [f"'{shortened(name)}'" for name in names]
@@ -92,3 +99,16 @@ def need_compiled(system: object, function: str) -> None:
             f"{function} needs a compiled model, got {kind}: system = ac.compile(model), then "
             f"ac.{function}(system, ...)"
         )
+
+
+def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:
+    """A path as such; anything that is none is refused.
+
+    Raises:
+        AcausalError: of the class ``error``.
+    """
+    if not isinstance(given, str | os.PathLike):
+        raise error(
+            f"{function}: {shown(given)} is no path; give a text such as 'folder/file', or a pathlib.Path."
+        )
+    return Path(given)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeGuard
 
 import jax
 import jax.numpy as jnp
@@ -15,7 +15,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import floating, need_double_precision
+from acausal._jax import check_time, floating, is_real, need_double_precision
 from acausal.by_name import names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import (
@@ -33,7 +33,7 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, nearest
+from acausal.errors import DataError, ModelError, nearest, shown
 from acausal.flattening import FlatModel, flatten
 from acausal.initialization import Initialization, Initializer, initializer
 from acausal.modeling import Budget, Component
@@ -63,6 +63,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
+    if not isinstance(budget, Budget | None):
+        raise ModelError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
     need_double_precision()
     flat = flatten(model, budget)
     if check_units:
@@ -133,6 +135,7 @@ class System(LeavesCaches):
 
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""
+        (name,) = names_in([name])
         if name.startswith("der(") and name.endswith(")"):
             unit = self.unit(name[4:-1])
             return f"({unit})/s" if "/" in unit else f"{unit}/s" if unit else ""
@@ -151,12 +154,17 @@ class System(LeavesCaches):
 
         Arguments:
             key: a jax PRNG key (or an integer seed) for fresh weights of networks; 0 by default.
+
+        Raises:
+            DataError: for what is neither.
         """
-        key = (
-            jax.random.key(0 if key is None else key)
-            if key is None or isinstance(key, int)
-            else key
-        )
+        key = 0 if key is None else key
+        if _is_seed(key):
+            key = jax.random.key(key)
+        if not _is_key(key):
+            raise DataError(
+                f"key={shown(key)} is no key; give a whole number, or jax.random.key(0)."
+            )
         return default_parameters(self.layout, key)
 
     def pack(self, params: Params | None = None) -> Packed:
@@ -221,8 +229,9 @@ class System(LeavesCaches):
         """The values at which a model is evaluated, in one record; arguments as for `vector_field`.
 
         Raises:
-            DataError: for states or inputs of another shape, or parameters that do not fit.
+            DataError: for what is not a time, not real numbers or of another shape, or parameters that do not fit.
         """
+        check_time(t)
         x, u = self._check_shapes(x, u)
         return Values(t, x, u, self.pack(params))
 
@@ -253,7 +262,6 @@ class System(LeavesCaches):
             values: the point, from `values`.
             names: the variables whose equations are looked at; by default the derivatives of the states.
         """
-        names = (names,) if isinstance(names, str) else names
         nodes = None if names is None else self._find_all(names)[0]
         return explain_nonfinite(self.program, values, self.reduced.name, nodes)
 
@@ -281,9 +289,10 @@ class System(LeavesCaches):
                 starts and rates in nominal values, and initial equations unscaled.
 
         Raises:
-            DataError: if ``x0``, ``u0`` or ``steady`` does not fit.
+            DataError: if ``x0``, ``u0``, ``t0`` or ``steady`` does not fit.
             InitializationError: if the conditions contradict each other.
         """
+        check_time(t0, "t0")
         packed, u = self.pack(params), self.input_values(u0, "u0")
         return self.initializer(packed, x0, u, t0, steady, least_squares)
 
@@ -301,6 +310,7 @@ class System(LeavesCaches):
 
         Arguments and errors as in `initial_state`.
         """
+        check_time(t0, "t0")
         packed, u = self.pack(params), self.input_values(u0, "u0")
         return self.initializer.report(packed, x0, u, t0, steady, least_squares)
 
@@ -326,12 +336,9 @@ class System(LeavesCaches):
             numbers: Any = [given.get(name, 0.0) for name in self.inputs]
         else:
             numbers = u
-        try:
-            values = jnp.asarray(numbers, dtype=float)
-        except (TypeError, ValueError):
-            raise DataError(
-                f"{argument}={numbers!r:.80}: inputs are numbers at one time."
-            ) from None
+        if not is_real(numbers):
+            raise DataError(f"{argument}={shown(u)} are not inputs at one time; give real numbers.")
+        values = jnp.asarray(numbers, dtype=float)
         if values.shape != (len(self.inputs),):
             raise DataError(
                 f"{argument} has shape {values.shape}; the model has the inputs ({', '.join(self.inputs)})"
@@ -358,12 +365,15 @@ class System(LeavesCaches):
             raise ModelError(f"the model does not differentiate '{name.removeprefix('der(')[:-1]}'")
         return found
 
-    def _find_all(self, names: Sequence[str]) -> tuple[list[int], np.ndarray]:
+    def _find_all(self, names: str | Sequence[str]) -> tuple[list[int], np.ndarray]:
         """Nodes and signs of variables and known derivatives."""
-        found = [self._find(name) for name in names]
+        found = [self._find(name) for name in names_in(names)]
         return [node for node, _ in found], np.asarray([sign for _, sign in found])
 
     def _check_shapes(self, x: ArrayLike, u: ArrayLike | None) -> tuple[Array, Array]:
+        for argument, given in (("x", x), ("u", u)):
+            if not (is_real(given) or (given is u is None)):
+                raise DataError(f"{argument}={shown(given)} are not real numbers.")
         x = floating(x)
         u = jnp.zeros(0, x.dtype) if u is None else floating(u)
         if x.shape != (len(self.reduced.states),):
@@ -391,3 +401,17 @@ class System(LeavesCaches):
     def _repr_latex_(self) -> str:
         rows = [f"{sp.latex(e.lhs)} &= {sp.latex(e.rhs)}" for e in self.equations]
         return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
+
+
+def _is_seed(value: object) -> TypeGuard[int]:
+    """Whether this is a whole number of at most 64 bits."""
+    return isinstance(value, int | np.integer) and abs(int(value)) < 2**63
+
+
+def _is_key(value: object) -> TypeGuard[Array]:
+    """Whether this is one key of JAX, of the new kind or of the old one."""
+    dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", None)
+    if dtype is None:
+        return False
+    is_new = jnp.issubdtype(dtype, jax.dtypes.prng_key)
+    return shape == () if is_new else bool(dtype == np.uint32) and shape == (2,)

@@ -185,6 +185,17 @@ def test_initial_states_by_name(linear):
         (lambda s: s.observe("der(tyre.f)", 0.0, X, U, {}), ac.ModelError, r"does not differentiate 'tyre\.f'"),
         (lambda s: s.vector_field(0.0, X[:3], U, {}), ac.DataError, r"x has shape \(3,\); the model has 5 states"),
         (lambda s: s.vector_field(0.0, X, None, {}), ac.DataError, r"u has shape \(0,\).*road\.v_ref"),
+        (lambda s: s.vector_field(0.0, None, U, {}), ac.DataError, "^x=None are not real numbers"),
+        (lambda s: s.vector_field(0.0, X * 1j, U, {}), ac.DataError, r"^x=Array\(.* are not real numbers"),
+        (lambda s: s.vector_field(0.0, X, "u", {}), ac.DataError, "^u='u' are not real numbers"),
+        (lambda s: s.vector_field("now", X, U, {}), ac.DataError, "^t='now' is not a time; give seconds"),
+        (lambda s: s.vector_field_and_observe(3, 0.0, X, U, {}), ac.DataError, "^3 is not a name"),
+        (lambda s: s.unit(3), ac.DataError, "^3 is not a name"),
+        (lambda s: s.parameters("seed"), ac.DataError, "^key='seed' is no key; give a whole number"),
+        (lambda s: s.parameters(1.5), ac.DataError, "^key=1.5 is no key"),
+        (lambda s: s.parameters(10**40), ac.DataError, "^key=1000000.* is no key"),
+        (lambda s: s.pack({3: 1.0}), ac.DataError, "^params: 3 is not a name"),
+        (lambda s: ac.compile(s.model, budget=3), ac.ModelError, "^budget=3 is no budget"),
         (lambda s: s.unit("body.b"), ac.ModelError, r"no 'body\.b'; did you mean"),
         (lambda s: s.pack({"body.mass": 1.0}), ac.DataError, r"no parameter 'body\.mass'"),
     ],
@@ -192,6 +203,13 @@ def test_initial_states_by_name(linear):
 def test_wrong_questions(linear, ask, error, told):
     with pytest.raises(error, match=told):
         ask(linear)
+
+
+def test_seeds_and_keys_of_all_kinds(learning):
+    keys = (3, np.int64(3), jax.random.key(3), jax.random.PRNGKey(3))
+    one, *others = (learning.parameters(key)["spring_nn.net"] for key in keys)
+    for other in others:
+        jax.tree.map(np.testing.assert_array_equal, one, other)
 
 
 def test_only_components_are_compiled():

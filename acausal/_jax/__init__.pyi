@@ -2,7 +2,9 @@ from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .differentiation import two_modes as two_modes
 from .dtypes import (
     cast as cast,
+    check_time as check_time,
     floating as floating,
+    is_number as is_number,
     is_real as is_real,
     precision as precision,
 )

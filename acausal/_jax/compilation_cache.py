@@ -16,7 +16,7 @@ from pathlib import Path
 import jax
 from jax.experimental.compilation_cache.compilation_cache import reset_cache
 
-from acausal.errors import DataError
+from acausal.errors import DataError, need_path
 
 VARIABLE = "ACAUSAL_COMPILATION_CACHE"
 """The environment variable that names another folder, or says ``off``."""
@@ -56,7 +56,7 @@ def use_compilation_cache(path: str | os.PathLike[str] | None) -> None:
     """
     if path is None:
         jax.config.update(FOLDER, None)
-    elif _usable(folder := Path(path)):
+    elif _usable(folder := need_path(path, "use_compilation_cache")):
         _keep(folder)
     else:
         raise DataError(f"no compiled programs can be written to '{path}'; name another folder")

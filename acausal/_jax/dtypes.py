@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, TypeVar
 
 import equinox as eqx
@@ -12,7 +13,7 @@ from jax import Array
 from jax.typing import ArrayLike, DTypeLike
 
 from acausal._jax.tracing import traced
-from acausal.errors import DataError
+from acausal.errors import DataError, shown
 
 PRECISIONS = ("float64", "float32")
 
@@ -48,10 +49,30 @@ def floating(value: ArrayLike) -> Array:
 
 def is_real(value: object) -> bool:
     """Whether a value is a real number (or a truth value), or an array of them."""
-    if isinstance(value, int | float):
+    if isinstance(value, float):
         return True
     leaves = jax.tree.leaves(value) if traced(value) else [value]
     return all(_real_dtype(leaf) for leaf in leaves)
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is one real number, and finite where it is known."""
+    if isinstance(value, float):
+        return math.isfinite(value)
+    if not is_real(value):
+        return False
+    number: Any = value
+    return np.ndim(number) == 0 and (traced(number) or bool(np.isfinite(number)))
+
+
+def check_time(t: object, argument: str = "t") -> None:
+    """Refuse what is not one time.
+
+    Raises:
+        DataError: for it; it names the argument.
+    """
+    if not is_number(t):
+        raise DataError(f"{argument}={shown(t)} is not a time; give seconds, such as 0.0.")
 
 
 def _real_dtype(value: Any) -> bool:

@@ -13,8 +13,10 @@ import sympy as sp
 from jaxtyping import Array, Float
 from scipy.optimize import least_squares
 
+from acausal._jax import is_number
 from acausal.analysis.formula import TERMS, Formula
-from acausal.errors import DeclarationError, TrainingError, listing, nearest
+from acausal.by_name import names_in
+from acausal.errors import DeclarationError, TrainingError, listing, nearest, shown
 from acausal.networks import law_of
 
 Points: TypeAlias = Float[np.ndarray, " n"]
@@ -99,7 +101,7 @@ def distill(
     Raises:
         TrainingError: for an interval, a term or a network that cannot be used.
     """
-    names = _checked(low, high, terms, among)
+    names = _checked(low, high, terms, tolerance, among)
     x = np.linspace(low, high, POINTS)
     y = _values(network, x)
     size = float(np.std(y)) or 1.0
@@ -118,17 +120,23 @@ def distill(
     return Distilled(formula, formula.expression(), error, error / size, (float(low), float(high)))
 
 
-def _checked(low: float, high: float, terms: int, among: Sequence[str]) -> tuple[str, ...]:
-    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+def _checked(
+    low: float, high: float, terms: int, tolerance: float, among: Sequence[str]
+) -> tuple[str, ...]:
+    for argument, value in {"low": low, "high": high, "tolerance": tolerance}.items():
+        if not is_number(value):
+            raise TrainingError(f"distill: {argument}={shown(value)}; give a finite number.")
+    if not low < high:
         raise TrainingError(f"distill: {low:g} to {high:g} is not an interval; give low < high.")
-    if terms < 1:
-        raise TrainingError(f"distill: terms={terms}; a formula has at least one.")
+    if not isinstance(terms, int | np.integer) or terms < 1:
+        raise TrainingError(f"distill: terms={shown(terms)}; give a whole number, one or more.")
+    among = names_in(among, "among")
     for name in among:
         if name not in TERMS:
             raise TrainingError(f"distill: there is no term '{name}': {nearest(name, TERMS)}")
     if not among:
         raise TrainingError(f"distill: no terms to choose from; there are {listing(TERMS)}.")
-    return tuple(among)
+    return among
 
 
 def _values(network: Callable[..., Array], x: Points) -> Points:

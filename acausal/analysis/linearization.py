@@ -12,8 +12,9 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
 
+from acausal._jax import check_time, is_real
 from acausal.by_name import names_in
-from acausal.errors import need_compiled
+from acausal.errors import DataError, need_compiled, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -57,12 +58,30 @@ class Linearization:
     def frequency_response(
         self, omega: Float[ArrayLike, " n"]
     ) -> Complex[np.ndarray, "n n_outputs n_inputs"]:
-        """``C (jw - A)^-1 B + D`` at angular frequencies [rad/s], shape (len(omega), p, m)."""
+        """``C (jw - A)^-1 B + D`` at angular frequencies [rad/s], shape (len(omega), p, m).
+
+        Raises:
+            DataError: for what is not frequencies, or one at which the model has an undamped pole.
+        """
+        if (
+            not is_real(omega)
+            or np.ndim(omega) > 1
+            or not np.size(omega)
+            or not np.isfinite(omega).all()
+        ):
+            raise DataError(f"omega={shown(omega)} are not frequencies; give numbers, in rad/s.")
         A, B, C, D = (np.asarray(m) for m in (self.A, self.B, self.C, self.D))
         identity = np.eye(len(A))
-        return np.stack(
-            [C @ np.linalg.solve(1j * w * identity - A, B) + D for w in np.atleast_1d(omega)]
-        )
+
+        def response(w: float) -> Complex[np.ndarray, "n_outputs n_inputs"]:
+            try:
+                return C @ np.linalg.solve(1j * w * identity - A, B) + D
+            except np.linalg.LinAlgError:
+                raise DataError(
+                    f"omega={w:g} rad/s is an undamped pole of the model, where there is no response; leave it out."
+                ) from None
+
+        return np.stack([response(w) for w in np.atleast_1d(omega)])
 
     def __repr__(self) -> str:
         shape = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
@@ -92,7 +111,8 @@ def linearize(
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")
-    outputs = names_in(outputs)
+    outputs = names_in(outputs, "outputs")
+    check_time(t)
     packed = system.pack(params)
     point = system.input_values(u)
     state = system.initial_state(packed, x, point, t)

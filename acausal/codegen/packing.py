@@ -20,7 +20,7 @@ from acausal.codegen.lower import evaluate
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.reading import read_elements
 from acausal.codegen.values import Packed
-from acausal.errors import DataError, DeclarationError, listing
+from acausal.errors import DataError, DeclarationError, listing, shown
 
 
 def default_parameters(layout: ParameterLayout, key: Array) -> dict[str, Any]:
@@ -59,13 +59,13 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     if isinstance(params, Packed):
         return params
     if not isinstance(params, Mapping):
-        raise DataError(f"params are numbers and networks by name, not {params!r:.80}")
+        raise DataError(f"params are numbers and networks by name, not {shown(params)}")
     layout.check_names(params)
     own = layout.model.value[layout.free]
     given = [params.get(name, value) for name, value in zip(layout.names, own, strict=True)]
     wrong = [n for n, v in zip(layout.names, given, strict=True) if not _is_number(v)]
     if wrong:
-        raise DataError(f"params: {listing(wrong)} must be numbers, got {params[wrong[0]]!r}")
+        raise DataError(f"params: {listing(wrong)} must be numbers, got {shown(params[wrong[0]])}")
     if any(isinstance(v, jax.Array) for v in given):
         known = np.asarray([np.nan if isinstance(v, Tracer) else v for v in given], dtype=float)
         free = jnp.stack([jnp.asarray(given[i], dtype=float) for i in layout.order])
@@ -82,7 +82,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     values = jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if layout.bound else free
     laws = [n for n in layout.module_names if not callable(params[n])]
     if laws:
-        raise DataError(f"params: {listing(laws)} must be networks, got {params[laws[0]]!r:.80}")
+        raise DataError(f"params: {listing(laws)} must be networks, got {shown(params[laws[0]])}")
     modules = {
         i: params[name] for i, name in zip(layout.own_modules, layout.module_names, strict=True)
     }

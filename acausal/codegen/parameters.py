@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from acausal.by_name import names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather, gather
 from acausal.errors import DataError, DeclarationError, listing, nearest
@@ -77,7 +78,7 @@ class ParameterLayout(LeavesCaches):
         ):
             return
         known = {*self.names, *self.module_names}
-        for name in params:
+        for name in names_in(params, "params"):
             if name not in known:
                 reason = self.why_not_free(name)
                 if reason is None:

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
+from acausal._jax import check_time
 from acausal.by_name import ByName, names_in
 from acausal.data.signal import (
     Beyond,
@@ -23,7 +24,7 @@ from acausal.data.signal import (
     check_time_base,
     is_uniform,
 )
-from acausal.errors import DataError, listing, nearest
+from acausal.errors import DataError, listing, nearest, need_path, shown
 from acausal.units import convert
 
 if TYPE_CHECKING:
@@ -76,6 +77,13 @@ class Data(ByName):
         before_start: Choices = None,
         after_end: Choices = None,
     ) -> None:
+        if not isinstance(units, Mapping | None):
+            raise DataError(
+                f"units={shown(units)} has no names; give a unit by name: {{'mass.s': 'm'}}."
+            )
+        for name, unit in (units or {}).items():
+            if not isinstance(unit, str):
+                raise DataError(f"units: '{name}' has {shown(unit)}; give a text such as 'N/m'.")
         unit_of_time = (units or {}).get("time", "s")
         ts = np.asarray(time)
         check_time_base(ts, "The record")
@@ -117,7 +125,7 @@ class Data(ByName):
         if is_data_frame(record):
             return cls(*_time_and_signals(record))
         if not isinstance(record, Mapping):
-            raise DataError(f"A record is acausal.Data or a mapping, not {record!r:.80}")
+            raise DataError(f"A record is acausal.Data or a mapping, not {shown(record)}")
         if "time" not in record:
             raise DataError(f"The record has no 'time': {nearest('time', record)}")
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
@@ -139,8 +147,9 @@ class Data(ByName):
         Raises:
             DataError: for a file that cannot be read, with the line's number.
         """
+        path = need_path(path, "from_csv")
         try:
-            with Path(path).open(newline="", encoding="utf-8-sig") as file:
+            with path.open(newline="", encoding="utf-8-sig") as file:
                 lines = [(number, row) for number, row in enumerate(csv.reader(file), 1) if row]
         except (OSError, UnicodeDecodeError, csv.Error) as e:
             raise DataError(f"{path} cannot be read: {e}") from None
@@ -170,6 +179,10 @@ class Data(ByName):
         Raises:
             DataError: for a name that is not a variable of the model, or a unit of another dimension.
         """
+        if not hasattr(system, "vector_field"):
+            raise DataError(
+                f"for_system needs a compiled model, got {shown(system)}: give ac.compile(model)."
+            )
         known = (*system.variables, *system.inputs)
         unknown = [n for n in self.signals if n not in known]
         if unknown:
@@ -216,8 +229,10 @@ class Data(ByName):
         """The samples with ``start <= time <= end``.
 
         Raises:
-            DataError: if there are fewer than two.
+            DataError: if there are fewer than two, or for what is not a time.
         """
+        check_time(start, "start")
+        check_time(end, "end")
         inside = (self.time >= start) & (self.time <= end)
         if inside.sum() < 2:
             raise DataError(
@@ -297,10 +312,14 @@ def _check_choices(
 ) -> None:
     if given is None:
         return
+    if not isinstance(given, str | Mapping):
+        raise DataError(
+            f"{what}={shown(given)}; choose one of {', '.join(known)}, for all or by name."
+        )
     by_name = {"The record": given} if isinstance(given, str) else given
     for name, choice in by_name.items():
         if choice not in known:
-            raise DataError(f"{name} has {what}={choice!r}; choose one of {', '.join(known)}.")
+            raise DataError(f"{name} has {what}={shown(choice)}; choose one of {', '.join(known)}.")
         if not isinstance(given, str) and name not in signals:
             raise DataError(
                 f"There is a choice of {what} for '{name}' but no such signal: {nearest(name, signals)}"
@@ -329,7 +348,7 @@ def _by_name(signals: Mapping[str, ArrayLike] | DataFrame) -> Mapping[str, Array
             "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
             f"not {_described(signals)}."
         )
-    return {name: signals[name] for name in names_in(signals)}
+    return {name: signals[name] for name in names_in(signals, "signals")}
 
 
 def _time_and_signals(frame: DataFrame) -> tuple[ArrayLike, DataFrame]:
@@ -346,7 +365,7 @@ def _time_and_signals(frame: DataFrame) -> tuple[ArrayLike, DataFrame]:
 
 def _described(thing: object) -> str:
     shape = getattr(thing, "shape", None)
-    return f"{thing!r:.80}" if shape is None else f"an array of shape {shape}"
+    return shown(thing) if shape is None else f"an array of shape {shape}"
 
 
 def _columns(header: list[str], where: str) -> tuple[list[str], dict[str, str]]:

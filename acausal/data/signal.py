@@ -27,7 +27,7 @@ from acausal.data.band_limited import (
     deviation_from_line,
     polynomial_coefficients,
 )
-from acausal.errors import DataError
+from acausal.errors import DataError, shown
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
@@ -148,6 +148,8 @@ class Signal(eqx.Module):
 
     def __call__(self, t: Scalar) -> Float[Array, ""]:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""
+        if not is_real(t):
+            raise DataError(f"A signal has no value at t={shown(t)}; give seconds.")
         t = jnp.asarray(t, self.ts.dtype)
         first, last = self.ts[0], self.ts[-1]
         if self.before_start == "periodic" or self.after_end == "periodic":
@@ -337,4 +339,4 @@ def _count(values: ArrayLike) -> str:
 
 def _check_choice(name: str, what: str, value: str, choices: tuple[str, ...]) -> None:
     if value not in choices:
-        raise DataError(f"'{name}' has {what}={value!r}; choose one of {', '.join(choices)}.")
+        raise DataError(f"'{name}' has {what}={shown(value)}; choose one of {', '.join(choices)}.")

@@ -15,11 +15,11 @@ import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import is_real, traced
+from acausal._jax import is_number, is_real, traced
 from acausal.by_name import ByName, names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
-from acausal.errors import DataError, InitializationError, listing, nearest
+from acausal.errors import DataError, InitializationError, listing, nearest, shown
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
 from acausal.structure import ReducedModel
 
@@ -123,7 +123,7 @@ class Initializer(LeavesCaches):
         """Initial states, shape (n_states,); see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
-        x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        x, plan = self._posed(packed, {} if x0 is None else x0, steady, least_squares)
         at = Values(jnp.asarray(t0, float), x, u0, packed)
         return x if plan is None else self._found(plan, at)[0]
 
@@ -137,10 +137,13 @@ class Initializer(LeavesCaches):
         least_squares: bool = False,
     ) -> Initialization:
         """Initial states and how each was found; see `System.initialize`."""
-        x, plan = self._posed(packed, x0 or {}, steady, least_squares)
+        x0 = {} if x0 is None else x0
+        if not isinstance(x0, Mapping):
+            raise DataError(f"x0={shown(x0)} has no names; give the states by name.")
+        x, plan = self._posed(packed, x0, steady, least_squares)
         at = Values(jnp.asarray(t0, float), x, u0, packed)
         roles = [
-            "given" if name in (x0 or {}) else "fixed" if fixed else "start"
+            "given" if name in x0 else "fixed" if fixed else "start"
             for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
         ]
         if plan is None:
@@ -155,12 +158,17 @@ class Initializer(LeavesCaches):
 
     def _whole(self, x0: ArrayLike) -> Array:
         if not is_real(x0):
-            raise DataError(f"x0={x0!r:.60} are not the states; give real numbers.")
+            raise DataError(f"x0={shown(x0)} are not the states; give real numbers.")
         x = jnp.asarray(x0, dtype=float)
         if x.shape != (len(self.names),):
             raise DataError(
                 f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
             )
+        if traced(x):
+            return x
+        bad = np.flatnonzero(~np.isfinite(np.asarray(x)))
+        if len(bad):
+            raise DataError(f"x0: '{self.names[bad[0]]}' is {x[bad[0]]}; give finite numbers.")
         return x
 
     def _posed(
@@ -171,19 +179,21 @@ class Initializer(LeavesCaches):
         least_squares: bool,
     ) -> tuple[Array, Plan | None]:
         """The states to begin with, and the conditions that remain to be met, if any."""
-        self._known("x0", given)
+        self._known("x0", names_in(given, "x0"))
         x = self.conditions.starts(packed)
         for i, name in enumerate(self.names):
             if name in given:
-                if not is_real(given[name]):
-                    raise DataError(f"x0: '{name}' is {given[name]!r:.60}; give a real number.")
+                if not is_number(given[name]):
+                    raise DataError(
+                        f"x0: '{name}' is {shown(given[name])}; give a real number that is finite."
+                    )
                 x = x.at[i].set(given[name])
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
         at_will = ~is_given & ~self.conditions.fixed
         if isinstance(steady, bool):
             resting = at_will & steady
         else:
-            named = names_in(steady)
+            named = names_in(steady, "steady")
             self._known("steady", named)
             resting = np.asarray([n in named for n in self.names], dtype=bool)
         nodes = self.reduced.states[is_given]
@@ -199,7 +209,7 @@ class Initializer(LeavesCaches):
         nothing = not (plan.starts or plan.resting or self.reduced.model.initial)
         return x, None if overruled or nothing else plan
 
-    def _known(self, argument: str, names: Sequence[str] | Mapping[str, Any]) -> None:
+    def _known(self, argument: str, names: Sequence[str]) -> None:
         for name in names:
             if name not in self.names:
                 raise DataError(f"{argument}: '{name}' is not a state; {nearest(name, self.names)}")

@@ -22,11 +22,12 @@ registered libraries can be reached. Expressions go through `acausal.netlist.par
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
-from acausal.errors import ModelError
+from acausal.errors import ModelError, need_path, shown
 from acausal.modeling import Budget, BudgetError, Component, Declaration, spending
 from acausal.netlist import file as netlist_file
 from acausal.netlist.file import within
@@ -53,7 +54,10 @@ def load(
         ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
             that does not exist, an expression that is malformed, a model that is larger than its budget.
     """
-    path, known, allowed = Path(path), _libraries(libraries), budget or Budget()
+    path, known = need_path(path, "load", ModelError), _libraries(libraries)
+    if not isinstance(budget, Budget | None):
+        raise ModelError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
+    allowed = budget or Budget()
     document = netlist_file.read(path)
     with spending(allowed):
         model = within(path.name, lambda: build(document, path.name, known))
@@ -78,7 +82,8 @@ def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = (
     """
     if not isinstance(model, Component):
         raise ModelError(f"save needs a Component, got {type(model).__name__}")
-    netlist_file.write(Writer(_libraries(libraries)).model(model), Path(path))
+    path = need_path(path, "save", ModelError)
+    netlist_file.write(Writer(_libraries(libraries)).model(model), path)
 
 
 def _check_sizes(model: Component) -> None:
@@ -100,7 +105,9 @@ def _check_sizes(model: Component) -> None:
 
 
 def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
-    for module in modules:
+    given: Any = modules
+    for module in given if isinstance(given, Iterable) else [None]:
         if not isinstance(module, ModuleType):
-            raise ModelError(f"libraries=[...] lists modules, got {module!r:.60}")
+            wrong = given if module is None else module
+            raise ModelError(f"libraries=[...] lists modules, got {shown(wrong)}")
     return (*installed(), *(Library(module) for module in modules))

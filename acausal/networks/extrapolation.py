@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 
 Extrapolation = Literal["saturating", "linear", "cubic"]
 """Constant beyond the limit, along the tangent there, or along a cubic."""
@@ -94,7 +94,7 @@ def check_limits(low: float, high: float, extrapolation: Extrapolation) -> None:
     """
     if extrapolation not in DERIVATIVES:
         raise DeclarationError(
-            f"extrapolation={extrapolation!r} must be one of {', '.join(map(repr, DERIVATIVES))}"
+            f"extrapolation={shown(extrapolation)} must be one of {', '.join(map(repr, DERIVATIVES))}"
         )
     if not -math.inf < low < high < math.inf:
         raise DeclarationError(f"limits={low:g}, {high:g}: the first must be less than the second")

@@ -13,7 +13,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DataError, DeclarationError
+from acausal.errors import DataError, DeclarationError, shown
 from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.arity import check_inputs
 
@@ -147,7 +147,7 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
     whole = all(isinstance(n, int | np.integer) for n in (in_size, width, depth))
     if not whole or min(in_size, width) < 1 or depth < 0 or max(in_size, width, depth) > LARGEST:
         raise DeclarationError(
-            f"no network has in_size={in_size!r:.40}, width={width!r:.40}, depth={depth!r:.40}; "
+            f"no network has in_size={shown(in_size)}, width={shown(width)}, depth={shown(depth)}; "
             f"give positive whole numbers up to {LARGEST}"
         )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
@@ -157,7 +157,7 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
 def as_key(key: Key) -> Array:
     """A JAX key, from a key or a seed."""
     if not isinstance(key, int | jax.Array):
-        raise DataError(f"key={key!r:.60} makes no network; give a JAX key or a whole number")
+        raise DataError(f"key={shown(key)} makes no network; give a JAX key or a whole number")
     return jax.random.key(key) if isinstance(key, int) else key
 
 

@@ -8,7 +8,7 @@ from typing import Any, Literal, TypedDict, get_args
 
 import numpy as np
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 from acausal.networks.extrapolation import Extrapolation, check_limits
 from acausal.networks.mlp import Key, Scale, check_sizes
 
@@ -76,11 +76,11 @@ class NetworkSpec:
             value, choices = getattr(self, name), get_args(known)
             if value is not None and value not in choices:
                 raise DeclarationError(
-                    f"{name}={value!r} must be one of {', '.join(map(repr, choices))}"
+                    f"{name}={shown(value)} must be one of {', '.join(map(repr, choices))}"
                 )
         if not (isinstance(self.secondary, int) and self.secondary >= 0):
             raise DeclarationError(
-                f"secondary={self.secondary!r:.40} is a number of further inputs; give zero or more"
+                f"secondary={shown(self.secondary)} is a number of further inputs; give zero or more"
             )
         check_sizes(self.in_size, self.width, self.depth, self.input_scale)
         scales = self.input_scale if isinstance(self.input_scale, tuple) else (self.input_scale,)
@@ -170,5 +170,6 @@ class NetworkSpec:
         """A law that vanishes by construction needs no regularizer or correction."""
         if self.zero_crossing in ("regularizer", "offset"):
             raise DeclarationError(
-                f"{because}=True makes the law vanish at zero already; leave out zero_crossing={self.zero_crossing!r}"
+                f"{because}=True makes the law vanish at zero already; leave out "
+                f"zero_crossing={shown(self.zero_crossing)}"
             )

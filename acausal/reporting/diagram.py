@@ -9,7 +9,7 @@ import networkx as nx
 
 from acausal.errors import ModelError
 from acausal.modeling import Component, Connector, Module, owner_and_name
-from acausal.reporting.drawing import new_axes
+from acausal.reporting.drawing import need_axes, new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,6 +50,7 @@ def diagram(model: Component, ax: Axes | None = None) -> Axes:
         depth = max((x for x, _ in positions.values()), default=0.0)
         breadth = max((abs(y) for _, y in positions.values()), default=0.0)
         (ax,) = new_axes((max(1.25 * depth + 2.2, 4), max(2.2 * breadth + 1.4, 2)))
+    ax = need_axes(ax)
     kinds = list(dict.fromkeys(w.kind for w in wires if w.kind is not None))
     for number, wire in enumerate(wires):
         color = SIGNAL if wire.kind is None else COLORS[kinds.index(wire.kind) % len(COLORS)]

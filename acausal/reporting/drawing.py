@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from acausal.errors import AcausalError
+from acausal.errors import AcausalError, DataError, shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,6 +39,17 @@ def new_figure(size: tuple[float, float]) -> Figure:
     except ModuleNotFoundError as error:
         raise _missing(error) from None
     return Figure(figsize=size, layout="constrained")
+
+
+def need_axes(given: Any, argument: str = "ax") -> Axes:
+    """The axes; what nothing can be drawn on is refused.
+
+    Raises:
+        DataError: for it; it names the argument.
+    """
+    if isinstance(given, type) or not hasattr(given, "plot"):
+        raise DataError(f"{argument}={shown(given)} is no axes; give one of matplotlib's.")
+    return given
 
 
 def _missing(error: ModuleNotFoundError) -> Exception:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, cast
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, cast
 
 from jaxtyping import Float
 from numpy import ndarray
 
-from acausal.reporting.drawing import new_axes
+from acausal.errors import DataError, listing
+from acausal.reporting.drawing import need_axes, new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,12 +33,17 @@ def plot_over_time(
 
     Returns:
         The figure.
+
+    Raises:
+        DataError: for axes that are not one for each unit, or if there is nothing to plot.
     """
+    if not curves:
+        raise DataError("There is nothing to plot: the model has no states; name some variables.")
     groups: dict[str, list[str]] = {}
     for name in curves:
         groups.setdefault(units[name], []).append(name)
     size = (7.0, 1.0 + 2.0 * len(groups))
-    diagrams = new_axes(size, len(groups)) if axes is None else axes
+    diagrams = new_axes(size, len(groups)) if axes is None else _as_many(axes, list(groups))
     for ax, (unit, members) in zip(diagrams, groups.items(), strict=True):
         for name in members:
             ax.plot(time, curves[name], label=name)
@@ -47,3 +53,12 @@ def plot_over_time(
             ax.legend()
     diagrams[-1].set_xlabel("time in s")
     return cast("Figure", diagrams[0].figure)
+
+
+def _as_many(axes: Any, units: list[str]) -> list[Axes]:
+    """The axes, if there is one for each unit."""
+    found = [need_axes(ax, "axes") for ax in (axes if isinstance(axes, Iterable) else [axes])]
+    if len(found) != len(units):
+        wanted = listing(unit or "1" for unit in units)
+        raise DataError(f"axes: there are {len(found)}; give one for each unit: {wanted}.")
+    return found

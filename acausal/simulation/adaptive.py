@@ -12,8 +12,8 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import cast, traced, two_modes
-from acausal.errors import DataError, SimulationError, StepLimitError
+from acausal._jax import cast, is_real, traced, two_modes
+from acausal.errors import DataError, SimulationError, StepLimitError, shown
 from acausal.simulation import solvers
 from acausal.simulation.inputs import evaluate, evaluate_all, jumps
 from acausal.simulation.run import Run
@@ -25,30 +25,32 @@ SHORTEST = 1e-30
 """The shortest step, as a fraction of the span: only a model without finite values leads there."""
 
 
-def check_tolerances(rtol: Tolerance, atol: Tolerance) -> None:
+def check_tolerances(rtol: Tolerance, atol: Tolerance, n_states: int) -> None:
     """Refuse tolerances with which no step can be accepted.
 
     Raises:
-        DataError: for one that is negative or not a finite number, or if all are zero.
+        DataError: for one that is negative or not a finite number, nor one such number for each state; or if all
+            are zero.
     """
+    for name, given in {"rtol": rtol, "atol": atol}.items():
+        if not _is_tolerance(given, n_states):
+            raise DataError(
+                f"{name}={shown(given)} is not a tolerance; give a positive number, such as {name}=1e-6, or an array "
+                "of one for each state."
+            )
     if traced(rtol, atol):
         return
-    for name, given in {"rtol": rtol, "atol": atol}.items():
-        if not _is_nonnegative(given):
-            raise DataError(
-                f"{name}={given!r:.80} is not a tolerance; give a positive number, such as {name}=1e-6."
-            )
     if not (np.any(rtol) or np.any(atol)):
         raise DataError("rtol and atol are both zero; give rtol=1e-6, say.")
 
 
-def _is_nonnegative(given: ArrayLike) -> bool:
-    """Whether this is a finite number, or an array of these, none below zero."""
-    try:
-        values = np.asarray(given, dtype=float)
-    except (TypeError, ValueError):
+def _is_tolerance(given: Tolerance, n_states: int) -> bool:
+    """Whether this is a finite number, or an array of these, none below zero where they are known."""
+    if not is_real(given) or isinstance(given, list | tuple):
         return False
-    return bool((np.isfinite(values) & (values >= 0)).all())
+    if np.shape(given) not in ((), (n_states,)):
+        return False
+    return traced(given) or bool((np.isfinite(given) & (np.asarray(given) >= 0)).all())
 
 
 class Solved(NamedTuple):

@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from acausal._jax import is_real, traced
 from acausal.by_name import names_in
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
-from acausal.errors import DataError, listing, nearest
+from acausal.errors import DataError, listing, nearest, shortened, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -53,7 +53,8 @@ class Function(eqx.Module):
         """The function's value as a scalar array.
 
         Raises:
-            DataError: for a function that JAX cannot trace, or that does not return a real scalar.
+            DataError: for a function that JAX cannot trace, that cannot be called with the time alone, or that does
+                not return a real scalar.
         """
         try:
             value = self.function(t)
@@ -61,6 +62,13 @@ class Function(eqx.Module):
             raise DataError(
                 f"Input '{self.name}' is a function that JAX cannot trace; write it with jax.numpy "
                 "(jnp.sin, jnp.where), or give samples: (times, values)."
+            ) from error
+        except TypeError as error:
+            if error.__traceback__ and error.__traceback__.tb_next:  # from inside of it
+                raise
+            raise DataError(
+                f"Input '{self.name}' is a function that cannot be called with the time alone "
+                f"({shortened(error)}); give one of a single argument: lambda t: ..."
             ) from error
         if not is_real(value):
             raise DataError(
@@ -102,7 +110,7 @@ def inputs_by_name(system: System, given: Any) -> Mapping[str, Any] | Data:
         raise DataError(
             f"inputs={_short(given)} has no names; give inputs={{'{first}': ...}}, with {FORMS} for each."
         )
-    return {name: given[name] for name in names_in(given)}
+    return {name: given[name] for name in names_in(given, "inputs")}
 
 
 def functions_of_time(
@@ -225,7 +233,7 @@ def _function(
 def _short(value: object) -> str:
     """A wrong value, for a message."""
     dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", ())
-    return f"an array of {dtype}, shape {shape}" if shape or traced(value) else f"{value!r:.60}"
+    return f"an array of {dtype}, shape {shape}" if shape or traced(value) else shown(value)
 
 
 def _reaching(name: str, function: TimeFunction, span: Span) -> TimeFunction:

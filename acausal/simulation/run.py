@@ -53,14 +53,17 @@ class Run(NamedTuple):
         return self.start._replace(t=t, x=jnp.asarray(x), u=evaluate(self.inputs, t))
 
     def check_start(self) -> None:
-        """Refuse an initial state that is not finite."""
-        x = self.start.x
-        if traced(x):
-            return
-        bad = np.flatnonzero(~np.isfinite(np.asarray(x)))
-        if len(bad):
-            name = self.system.states[int(bad[0])]
-            raise SimulationError(f"The initial value of '{name}' is {float(x[bad[0]])}.")
+        """Refuse an initial state, or inputs at the start, that are not finite."""
+        found = (
+            ("The initial value of", self.system.states, self.start.x),
+            ("At the start, the input", self.system.inputs, self.start.u),
+        )
+        for what, names, values in found:
+            if traced(values):
+                continue
+            bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
+            if len(bad):
+                raise SimulationError(f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.")
 
     def modes(self) -> NDArray[np.complex128]:
         """Eigenvalues of the Jacobian at the start, shape (n,), in 1/s.

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, need_double_precision, precision, traced
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, StepLimitError, need_compiled
+from acausal.errors import DataError, StepLimitError, need_compiled, shown
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
@@ -98,11 +98,12 @@ def simulate(
     """
     need_compiled(system, "simulate")
     need_double_precision()
-    check_tolerances(rtol, atol)
+    check_tolerances(rtol, atol, len(system.states))
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     _check_limit(max_steps)
+    _check_adjoint(adjoint)
     width = 2 + len(system.states) + 3 * len(system.inputs)
     ends = None if dt is None else step_ends(start, end, dt, width)
     given = inputs_by_name(system, inputs)
@@ -143,7 +144,9 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
             raise TypeError
         start, end = (float(v) for v in t)
     except (TypeError, ValueError):
-        raise DataError(f"t={t!r} is not a span of time; give (start, end) in seconds.") from None
+        raise DataError(
+            f"t={shown(t)} is not a span of time; give (start, end) in seconds."
+        ) from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
         raise DataError(
             f"t=({start:g}, {end:g}) is not a span of time; give (start, end), start < end."
@@ -153,12 +156,20 @@ def _span(t: tuple[float, float]) -> tuple[float, float]:
 
 def _check_limit(max_steps: object) -> None:
     if isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer) or max_steps < 1:
-        raise DataError(f"max_steps={max_steps!r} is not a limit of steps; give 1 or more.")
+        raise DataError(f"max_steps={shown(max_steps)} is not a limit of steps; give 1 or more.")
+
+
+def _check_adjoint(adjoint: object) -> None:
+    if not (adjoint is None or isinstance(adjoint, dfx.AbstractAdjoint)):
+        raise DataError(
+            f"adjoint={shown(adjoint)} is no way to differentiate; leave it out, or give one of diffrax's, such as "
+            "diffrax.DirectAdjoint()."
+        )
 
 
 def _save_times(saveat: ArrayLike, start: float, end: float) -> Float[np.ndarray, " n_saved"]:
     if not is_real(saveat):
-        raise DataError(f"saveat={saveat!r:.60} are not times; give seconds.")
+        raise DataError(f"saveat={shown(saveat)} are not times; give seconds.")
     ts = np.atleast_1d(np.asarray(saveat, float))
     if not ts.size:
         raise DataError("saveat is empty; give the times to save, or leave it out.")

@@ -18,7 +18,7 @@ from jaxtyping import Array, Float
 from acausal._jax import traced
 from acausal.by_name import ByName, names_in
 from acausal.codegen import Packed, Values
-from acausal.errors import DataError, nearest
+from acausal.errors import DataError, nearest, need_path, reason
 from acausal.simulation.finite import warn_of_nonfinite
 
 if TYPE_CHECKING:
@@ -115,13 +115,20 @@ class Solution(ByName):
         return pd.DataFrame(self.to_dict(names)).set_index("time")
 
     def to_csv(self, path: str | Path, names: Iterable[str] | None = None) -> None:
-        """Write the variables (by default all) as columns ``name [unit]``, as `Data.from_csv` reads them."""
-        columns = self.to_dict(names)
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            units = ("s" if n == "time" else self.system.unit(n) for n in columns)
-            writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
-            writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
+        """Write the variables (by default all) as columns ``name [unit]``, as `Data.from_csv` reads them.
+
+        Raises:
+            DataError: for an unknown name, or if the file cannot be written.
+        """
+        path, columns = need_path(path, "to_csv"), self.to_dict(names)
+        units = ("s" if n == "time" else self.system.unit(n) for n in columns)
+        try:
+            with path.open("w", newline="", encoding="utf-8") as file:
+                writer = csv.writer(file)
+                writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
+                writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
+        except OSError as error:
+            raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
 
     def plot(self, *names: str, axes: Sequence[Axes] | None = None) -> Figure:
         """Plot variables over time, those of one unit in one diagram.

@@ -7,7 +7,7 @@ import os
 import numpy as np
 from jaxtyping import Float, Int
 
-from acausal.errors import DataError
+from acausal.errors import DataError, shown
 
 ON_GRID = 1e-6
 """A time counts as the end of a step if it is within this fraction of a step of it."""
@@ -28,7 +28,7 @@ def memory() -> float:
 
 def _amount(size: float) -> str:
     """Bytes as text."""
-    power = min(int(np.log2(size)) // 10, len(UNITS) - 1)
+    power = min(int(min(np.log2(size), 1024)) // 10, len(UNITS) - 1)
     return f"{size / 1024**power:.3g} {UNITS[power]}"
 
 
@@ -44,14 +44,14 @@ def step_ends(start: float, end: float, dt: float, width: int) -> Float[np.ndarr
     """
     is_number = isinstance(dt, float | int | np.number) and not isinstance(dt, bool)
     if not (is_number and np.isfinite(dt) and dt > 0):
-        raise DataError(f"dt={dt!r} is not a step; give a positive time in seconds.")
+        raise DataError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
     span = end - start
-    n = max(round(span / dt), 1)
-    if (needed := 8.0 * width * n) > memory():
+    if (needed := 8.0 * width * (span / dt)) > memory():
         raise DataError(
-            f"dt={dt:g} s makes {n:.3g} steps from {start:g} to {end:g} s, which need {_amount(needed)} of memory "
-            f"where there are {_amount(memory())}; choose a longer dt, or leave it out for adaptive steps."
+            f"dt={dt:g} s makes {span / dt:.3g} steps from {start:g} to {end:g} s, which need {_amount(needed)} of "
+            f"memory where there are {_amount(memory())}; choose a longer dt, or leave it out for adaptive steps."
         )
+    n = max(round(span / dt), 1)
     if abs(span / dt - n) > ON_GRID * n:
         raise DataError(
             f"Steps of dt={dt:g} s do not divide the {span:g} s from {start:g} to {end:g} s; "

@@ -12,7 +12,7 @@ import numpy as np
 from acausal._jax import precision
 from acausal.by_name import names_in
 from acausal.data import Data, check_resolution
-from acausal.errors import DataError, TrainingError, listing, nearest
+from acausal.errors import DataError, TrainingError, listing, nearest, shown
 from acausal.networks import networks
 from acausal.simulation import announce_derivatives, for_fixed_steps, solver_named
 from acausal.training.objective.context import context, states_before_training
@@ -111,7 +111,7 @@ def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[s
     found = networks(params)
     if train is None:
         return tuple(found)
-    chosen = names_in(train)
+    chosen = names_in(train, "train")
     for name in chosen:
         if name not in found:
             raise TrainingError(f"There is no network '{name}' to train: {nearest(name, found)}")
@@ -153,7 +153,7 @@ def _substeps(data: Data, dt: float | None) -> int:
         return 1
     longest = data.sample_time if data.uniform else float(np.max(np.diff(data.time)))
     if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
-        raise TrainingError(f"dt={dt!r} is not a step; give a positive time in seconds.")
+        raise TrainingError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
     n = max(1, round(longest / dt)) if data.uniform else int(np.ceil(longest / dt - 1e-6))
     if data.uniform and abs(longest / dt - n) > 1e-6 * n:
         raise TrainingError(

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import TrainingError, need_compiled
+from acausal.errors import TrainingError, need_compiled, need_path, shown
 from acausal.networks import law_of
 from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_predictions
 from acausal.training.objective.initial_state import InitialState
@@ -119,7 +119,7 @@ class Ensemble:
             (name, f"{mean:+.4g}", f"{sigma:.2g}") for name, (mean, sigma) in self.modifiers.items()
         ]
         add_parameters(page, ("parameter", "change", "standard deviation"), changes)
-        return page.write(Path(folder) / "index.html")
+        return page.write(need_path(folder, "report") / "index.html")
 
     def __repr__(self) -> str:
         losses = ", ".join(f"{fit.score:.4g}" for fit in self.fits)
@@ -161,7 +161,7 @@ def ensemble(
     """
     need_compiled(system, "ensemble")
     if not isinstance(members, int | np.integer) or members < 2:
-        raise TrainingError(f"members={members!r}; an ensemble has at least two.")
+        raise TrainingError(f"members={shown(members)}; an ensemble has at least two.")
     chosen = FitOptions.of("ensemble", options)
     if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")

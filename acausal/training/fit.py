@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from acausal.data import Data
-from acausal.errors import DataError, TrainingError, need_compiled
+from acausal.errors import DataError, TrainingError, need_compiled, shown
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import train_from_starts
@@ -54,12 +54,12 @@ def fit(
     need_compiled(system, "fit")
     chosen = FitOptions.of("fit", options)
     if not isinstance(params, Mapping | None):
-        raise DataError(f"params={params!r:.60} are not parameters; give a mapping by name.")
+        raise DataError(f"params={shown(params)} are not parameters; give a mapping by name.")
     if not isinstance(seed, int | np.integer):
-        raise TrainingError(f"seed={seed!r:.60}; give a whole number.")
+        raise TrainingError(f"seed={shown(seed)}; give a whole number.")
     if not isinstance(targets, Sequence):
         raise TrainingError(
-            f"targets={targets!r:.60} are not names; give some of the model's variables."
+            f"targets={shown(targets)} are not names; give some of the model's variables."
         )
     start = {**system.parameters(seed), **(params or {})}
     (trained,) = train_from_starts(system, data, targets, chosen, seeds=(seed,), params=(start,))

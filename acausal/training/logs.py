@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acausal.data import replace_file
-from acausal.errors import DataError, TrainingError, reason
+from acausal.errors import DataError, TrainingError, need_path, reason
 from acausal.training.progress import Progress
 
 SCALARS: dict[str, Callable[[Progress], float]] = {
@@ -43,7 +43,7 @@ class CsvLog:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(path)
+        self.path = need_path(path, "CsvLog")
         self._begun = self._warned = False
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -98,7 +98,7 @@ class TensorBoardLog:
             raise TrainingError(
                 "TensorBoardLog needs tensorboardX: pip install 'acausal[tensorboard]'."
             ) from error
-        self.folder = Path(folder)
+        self.folder = need_path(folder, "TensorBoardLog")
         self._open: Callable[[int], Any] = lambda epoch: SummaryWriter(
             str(self.folder), purge_step=epoch
         )

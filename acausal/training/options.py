@@ -19,7 +19,7 @@ import numpy as np
 import optax
 from jax.typing import DTypeLike
 
-from acausal.errors import TrainingError, nearest, shortened
+from acausal.errors import TrainingError, nearest, shown
 from acausal.simulation import Solver
 from acausal.training.objective.held_out import Validation
 from acausal.training.objective.initial_state import InitialState
@@ -234,11 +234,11 @@ class FitOptions:
             value = getattr(self, name)
             left_out = value is None and FitOptions.__dataclass_fields__[name].default is None
             if not (left_out or fits(value)):
-                raise TrainingError(f"{name}={shortened(repr(value))} is not {wanted}.")
+                raise TrainingError(f"{name}={shown(value)} is not {wanted}.")
         for function in (*self.penalties, *self.all_observers):
             if not callable(function):
                 raise TrainingError(
-                    f"{function!r:.80} is not a function, but the training calls it."
+                    f"{shown(function)} is not a function, but the training calls it."
                 )
         for name in self.parts:
             if name not in UPDATES:

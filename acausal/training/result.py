@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from acausal.analysis import Distilled, distill
 from acausal.data import Data
-from acausal.errors import TrainingError, nearest
+from acausal.errors import TrainingError, nearest, need_path
 from acausal.networks import remove_offset
 from acausal.reporting import (
     LearnedLaw,
@@ -205,7 +205,7 @@ class Fit:
                 "The trained model diverges over the record; what it has learned cannot be assessed."
             )
         add_divergences(page, self.history.divergences)
-        return page.write(Path(folder) / "index.html")
+        return page.write(need_path(folder, "report") / "index.html")
 
     def _losses(self) -> list[tuple[str, str, str]]:
         """Losses before and after, in rows."""

@@ -19,7 +19,7 @@ from acausal.analysis import in_switches
 from acausal.by_name import names_in
 from acausal.codegen import Values
 from acausal.data import Data
-from acausal.errors import TrainingError, listing
+from acausal.errors import TrainingError, listing, shown
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
@@ -67,9 +67,9 @@ def train_from_starts(
     need_double_precision()
     for seed in seeds:
         if not isinstance(seed, int | np.integer):
-            raise TrainingError(f"seed={seed!r}; give a whole number.")
+            raise TrainingError(f"seed={shown(seed)}; give a whole number.")
     training, kept = split(Data.of(data).for_system(system), options.validation)
-    names = names_in(targets)
+    names = names_in(targets, "targets")
     problem = build_problem(system, training, names, dict(params[0]), options)
     held = hold_out(problem, kept, options.x0)
     plan = legs(problem, options, DIVERGED if options.loss == "nrmse" else np.inf)

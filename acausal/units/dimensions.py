@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from acausal.errors import UnitError, nearest, shortened
+from acausal.errors import UnitError, nearest, shortened, shown
 from acausal.units.pint_units import pint_unit
 from acausal.units.spelling import SpellingError, factors_of
 
@@ -97,7 +97,7 @@ def dimension(text: str) -> Dimension | None:
         UnitError: for text that is not a unit; it names the nearest one.
     """
     if not isinstance(text, str):
-        raise UnitError(f"{text!r:.40} is not a unit; a text is needed, such as 'N/m'")
+        raise UnitError(f"{shown(text)} is not a unit; a text is needed, such as 'N/m'")
     return _read(text) if text.strip() else None
 
 

@@ -112,6 +112,8 @@ def test_where_nothing_can_be_written_nothing_is_kept(tmp_path):
     assert folder() is None
     with pytest.raises(ac.DataError, match=r"no compiled programs can be written to .*file/below"):
         ac.use_compilation_cache(file / "below")
+    with pytest.raises(ac.DataError, match=r"^use_compilation_cache: 3.5 is no path"):
+        ac.use_compilation_cache(3.5)
 
 
 def test_another_folder_and_none_from_now_on(setting, tmp_path):

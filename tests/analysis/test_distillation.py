@@ -111,7 +111,11 @@ def test_the_law_of_an_energy_is_distilled():
     ("chosen", "sentence"),
     [
         ({"low": 1.0, "high": 1.0}, "distill: 1 to 1 is not an interval; give low < high."),
-        ({"terms": 0}, "distill: terms=0; a formula has at least one."),
+        ({"low": "a"}, "distill: low='a'; give a finite number."),
+        ({"tolerance": None}, "distill: tolerance=None; give a finite number."),
+        ({"terms": 0}, "distill: terms=0; give a whole number, one or more."),
+        ({"terms": "x"}, "distill: terms='x'; give a whole number, one or more."),
+        ({"among": 3}, "among: 3 is not a name; give a text such as 'mass.s', or a list."),
         ({"among": ["tan"]}, "distill: there is no term 'tan': did you mean 'tanh'?"),
         ({"network": lambda x, T: x * T}, "distill: the network is not a law of one variable"),
         ({"network": lambda x: jnp.log(x)}, "distill: the network is not finite everywhere"),
@@ -119,7 +123,7 @@ def test_the_law_of_an_energy_is_distilled():
 )
 def test_mistakes_get_one_sentence(chosen, sentence):
     given = {"network": lambda x: 2 * x, "low": -1.0, "high": 1.0} | chosen
-    with pytest.raises(ac.TrainingError) as error:
+    with pytest.raises((ac.TrainingError, ac.DataError)) as error:
         ac.distill(**given)
     assert str(error.value).startswith(sentence)
     assert "\n" not in str(error.value)

@@ -74,9 +74,26 @@ def test_outputs_are_named_by_texts_of_any_kind() -> None:
     assert ac.linearize(system, outputs="mass.s").outputs == ("mass.s",)
 
 
+@pytest.mark.parametrize("omega", ["x", None, np.nan, [], np.ones((2, 2)), 1j])
+def test_what_is_no_frequency(linearized: ac.Linearization, omega: object) -> None:
+    with pytest.raises(
+        ac.DataError, match=r"^omega=.* are not frequencies; give numbers, in rad/s"
+    ):
+        linearized.frequency_response(omega)  # type: ignore[arg-type]
+
+
+def test_an_undamped_pole_has_no_response() -> None:
+    with pytest.raises(ac.DataError, match=r"^omega=0 rad/s is an undamped pole"):
+        ac.linearize(ac.compile(tl.Mass(m=1.0))).frequency_response([1.0, 0.0])
+
+
 def test_wrong_names_are_refused(linearized: ac.Linearization) -> None:
     system = ac.compile(Oscillator())
     with pytest.raises(ac.DataError, match=r"'mass\.x' is not a state; did you mean 'mass\."):
         ac.linearize(system, {"mass.x": 1.0})
     with pytest.raises(ac.DataError, match=r"'drive\.F' is not an input"):
         ac.linearize(system, u={"drive.F": 1.0})
+    with pytest.raises(ac.DataError, match=r"^t='now' is not a time"):
+        ac.linearize(system, t="now")  # type: ignore[arg-type]
+    with pytest.raises(ac.DataError, match=r"^outputs: 3 is not a name"):
+        ac.linearize(system, outputs=3)  # type: ignore[arg-type]

@@ -72,6 +72,34 @@ def test_temperatures_have_an_offset():
         (lambda: ac.Data(TIME, {"x": 1j * TIME}), "'x' holds complex128; real numbers are needed."),
         (lambda: ac.Data(TIME, {"x": None}), "'x' holds None; real numbers are needed."),
         (
+            lambda: ac.Data(TIME, {"x": TIME}, "m"),
+            "units='m' has no names; give a unit by name: {'mass.s': 'm'}.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}, {"x": 3}),
+            "units: 'x' has 3; give a text such as 'N/m'.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}, interpolation=3),
+            "interpolation=3; choose one of linear, previous, cubic, band-limited, for all or by name.",
+        ),
+        (
+            lambda: ac.Data.from_csv(3.5),
+            "from_csv: 3.5 is no path; give a text such as 'folder/file', or a pathlib.Path.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}).between("a", 1.0),
+            "start='a' is not a time; give seconds, such as 0.0.",
+        ),
+        (
+            lambda: ac.Data(TIME, {"x": TIME}).for_system(plain().model),
+            "for_system needs a compiled model, got <Oscillator>: give ac.compile(model).",
+        ),
+        (
+            lambda: ac.Signal(TIME, TIME)("now"),
+            "A signal has no value at t='now'; give seconds.",
+        ),
+        (
             lambda: ac.Data(1e7 + TIME.astype(np.float32), {"x": TIME}),
             (
                 "The record has a time base that does not increase: 10000000 s at sample 0 is followed by 10000000 s. "
@@ -87,7 +115,7 @@ def test_temperatures_have_an_offset():
         ),
         (
             lambda: ac.Data(TIME, {0: TIME}),
-            "0 is not a name; give a text such as 'mass.s', or a list.",
+            "signals: 0 is not a name; give a text such as 'mass.s', or a list.",
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME}, after_end="stop"),

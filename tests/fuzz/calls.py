@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import math
 import random
@@ -335,7 +336,6 @@ options(
         "none": lambda c: {c.parameter: None},
         "an array": lambda c: {c.parameter: np.ones(3)},
         "complex": lambda c: {c.parameter: 1j},
-        "negative": lambda c: {c.parameter: -1.0},
         "a list": lambda c: [1.0],
         "a number": const(3.0),
         "a network for a number": lambda c: {c.parameter: jnp.tanh},
@@ -353,6 +353,7 @@ options(
         "an integer": lambda c: {c.parameter: 2},
         "true": lambda c: {c.parameter: True},
         "packed": lambda c: c.system.pack(),
+        "negative": lambda c: {c.parameter: -1.0},  # a conductance has no declared range
         "an array of one": lambda c: {c.parameter: np.ones(1)},
     },
     ("parameter", "spring", "brake", "wall", "3"),
@@ -424,6 +425,8 @@ options(
     {
         k: const(v)
         for k, v in {
+            "an array of seven": np.full(7, 1e-6),
+            "in rows": np.full((2, 2), 1e-6),
             "negative": -1e-6,
             "nan": NAN,
             "a text": "fine",
@@ -578,6 +581,44 @@ on_system(
         "the unit of a number": (lambda c, f: c.system.unit(3), True),
         "an unknown parameter": (lambda c, f: c.system.pack({"q": 1.0}), True),
         "a text as key": (lambda c, f: c.system.parameters("seed"), True),
+        "an object as key": (lambda c, f: c.system.parameters(Oddity()), True),
+        "a vector as key": (lambda c, f: c.system.parameters(jnp.ones(2)), True),
+        "many keys": (lambda c, f: c.system.parameters(jax.random.split(jax.random.key(0))), True),
+        "an old key": (lambda c, f: c.system.parameters(jax.random.PRNGKey(0)), False),
+        "a NumPy seed": (lambda c, f: c.system.parameters(np.int64(3)), False),
+        "a huge seed": (lambda c, f: c.system.parameters(10**40), True),
+        "a number as name of a parameter": (lambda c, f: c.system.pack({3: 1.0}), True),
+        "two names and rates": (
+            lambda c, f: c.system.vector_field_and_observe(3, *at(c)),
+            True,
+        ),
+        "rates and an unknown name": (
+            lambda c, f: c.system.vector_field_and_observe(["q"], *at(c)),
+            True,
+        ),
+        "rates and one name": (
+            lambda c, f: c.system.vector_field_and_observe(c.state, *at(c)),
+            False,
+        ),
+        "two times": (
+            lambda c, f: c.system.vector_field([0.0, 1.0], at(c)[1], [0.0], {}),
+            True,
+        ),
+        "a parameter as an array": (
+            lambda c, f: c.system.pack({c.parameter: np.ones(3)}),
+            True,
+        ),
+        "the unit of none": (lambda c, f: c.system.unit(None), True),
+        "the unit of a list": (lambda c, f: c.system.unit([c.state]), True),
+        "explain nothing": (
+            lambda c, f: c.system.explain_nonfinite(c.system.values(*at(c)), 3),
+            True,
+        ),
+        "inputs in rows": (lambda c, f: c.system.input_values([[1.0]]), True),
+        "an input of nan": (
+            lambda c, f: c.system.input_values({c.input: NAN}),
+            False,  # only put in order; nothing is computed
+        ),
         "a fraction as key": (lambda c, f: c.system.parameters(1.5), True),
         "two rows of states": (
             lambda c, f: c.system.vector_field(
@@ -622,6 +663,26 @@ on_system(
             lambda c, f: c.system.initialize({c.parameter: NAN}, steady=True),
             True,
         ),
+        "all by position in a list of texts": (
+            lambda c, f: c.system.initial_state(x0=["a"] * len(c.system.states)),
+            True,
+        ),
+        "all nan": (
+            lambda c, f: c.system.initial_state(x0=np.full(len(c.system.states), NAN)),
+            True,
+        ),
+        "none as time": (lambda c, f: c.system.initial_state(t0=None), True),
+        "two times": (lambda c, f: c.system.initial_state(t0=[0.0, 1.0]), True),
+        "steady none": (lambda c, f: c.system.initial_state(steady=None), True),
+        "steady of an object": (lambda c, f: c.system.initial_state(steady=Oddity()), True),
+        "inputs of a vector": (
+            lambda c, f: c.system.initial_state(u0={c.input: [1.0, 2.0]}),
+            True,
+        ),
+        "a number as start": (lambda c, f: c.system.initialize(x0=3), True),
+        "a set as start": (lambda c, f: c.system.initial_state(x0={c.state}), True),
+        "a number as name of a start": (lambda c, f: c.system.initial_state(x0={3: 1.0}), True),
+        "a number as name of an input": (lambda c, f: c.system.initial_state(u0={3: 1.0}), True),
         "inputs by name": (lambda c, f: c.system.initialize(u0={c.input: 1.0}, steady=True), False),
         "an unknown keyword": (lambda c, f: c.system.initial_state(x=3), True),
         "complex inputs": (lambda c, f: c.system.initial_state(u0=[1j], steady=True), True),
@@ -658,6 +719,13 @@ on_system(
         "plot of nothing": (lambda c, f: result(c).plot("q"), True),
         "np.str_": (lambda c, f: result(c)[np.str_(c.state)], False),
         "in": (lambda c, f: c.state in result(c), False),
+        "to_dict of a number": (lambda c, f: result(c).to_dict(3), True),
+        "to_dataframe of nothing": (lambda c, f: result(c).to_dataframe("q"), True),
+        "to_csv of none": (lambda c, f: result(c).to_csv(None), True),
+        "to_csv to a folder": (lambda c, f: result(c).to_csv(f), True),
+        "to_csv of unknown names": (lambda c, f: result(c).to_csv(f / "r.csv", ["q"]), True),
+        "plot on too many axes": (lambda c, f: result(c).plot(c.state, axes=[1, 2]), True),
+        "plot on a number": (lambda c, f: result(c).plot(c.state, axes=3), True),
         "to_dict of a text": (lambda c, f: result(c).to_dict("q"), True),
         "to_csv of a number": (lambda c, f: result(c).to_csv(3.5), True),
         "plot of a number": (lambda c, f: result(c).plot(3), True),
@@ -718,6 +786,41 @@ on_system(
             True,
         ),
         "a number as name": (lambda c, f: ac.Data(T, {3: T}), False),
+        "between texts": (lambda c, f: c.data.between("a", "b"), True),
+        "between nothing": (lambda c, f: c.data.between(None, None), True),
+        "between nan": (lambda c, f: c.data.between(NAN, 1.0), True),
+        "between exchanged": (lambda c, f: c.data.between(1.0, 0.0), True),
+        "select a number": (lambda c, f: c.data.select(3), True),
+        "select unknown": (lambda c, f: c.data.select("q"), True),
+        "a signal of the record unknown": (lambda c, f: c.data.signal("q"), True),
+        "a signal of the record of a number": (lambda c, f: c.data.signal(3), True),
+        "a record by a number": (lambda c, f: c.data[3], True),
+        "a record in units of no system": (lambda c, f: c.data.for_system(3), True),
+        "a file without time": (
+            lambda c, f: (f.joinpath("a.csv").write_text("a\n1\n"), ac.Data.from_csv(f / "a.csv")),
+            True,
+        ),
+        "a file of binary": (
+            lambda c, f: (
+                f.joinpath("b.csv").write_bytes(bytes(range(256))),
+                ac.Data.from_csv(f / "b.csv"),
+            ),
+            True,
+        ),
+        "a folder as file": (lambda c, f: ac.Data.from_csv(f), True),
+        "units of numbers": (lambda c, f: ac.Data(T, {"a": T}, {"a": 3}), True),
+        "a unit of time of a number": (
+            lambda c, f: ac.Data(T, {"a": T}, {"time": 3, "a": "m"}),
+            True,
+        ),
+        "a choice of a number": (lambda c, f: ac.Data(T, {"a": T}, after_end=3), True),
+        "a choice by a list": (lambda c, f: ac.Data(T, {"a": T}, before_start=["hold"]), True),
+        "rows of times": (lambda c, f: ac.Data(np.ones((2, 2)), {"a": T}), True),
+        "a signal at a text": (lambda c, f: ac.Signal(T, T)("now"), True),
+        "a signal at none": (lambda c, f: ac.Signal(T, T)(None), True),
+        "interpolation of a list": (lambda c, f: ac.Signal(T, T, ["linear"]), True),
+        "extrapolation of a number": (lambda c, f: ac.Signal(T, T, extrapolation=3), True),
+        "before its start a number": (lambda c, f: ac.Signal(T, T, before_start=3), True),
         "a signal of unlike lengths": (lambda c, f: ac.Signal(T, T[:3]), True),
         "a signal of one": (lambda c, f: ac.Signal([0.0], [1.0]), True),
         "a signal of text": (lambda c, f: ac.Signal("a", "b"), True),
@@ -741,6 +844,12 @@ on_system(
     "samples",
     "3.5",
     "uniform",
+    "name",
+    "before_start",
+    "after_end",
+    "start=",
+    "for_system",
+    "t=",
 )
 
 # -- fit ---------------------------------------------------------------------------------------------
@@ -762,9 +871,9 @@ def fitted(
         }
         given |= {name: make(c) for name, make in changed.items()}
         record = data(c) if data else c.data
-        return ac.fit(c.system, record, targets(c) if targets else [c.state], **given).params[
-            c.parameter
-        ]
+        with contextlib.chdir(folder):  # where a checkpoint without a folder is written
+            fit = ac.fit(c.system, record, targets(c) if targets else [c.state], **given)
+        return fit.params[c.parameter]
 
     return call
 
@@ -960,6 +1069,7 @@ for _option, _values in FIT.items():
                     "record",
                     "has no",
                     "parameter",
+                    "spread",
                     "sequence",
                     "network",
                     "solver",
@@ -1068,6 +1178,34 @@ on_system(
             True,
         ),
         "save of a class": (lambda c, f: ac.save(tl.Mass, f / "a.json"), True),
+        "save to a number": (lambda c, f: ac.save(case("thermal").system.model, 3.5), True),
+        "save to a folder": (lambda c, f: ac.save(case("thermal").system.model, f), True),
+        "save with a library of text": (
+            lambda c, f: ac.save(case("thermal").system.model, f / "s.json", "os"),
+            True,
+        ),
+        "libraries of a module": (lambda c, f: ac.load(f / "none.json", tl), True),
+        "load with a budget of text": (
+            lambda c, f: (
+                ac.save(case("thermal").system.model, f / "b.json"),
+                ac.load(f / "b.json", budget="x"),
+            ),
+            True,
+        ),
+        "parameters to a number": (
+            lambda c, f: ac.save_params(c.system.parameters(), 3.5),
+            True,
+        ),
+        "parameters to a folder": (lambda c, f: ac.save_params(c.system.parameters(), f), True),
+        "parameters of a model": (
+            lambda c, f: ac.load_params(f / "none.safetensors", c.system.model),
+            True,
+        ),
+        "a log in a number": (lambda c, f: ac.CsvLog(3.5), True),
+        "a log in a folder": (lambda c, f: ac.CsvLog(f), True),
+        "a TensorBoard in a number": (lambda c, f: ac.TensorBoardLog(3.5), True),
+        "a cache in a number": (lambda c, f: ac.use_compilation_cache(3.5), True),
+        "a cache in no folder": (lambda c, f: ac.use_compilation_cache("/dev/null/x"), True),
         "libraries of text": (lambda c, f: ac.load(f / "none.json", ["os"]), True),
         "libraries of a number": (lambda c, f: ac.load(f / "none.json", 3), True),
         "parameters exchanged": (
@@ -1117,6 +1255,10 @@ on_system(
     "librar",
     "safetensors",
     "params",
+    "Log",
+    "cache",
+    "compiled programs",
+    "budget",
 )
 on_system(
     "analysis",
@@ -1134,9 +1276,44 @@ on_system(
             False,
         ),
         "a response of text": (lambda c, f: ac.linearize(c.system).frequency_response("x"), True),
-        "distill a number": (lambda c, f: ac.distill(3, (0, 1)), True),
-        "distill over nothing": (lambda c, f: ac.distill(jnp.tanh, None), True),
-        "distill backwards": (lambda c, f: ac.distill(jnp.tanh, (1.0, 0.0)), True),
+        "linearize at a text of time": (lambda c, f: ac.linearize(c.system, t="now"), True),
+        "linearize with parameters of a number": (
+            lambda c, f: ac.linearize(c.system, params=3),
+            True,
+        ),
+        "linearize with inputs of text": (lambda c, f: ac.linearize(c.system, u="u"), True),
+        "a response of nan": (lambda c, f: ac.linearize(c.system).frequency_response(NAN), True),
+        "a response of nothing": (lambda c, f: ac.linearize(c.system).frequency_response([]), True),
+        "a response of none": (lambda c, f: ac.linearize(c.system).frequency_response(None), True),
+        "a response in rows": (
+            lambda c, f: ac.linearize(c.system).frequency_response(np.ones((2, 2))),
+            True,
+        ),
+        "distill a number": (lambda c, f: ac.distill(3, 0, 1), True),
+        "distill over nothing": (lambda c, f: ac.distill(jnp.tanh, None, None), True),
+        "distill over texts": (lambda c, f: ac.distill(jnp.tanh, "a", "b"), True),
+        "distill backwards": (lambda c, f: ac.distill(jnp.tanh, 1.0, 0.0), True),
+        "distill to nan": (lambda c, f: ac.distill(jnp.tanh, 0.0, NAN), True),
+        "distill in no terms": (lambda c, f: ac.distill(jnp.tanh, 0, 1, terms=0), True),
+        "distill in text terms": (lambda c, f: ac.distill(jnp.tanh, 0, 1, terms="x"), True),
+        "distill in a fraction of terms": (
+            lambda c, f: ac.distill(jnp.tanh, 0, 1, terms=1.5),
+            True,
+        ),
+        "distill among unknown": (lambda c, f: ac.distill(jnp.tanh, 0, 1, among=["q"]), True),
+        "distill among a number": (lambda c, f: ac.distill(jnp.tanh, 0, 1, among=3), True),
+        "distill to a text": (
+            lambda c, f: ac.distill(jnp.tanh, 0, 1, terms=1, tolerance="x"),
+            True,
+        ),
+        "distill a function of text": (lambda c, f: ac.distill(lambda x: "x", 0, 1), True),
+        "a diagram on text": (lambda c, f: ac.diagram(c.system.model, "axes"), True),
+        "a budget of text": (lambda c, f: ac.compile(c.system.model, budget="x"), True),
+        "a budget of a number": (lambda c, f: ac.compile(c.system.model, budget=3), True),
+        "a budget of nothing": (
+            lambda c, f: ac.compile(c.system.model, budget=ac.Budget(0, 0)),
+            True,
+        ),
         "a diagram of nothing": (lambda c, f: ac.diagram(3), True),
         "compile text": (lambda c, f: ac.compile("x"), True),
         "compile twice": (lambda c, f: ac.compile(c.system), True),
@@ -1155,6 +1332,11 @@ on_system(
     "frequenc",
     "range",
     "operating",
+    "t=",
+    "u=",
+    "params",
+    "budget",
+    "ax=",
 )
 on_system(
     "networks",
@@ -1217,11 +1399,14 @@ on_system(
 ALL = [(kind, what) for kind, entries in CALLS.items() for what in entries]
 
 
+ORDER = random.Random("calls").sample(ALL, len(ALL))
+
+
 def mutant(seed: int, folder: Path) -> Mutant:
-    """The wrong call of a seed; seeds in a row go through all of them, in an order that is mixed once."""
-    order = random.Random("calls").sample(ALL, len(ALL))
-    kind, what = order[seed % len(ALL)]
-    domain = random.Random(f"call {seed}").choice(list(DOMAINS))
+    """The wrong call of a seed; seeds in a row go through all of them, and then again on another model."""
+    again, place = divmod(seed, len(ALL))
+    kind, what = ORDER[place]
+    domain = list(DOMAINS)[(place + again) % len(DOMAINS)]
     call, certain, places = CALLS[kind][what]
     c = case(domain)
     return Mutant(

@@ -321,7 +321,10 @@ def test_inputs_at_the_start_by_name_or_in_order(hanging_system, u0):
     [
         ({"f.F": 1.0}, r"^u0: 'f\.F' is not an input; did you mean 'f\.f'\?$"),
         ([1.0, 2.0], r"^u0 has shape \(2,\); the model has the inputs \(f\.f\)$"),
-        ({"f.f": "much"}, r"^u0=\['much'\]: inputs are numbers at one time\.$"),
+        (
+            {"f.f": "much"},
+            r"^u0=\{'f.f': 'much'\} are not inputs at one time; give real numbers\.$",
+        ),
         ({"f.f": [1.0, 2.0]}, r"^u0 has shape \(1, 2\)"),
     ],
 )
@@ -329,6 +332,32 @@ def test_inputs_that_do_not_fit_are_told(hanging_system, u0, told):
     for find in (hanging_system.initialize, hanging_system.initial_state):
         with pytest.raises(ac.DataError, match=told):
             find(u0=u0, steady=True)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"t0": "now"}, "^t0='now' is not a time; give seconds"),
+        ({"t0": np.nan}, "^t0=nan is not a time"),
+        ({"steady": 3}, "^steady: 3 is not a name"),
+        ({"x0": 3}, "^x0=3 has no names|^x0 has shape"),
+        ({"x0": {3: 1.0}}, "^x0: 3 is not a name"),
+        ({"x0": {"m.v": "fast"}}, "^x0: 'm.v' is 'fast'; give a real number that is finite"),
+        ({"x0": {"m.v": np.ones(3)}}, "^x0: 'm.v' is array"),
+        ({"x0": {"m.v": np.nan}}, "^x0: 'm.v' is nan"),
+        ({"x0": {"m.v": 1j}}, "^x0: 'm.v' is 1j"),
+        ({"params": {"m.m": "heavy"}}, "^params: 'm.m' must be numbers, got 'heavy'"),
+    ],
+)
+def test_what_is_no_start_is_told(hanging_system, given, told):
+    for find in (hanging_system.initialize, hanging_system.initial_state):
+        with pytest.raises(ac.DataError, match=told):
+            find(**given)
+
+
+def test_a_whole_state_that_is_not_finite_is_told(hanging_system):
+    with pytest.raises(ac.DataError, match=r"^x0: 'm.v' is nan; give finite numbers"):
+        hanging_system.initial_state(x0=[0.0, np.nan])
 
 
 def test_some_states_at_rest(hanging_system):

@@ -733,6 +733,14 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
         ac.save({}, tmp_path / "model.json")  # type: ignore[arg-type]
     with pytest.raises(ac.ModelError, match=r"libraries=\[...\] lists modules, got 'blocks'"):
         ac.load(tmp_path / "model.json", libraries=["blocks"])  # type: ignore[list-item]
+    with pytest.raises(ac.ModelError, match=r"libraries=\[...\] lists modules, got 3"):
+        ac.load(tmp_path / "model.json", libraries=3)  # type: ignore[arg-type]
+    with pytest.raises(ac.ModelError, match=r"^load: None is no path; give a text such as"):
+        ac.load(None)  # type: ignore[arg-type]
+    with pytest.raises(ac.ModelError, match=r"^save: 3.5 is no path; give a text such as"):
+        ac.save(qvm.linear(), 3.5)  # type: ignore[arg-type]
+    with pytest.raises(ac.ModelError, match=r"^budget='x' is no budget; give ac.Budget"):
+        ac.load(tmp_path / "model.json", budget="x")  # type: ignore[arg-type]
 
 
 def test_what_cannot_be_written(file: Path) -> None:

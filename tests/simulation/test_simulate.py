@@ -193,6 +193,24 @@ def test_saving_less():
     np.testing.assert_allclose(some["push.f"], np.sin([0, 0.25, 1]))
 
 
+@pytest.mark.parametrize(
+    ("write", "sentence"),
+    [
+        (lambda sol, folder: sol.to_csv(3.5), "to_csv: 3.5 is no path; give a text such as"),
+        (
+            lambda sol, folder: sol.to_csv(folder / "none" / "x.csv", ["mass.s"]),
+            r"'.*x\.csv' cannot be written: No such file or directory\.",
+        ),
+        (lambda sol, folder: sol.plot("mass.s", axes=["a"]), "axes='a' is no axes; give one of mat"),
+        (lambda sol, folder: sol.plot("mass.s", axes=[]), "axes: there are 0; give one for each unit: 'm'"),
+    ],
+)  # fmt: skip
+def test_where_nothing_can_be_written_or_drawn(write, sentence, tmp_path):
+    sol = ac.simulate(plain(), (0, 0.3), dt=0.1, solver="heun", inputs=NO_FORCE)
+    with pytest.raises(ac.DataError, match=f"^{sentence}"):
+        write(sol, tmp_path)
+
+
 def test_a_plot_has_units():
     pyplot = pytest.importorskip("matplotlib.pyplot")
     sol = ac.simulate(plain(), (0, 1), dt=0.01, inputs=NO_FORCE, x0=AT_ONE)
@@ -415,9 +433,35 @@ def test_a_second_call_does_not_compile():
             "saveat='often' are not times; give seconds.",
         ),
         (
-            {"inputs": NO_FORCE, "x0": {"mass.s": np.nan}},
+            {"inputs": NO_FORCE, "adjoint": "reverse"},
+            ac.DataError,
+            (
+                "adjoint='reverse' is no way to differentiate; leave it out, or give one of diffrax's, such as "
+                "diffrax.DirectAdjoint()."
+            ),
+        ),
+        (
+            {"inputs": {"push.f": lambda: 1.0}},
+            ac.DataError,
+            (
+                "Input 'push.f' is a function that cannot be called with the time alone (<lambda>() takes 0 positional "
+                "arguments but 1 was given); give one of a single argument: lambda t: ..."
+            ),
+        ),
+        (
+            {"inputs": {"push.f": lambda t: np.nan * t}},
             ac.SimulationError,
-            "The initial value of 'mass.s' is nan.",
+            "At the start, the input 'push.f' is nan.",
+        ),
+        (
+            {"inputs": {3: 1.0}},
+            ac.DataError,
+            "inputs: 3 is not a name; give a text such as 'mass.s', or a list.",
+        ),
+        (
+            {"inputs": NO_FORCE, "x0": {"mass.s": np.nan}},
+            ac.DataError,
+            "x0: 'mass.s' is nan; give a real number that is finite.",
         ),
     ],
 )
@@ -431,15 +475,17 @@ def test_steps_that_no_memory_holds():
     sentence = r"^dt=1e-12 s makes 1e\+12 steps from 0 to 1 s, which need 50.9 TiB of memory where there are"
     with pytest.raises(ac.DataError, match=sentence):
         ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=1e-12)
+    with pytest.raises(ac.DataError, match=r"^dt=4.94066e-324 s makes inf steps"):
+        ac.simulate(plain(), (0, 1), inputs=NO_FORCE, dt=5e-324)
 
 
-@pytest.mark.parametrize("t", [(1, 1), (0, np.nan), 3, (0,), None, ("a", "b")])
+@pytest.mark.parametrize("t", [(1, 1), (0, np.nan), 3, (0,), None, ("a", "b"), np.zeros((2, 2))])
 def test_what_is_no_span(t):
     with pytest.raises(ac.DataError, match=r"^t=.* is not a span of time"):
         ac.simulate(plain(), t, inputs=NO_FORCE)
 
 
-@pytest.mark.parametrize("given", [-1, np.nan, np.inf, "fine", None, [1e-6, -1e-6]])
+@pytest.mark.parametrize("given", [-1, np.nan, np.inf, "fine", None, [1e-6, -1e-6], np.ones(7)])
 @pytest.mark.parametrize("name", ["rtol", "atol"])
 def test_what_is_no_tolerance(name, given):
     with pytest.raises(ac.DataError, match=rf"^{name}=.* is not a tolerance; give a positive"):

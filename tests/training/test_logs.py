@@ -71,6 +71,9 @@ def test_other_files_are_not_overwritten(tmp_path: Path):
     assert path.read_text() == "time,x\n0,1\n"
     with pytest.raises(ac.TrainingError, match=r"cannot be written: Is a directory\."):
         ac.CsvLog(tmp_path)
+    for log in (ac.CsvLog, ac.TensorBoardLog):
+        with pytest.raises(ac.DataError, match=rf"^{log.__name__}: 3.5 is no path"):
+            log(3.5)  # type: ignore[arg-type]
 
 
 def test_a_csv_file_that_cannot_grow_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -11,7 +11,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import is_real
 from acausal.data import Data
-from acausal.errors import DataError, listing, nearest
+from acausal.errors import DataError, listing, nearest, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -38,7 +38,7 @@ def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " 
                 f"x0: '{name}' is not a state of the model: {nearest(name, system.states)}"
             )
         if not is_real(value) or not np.isfinite(value).all():
-            raise DataError(f"x0: '{name}' is {value!r}; give a finite number.")
+            raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
     unknown = [n for n in system.states if n not in data.signals and n not in given]
     if unknown:
         raise DataError(

@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.by_name import names_in
-from acausal.errors import TrainingError, nearest
+from acausal.errors import TrainingError, nearest, shown
 
 REACHED = 0.99
 """A parameter has reached a limit when it has gone this fraction of the way."""
@@ -251,7 +251,7 @@ def modifiers(
     Raises:
         TrainingError: for a name that is no numeric parameter, or a modifier that does not fit its value.
     """
-    names = () if given is None else names_in(given)
+    names = () if given is None else names_in(given, "modifiers")
     by_name = given if isinstance(given, Mapping) else {}
     chosen: dict[str, Any] = {name: by_name.get(name, gamma) for name in names}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
@@ -264,7 +264,7 @@ def modifiers(
         kind = Factor(float(wanted)) if isinstance(wanted, Real) else wanted
         if not hasattr(kind, "refusal"):
             raise TrainingError(
-                f"The modifier of '{name}' is {wanted!r:.80}; give a gamma, ac.Shift(...) or ac.Bounded(...)."
+                f"The modifier of '{name}' is {shown(wanted)}; give a gamma, ac.Shift(...) or ac.Bounded(...)."
             )
         refusal = kind.refusal(float(params[name]))
         if refusal is not None:

@@ -17,7 +17,7 @@ from jax.experimental import multihost_utils
 from jax.sharding import Mesh, NamedSharding, PartitionSpec
 from jaxtyping import Array, Float, PyTree, Shaped
 
-from acausal.errors import TrainingError
+from acausal.errors import TrainingError, shown
 
 Tree = TypeVar("Tree")
 Same = TypeVar("Same")
@@ -39,7 +39,7 @@ def device_mesh(devices: Sequence[Device] | None, batch_size: int) -> Mesh | Non
         return None
     if isinstance(devices, str) or not all(hasattr(d, "platform") for d in devices):
         raise TrainingError(
-            f"devices={devices!r:.60} are not JAX devices; give some of jax.devices()."
+            f"devices={shown(devices)} are not JAX devices; give some of jax.devices()."
         )
     if not len(devices) or batch_size % len(devices):
         raise TrainingError(
