@@ -62,6 +62,11 @@ def shortened(text: object, limit: int = 80) -> str:
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
+def one_line(value: object, limit: int = 80) -> str:
+    """How Python writes a wrong value, for a message: matrices, too, in one line of at most `limit` characters."""
+    return shortened(" ".join(repr(value).split()), limit)
+
+
 def listing(names: Iterable[object], limit: int = 12) -> str:
     """Join names for a message: quoted, at most `limit`, the rest counted."""
     quoted = [f"'{shortened(name)}'" for name in names]

@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, one_line
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, tiled
 from acausal.modeling import STATE_SELECT, Component, Start, Variable
@@ -159,8 +159,12 @@ def _indices(form: Form, name: str) -> Iterator[int]:
 
 
 def _element(value: Any, path: str, name: str) -> Any:
-    if path == name or not isinstance(value, list | tuple | np.ndarray):
+    if not isinstance(value, list | tuple | np.ndarray):
         return value
+    if path == name:
+        raise DeclarationError(
+            f"'{name}' is one variable; its start is a number, not {one_line(value)}"
+        )
     element: Any = value
     try:
         for i in path[len(name) + 1 : -1].split(","):

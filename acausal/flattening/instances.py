@@ -26,6 +26,7 @@ from acausal.modeling import (
     Variable,
     charge,
     der,
+    references,
     time,
 )
 
@@ -111,7 +112,6 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
     residual: Any = _without_der(equation.lhs - equation.rhs)
     _check_residual(residual, where)
     names: dict[sp.Basic, sp.Basic] = {}
-    names_of_parts: dict[sp.Basic, sp.Basic] = {}
     orders: dict[sp.Symbol, int] = {}
     variables: dict[sp.Symbol, SlotSource] = {}
     parameters: dict[sp.Symbol, SlotSource] = {}
@@ -126,8 +126,6 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
         local = layout.form(layout.position[id(reference.owner)])
         path = ".".join((*route, reference.path))
         named = names[symbol] = slot(path, order)
-        if route:
-            names_of_parts[reference] = slot(path)
         match reference.declaration:
             case Variable():
                 orders[named] = order
@@ -142,7 +140,7 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
         orders=tuple(orders.values()),
         parameters=tuple(parameters),
         modules=tuple(modules),
-        origin=f"{type(owner).__name__}: {_with_names(equation, names_of_parts)}",
+        origin=f"{type(owner).__name__}: {_with_names(equation, owner)}",
     )
     places = (tuple(p.values()) for p in (variables, parameters, modules))
     return template, _Places(*places)
@@ -162,8 +160,12 @@ def _check_residual(residual: sp.Expr, where: str) -> None:
         )
 
 
-def _with_names(equation: Eq, names: dict[sp.Basic, sp.Basic]) -> Eq:
-    """The equation with dotted names for the variables and parameters of parts."""
+def _with_names(equation: Eq, owner: Component) -> Eq:
+    """The equation with dotted names for the variables and parameters of parts, also where it says nothing (x = x)."""
+    names: dict[sp.Basic, sp.Basic] = {}
+    for reference in {*references(equation.lhs), *references(equation.rhs)}:
+        if route := reference.owner.route_from(owner._node):
+            names[reference] = slot(".".join((*route, reference.path)))
     if not names:
         return equation
     return Eq(equation.lhs.xreplace(names), equation.rhs.xreplace(names))

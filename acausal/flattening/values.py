@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, one_line
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, members_of_forms, tiled
 from acausal.modeling import (
@@ -184,6 +184,11 @@ def module_values(layout: Layout) -> tuple[Callable[..., Any] | int, ...]:
                 value = (
                     int(layout.module_base[owner])
                     + layout.form(owner).module_index[value.symbol.path]
+                )
+            elif not callable(value):
+                raise DeclarationError(
+                    f"{component._node.label}.{name} is {one_line(value)}; "
+                    "a module or a function key -> module is needed"
                 )
             values.append(value)
     return tuple(values)

@@ -133,7 +133,7 @@ def _check_start(where: str, value: Any) -> None:
         ):
             return
         raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
-    if isinstance(value, str | bool) or not _is_finite(value):
+    if isinstance(value, str | bytes | bool) or not _is_finite(value):
         raise DeclarationError(f"{where}: a start is a finite number, got {value!r}")
 
 
@@ -187,7 +187,7 @@ def _number(where: str, declaration: Parameter, value: Any) -> Any:
             )
         return value
     try:
-        number = float("" if isinstance(value, str | bool) else value)
+        number = float("" if isinstance(value, str | bytes | bool) else value)
     except (TypeError, ValueError, OverflowError):
         raise DeclarationError(
             f"{where}={value!r}: a number or an expression of parameters is needed"

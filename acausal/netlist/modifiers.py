@@ -106,7 +106,9 @@ def _variable(scope: Scope, part: Component, key: str, raw: Any, where: str) -> 
     if "=" in attributes:
         _bind(scope, part, key, attributes["="], where)
     rest = {k: v for k, v in attributes.items() if k != "="}
-    start = scope.start(rest, where)
+    start, unit = scope.start(rest, where), part._node.declaration(key).unit
+    if isinstance(rest.get("start"), bool) and unit not in ("", "1"):
+        raise NetlistError(f"{where}.start: a number in {unit} is needed, not a truth value")
     return start if any(k in START_KEYS for k in rest) else None
 
 

@@ -15,9 +15,8 @@ import numpy as np
 from jax import Array
 
 import acausal as ac
-from acausal.simulation import solvers
-from acausal.simulation.fixed_steps import Steps, integrate
-from acausal.simulation.inputs import evaluate_all, functions_of_time, over_steps
+from acausal.simulation import Steps, functions_of_time, integrate, over_steps, solvers
+from acausal.simulation.inputs import evaluate_all
 
 from .models import CASES, Case
 
@@ -135,7 +134,7 @@ def substeps(s: Subject, shift: Array) -> Array:
     """The steps of a training, each of three parts, with outputs that share the first stage."""
     system, end = s.system, s.case.end
     ends = np.linspace(0.0, end, STEPS + 1)
-    functions = functions_of_time(system.inputs, s.case.inputs, ends)
+    functions = functions_of_time(system.inputs, s.case.inputs, (0.0, end), ends)
     packed = system.pack(s.params(shift))
     u = evaluate_all(functions, jnp.zeros(1))[0]
     x = system.initial_state(packed, s.x0(shift), u, 0.0)
@@ -188,7 +187,7 @@ about the tolerance, 1e-10 of it, which a step of 1e-3 makes 1e-7 of the derivat
 smooth at its samples, errors of steps are larger, and so is what is left (1e-5 for a cubic record).
 """
 
-TIGHT = {"rtol": 1e-10, "atol": 1e-12, "max_steps": 4096}
+TIGHT = {"rtol": 1e-12, "atol": 1e-14, "max_steps": 4096}
 PATHS: dict[str, Path] = {
     "rk4": Path(simulated(solver="rk4"), FIXED),
     "rk4 in lanes": Path(simulated(solver="rk4"), FIXED, "lanes", "rk4"),
@@ -207,6 +206,9 @@ PATHS: dict[str, Path] = {
     "adaptive forward": Path(
         simulated(solver="tsit5", adjoint=diffrax.ForwardMode(), **TIGHT), ADAPTIVE, "forward"
     ),
+    "adaptive, forward by the default adjoint": Path(
+        simulated(solver="tsit5", **TIGHT), ADAPTIVE, "forward"
+    ),
     "adaptive, implicit": Path(
         simulated(solver="kvaerno5", adjoint=diffrax.DirectAdjoint(), **TIGHT), ADAPTIVE
     ),
@@ -217,7 +219,12 @@ ALWAYS = ("rk4", "rk4 in lanes")
 IN_TURN = (
     ("rk4 forward", "rk4, stages stored", "heun with substeps"),
     ("implicit Euler", "kvaerno3 forward"),
-    ("adaptive", "adaptive forward", "adaptive, implicit"),
+    (
+        "adaptive",
+        "adaptive forward",
+        "adaptive, forward by the default adjoint",
+        "adaptive, implicit",
+    ),
 )
 """Every model takes one path of each: all models on all paths would take half an hour to compile."""
 
