@@ -140,7 +140,7 @@ def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
         "state": (str,),
     }
     if not isinstance(value, kinds[attribute]) or isinstance(value, np.complexfloating):
-        raise DeclarationError(f"{where}: {attribute}={value!r:.60} is of the wrong kind")
+        raise DeclarationError(f"{where}: {attribute}={one_line(value)} is of the wrong kind")
     return value
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 from sympy.concrete.expr_with_limits import ExprWithLimits
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, one_line
 from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.layout import Layout, members_of_forms
 from acausal.flattening.template import Integers, Template, slot
@@ -82,7 +82,9 @@ def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances
             charge("equations", instances, component._node)
             found.append(equation)
         return found
-    except (TypeError, ValueError, ArithmeticError) as error:
+    except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        if isinstance(error, AttributeError) and not _is_sympys(error):
+            raise  # an unknown name in the user's own line
         reason, line = str(error).partition("\n")[0], _line(error)
         raise DeclarationError(
             f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
@@ -92,6 +94,11 @@ def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances
         if component._node.label in str(error):
             raise
         raise DeclarationError(f"{component._node.label}{_line(error)}: {error}") from None
+
+
+def _is_sympys(error: Exception) -> bool:
+    """Whether sympy raised an error, which then is about what it was given."""
+    return "sympy" in Path(traceback.extract_tb(error.__traceback__)[-1].filename).parts
 
 
 def _line(error: Exception) -> str:
@@ -106,7 +113,7 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
     """The template of one equation of a component."""
     if not isinstance(equation, Eq):
         raise DeclarationError(
-            f"{owner._node.label}: equations() yields {equation!r}; yield ac.Eq(left, right)"
+            f"{owner._node.label}: equations() yields {one_line(equation)}; yield ac.Eq(left, right)"
         )
     where = f"{type(owner).__name__}: {equation}"
     residual: Any = _without_der(equation.lhs - equation.rhs)
@@ -154,7 +161,7 @@ def _check_residual(residual: sp.Expr, where: str) -> None:
             raise DeclarationError(
                 f"{where}: '{call.func}' cannot be computed; use the functions that acausal exports"
             )
-    for whole in residual.atoms(sp.Derivative, ExprWithLimits):
+    for whole in residual.atoms(sp.Derivative, ExprWithLimits, sp.Dict):
         raise DeclarationError(
             f"{where}: '{whole}' cannot be computed; a derivative in time is ac.der(...)"
         )

@@ -114,9 +114,7 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
         number = float(default)
         low, high = float(_or(declaration.min, -np.inf)), float(_or(declaration.max, np.inf))
     except (TypeError, ValueError, OverflowError):
-        given = (
-            f"its default {default!r:.60}, min={declaration.min!r:.40}, max={declaration.max!r:.40}"
-        )
+        given = f"its default {one_line(default)}, min={declaration.min!r:.40}, max={declaration.max!r:.40}"
         raise DeclarationError(f"{where}: {given}: numbers are needed") from None
     if not (np.isfinite(number) and low <= number <= high):
         raise DeclarationError(

@@ -13,7 +13,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DataError, DeclarationError
+from acausal.errors import DataError, DeclarationError, one_line
 from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.arity import check_inputs
 
@@ -147,7 +147,7 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
     whole = all(isinstance(n, int | np.integer) for n in (in_size, width, depth))
     if not whole or min(in_size, width) < 1 or depth < 0 or max(in_size, width, depth) > LARGEST:
         raise DeclarationError(
-            f"no network has in_size={in_size!r:.40}, width={width!r:.40}, depth={depth!r:.40}; "
+            f"no network has in_size={one_line(in_size)}, width={one_line(width)}, depth={one_line(depth)}; "
             f"give positive whole numbers up to {LARGEST}"
         )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:

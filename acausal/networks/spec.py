@@ -76,7 +76,7 @@ class NetworkSpec:
             value, choices = getattr(self, name), get_args(known)
             if value is not None and value not in choices:
                 raise DeclarationError(
-                    f"{name}={value!r} must be one of {', '.join(map(repr, choices))}"
+                    f"{name}={one_line(value)} must be one of {', '.join(map(repr, choices))}"
                 )
         if not (isinstance(self.secondary, int) and self.secondary >= 0):
             raise DeclarationError(
