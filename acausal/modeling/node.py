@@ -183,7 +183,9 @@ class Node(Generic[C]):
         """One of the sizes; a text names an option or another attribute of the component, but no unknown."""
         declared = self.declaration(size) if isinstance(size, str) else None
         unknown = declared is not None and not isinstance(declared, Option)
-        value = getattr(self.component, size) if isinstance(size, str) and not unknown else size
+        value: Any = size
+        if isinstance(size, str) and not unknown:
+            value = getattr(self.component, size)
         try:
             return operator.index(value)
         except TypeError:
