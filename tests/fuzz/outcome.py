@@ -25,7 +25,7 @@ OWN = (ROOT / "acausal", ROOT / "components")
 """Where the last frame of a traceback lies if acausal raised the error on purpose."""
 
 LIMIT = 30.0
-"""Seconds that a mutant may take; compiling a slow one for JAX takes five on a busy machine."""
+"""Seconds of processor time that a mutant may take; a busy machine does not lengthen them."""
 
 MEMORY = 3 * 2**30
 """Bytes that a mutant may take beyond those that are taken when it starts."""
@@ -89,15 +89,14 @@ def limited() -> Iterator[None]:
     status = Path("/proc/self/status").read_text(encoding="ascii")
     before = resource.getrlimit(resource.RLIMIT_DATA)
     resource.setrlimit(resource.RLIMIT_DATA, (settings("VmData") + MEMORY, before[1]))
-    old = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(
-        signal.ITIMER_REAL, LIMIT, 1.0
-    )  # again: some callbacks swallow what is raised in them
+    old = signal.signal(signal.SIGPROF, stop)
+    # again every second: some callbacks swallow what is raised in them
+    signal.setitimer(signal.ITIMER_PROF, LIMIT, 1.0)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, old)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, old)
         resource.setrlimit(resource.RLIMIT_DATA, before)
 
 
