@@ -65,7 +65,7 @@ def shortened(text: object, limit: int = 80) -> str:
 
 
 def shown(value: object, limit: int = 80) -> str:
-    """A wrong value for a message: as Python writes it, but on one line and not too long."""
+    """A wrong value for a message: as Python writes it, but on one line of at most `limit` characters."""
     return shortened(" ".join(repr(value).split()), limit)
 
 

@@ -37,7 +37,7 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
     for path in dict.fromkeys(path for path, *_ in gradients):
         errors = [(e, name) for p, e, name in gradients if p == path]
         worst, name = max(errors)
-        lines.append(f"{path:<24} {len(errors):>3} models, worst {worst:.1e}: {name}")
+        lines.append(f"{path:<42} {len(errors):>3} models, worst {worst:.1e}: {name}")
     if gradients:
         e, path, name = max((e, p, n) for p, e, n in gradients)
         lines.append(f"{len(gradients)} gradients compared, worst {e:.1e}: {name}, {path}")

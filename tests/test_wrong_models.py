@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 import sympy as sp
@@ -163,6 +164,17 @@ def start_at_a_mass() -> None:
     whole: Any = model(mass=tl.Mass(m=1))
     whole.mass.modify(s=ac.Start(whole.mass.m, fixed=True))
     ac.compile(whole)
+
+
+class Vacuous(ac.Component):
+    """States nothing about a part."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.mass = tl.Mass(m=1.0)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.mass.s, self.mass.s)
 
 
 def declared(declaration: Any) -> None:
@@ -603,10 +615,30 @@ GALLERY: dict[str, Wrong] = {
             "or connect instead",
         ),
     ),
+    "a variable given by itself": (
+        lambda: ac.compile(Vacuous()),
+        ac.StructureError,
+        ("redundant equations: 'Vacuous: mass.s = mass.s'",),
+    ),
     "a list in an equation": (
         lambda: own(lambda s: [ac.Eq(s.x, [1, 2])]),
         ac.DeclarationError,
         ("Equations, line ", " of test_wrong_models.py: an equation's right side is list [1, 2]"),
+    ),
+    "a matrix in an equation": (
+        lambda: own(lambda s: [ac.Eq(sp.Matrix([s.x, 1]), 0)]),
+        ac.DeclarationError,
+        ("an equation's left side is MutableDenseMatrix Matrix([ [x], [1]]); an expression or",),
+    ),
+    "a function of a list": (
+        lambda: own(lambda s: [ac.Eq(ac.der(s.x), ac.floor([s.x]))]),
+        ac.DeclarationError,
+        ("Equations: its equations cannot be read ('list' object", "of test_wrong_models.py"),
+    ),
+    "a function of a dict": (
+        lambda: own(lambda s: [ac.Eq(ac.der(s.x), ac.sign({1: 2}))]),
+        ac.DeclarationError,
+        ("Equations: der(x) = sign({1: 2}): '{1: 2}' cannot be computed",),
     ),
     "a derivative of nothing": (
         lambda: own(lambda s: [ac.Eq(ac.der(None), 1)]),
@@ -663,6 +695,51 @@ GALLERY: dict[str, Wrong] = {
         lambda: declared(ac.Variable(start="q_start")),
         ac.DeclarationError,
         ("Part.q: start='q_start' names nothing in the component",),
+    ),
+    "a start by a variable": (
+        lambda: declared(ac.Variable(start="q")),
+        ac.DeclarationError,
+        ("'q' is given by 'q' of Part, which changes with time; only parameters may stand there",),
+    ),
+    "a start of three": (
+        lambda: compiled(part=tl.Mass(m=1.0, s=ac.Start([1.0, 2.0, 3.0]))),
+        ac.DeclarationError,
+        ("'s' is one variable; its start is a number, not [1.0, 2.0, 3.0]",),
+    ),
+    "a shape that is no size": (
+        lambda: declared(ac.Parameter(1.0, shape=1.5)),  # type: ignore[arg-type]
+        ac.DeclarationError,
+        ("Part.q: its size is a whole number, not 1.5",),
+    ),
+    "a shape by itself": (
+        lambda: declared(ac.Parameter(1.0, shape="q")),
+        ac.DeclarationError,
+        ("Part.q: its size is a whole number, not 'q', which is Parameter",),
+    ),
+    "a number as module": (
+        lambda: declared(ac.Module(3)),  # type: ignore[arg-type]
+        ac.DeclarationError,
+        ("Part.q is 3; a module or a function key -> module is needed",),
+    ),
+    "networks in a circle": (
+        lambda: declared(ac.Module("q")),
+        ac.DeclarationError,
+        ("networks are given by each other in a circle: 'q'; give one a module",),
+    ),
+    "bytes": (
+        lambda: tl.Mass(m=b"1"),
+        ac.DeclarationError,
+        ("Mass.m=b'1': a number or an expression of parameters is needed",),
+    ),
+    "a matrix as number": (
+        lambda: tl.Mass(m=jnp.ones((2, 2))),
+        ac.DeclarationError,
+        ("Mass.m=Array([[1., 1.], [1., 1.]]", "a number or an expression of parameters is needed"),
+    ),
+    "limits of text": (
+        lambda: neural.Compliance(limits="wide", extrapolation="linear"),
+        ac.DeclarationError,
+        ("Compliance: limits='wide'; give a number for both sides, or a pair of numbers",),
     ),
     "a huge integer": (
         lambda: tl.Mass(m=10**400),
@@ -938,6 +1015,17 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
     "an initial equation without an equals sign": (
         netlist(initial_equations=["mass.s - 1"]),
         ("initial_equations[0]: 'mass.s - 1': '=' expected, the end found",),
+    ),
+    "a truth value as temperature": (
+        {
+            "components": {
+                "room": {
+                    "class": "Modelica.Thermal.HeatTransfer.Components.HeatCapacitor",
+                    "with": {"C": 1.0, "T": {"start": True}},
+                }
+            }
+        },
+        ("components.room.with.T.start: a number in K is needed, not a truth value",),
     ),
     "an initial equation of nothing": (
         netlist(initial_equations=["mas.s = 1"]),

@@ -70,7 +70,10 @@ def collect(modules: Sequence[Any]) -> ModuleValue:
 
 def _scalar(module: Any) -> Callable[..., Any]:
     def call(*args: Any) -> Any:
-        return jnp.reshape(module(*args), ())
+        value = jnp.reshape(module(*args), ())
+        if jnp.iscomplexobj(value):
+            raise TypeError("its result is complex")
+        return value
 
     return call
 

@@ -210,8 +210,14 @@ def _by_expression(
 def _module_targets(model: FlatModel) -> Integers:
     target: list[int] = []
     for i, value in enumerate(model.module_values):
-        index = i
+        passed = [i]
         while isinstance(value, int):
-            index, value = value, model.module_values[value]
-        target.append(index)
+            if value in passed:
+                raise DeclarationError(
+                    f"networks are given by each other in a circle: {listing(map(model.layout.module, passed))}; "
+                    "give one a module"
+                )
+            passed.append(value)
+            value = model.module_values[value]
+        target.append(passed[-1])
     return np.asarray(target, dtype=np.int64)

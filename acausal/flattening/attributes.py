@@ -9,7 +9,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, tiled
 from acausal.modeling import STATE_SELECT, Component, Start, Variable
@@ -140,7 +140,7 @@ def _attribute(component: Component, variable: Variable, attribute: str) -> Any:
         "state": (str,),
     }
     if not isinstance(value, kinds[attribute]) or isinstance(value, np.complexfloating):
-        raise DeclarationError(f"{where}: {attribute}={value!r:.60} is of the wrong kind")
+        raise DeclarationError(f"{where}: {attribute}={shown(value)} is of the wrong kind")
     return value
 
 
@@ -159,8 +159,12 @@ def _indices(form: Form, name: str) -> Iterator[int]:
 
 
 def _element(value: Any, path: str, name: str) -> Any:
-    if path == name or not isinstance(value, list | tuple | np.ndarray):
+    if not isinstance(value, list | tuple | np.ndarray):
         return value
+    if path == name:
+        raise DeclarationError(
+            f"'{name}' is one variable; its start is a number, not {shown(value)}"
+        )
     element: Any = value
     try:
         for i in path[len(name) + 1 : -1].split(","):

@@ -12,7 +12,7 @@ import sympy as sp
 from acausal.errors import DeclarationError
 from acausal.flattening.layout import Layout
 from acausal.flattening.template import Integers
-from acausal.modeling import Reference, references
+from acausal.modeling import Parameter, Reference, references
 
 ALONE = sp.Symbol("p0", real=True)
 """The symbol in a binding to a single parameter."""
@@ -56,6 +56,11 @@ def bind(layout: Layout, target: int, expression: sp.Expr, name: Callable[[int],
             raise DeclarationError(
                 f"'{name(target)}' refers to '{reference.path}' of {reference.owner.label}, which is not "
                 "part of the model; assign that component to an attribute, or give a number"
+            )
+        if not isinstance(reference.declaration, Parameter):
+            raise DeclarationError(
+                f"'{name(target)}' is given by '{reference.path}' of {reference.owner.label}, which changes with time; "
+                "only parameters may stand there"
             )
         names[reference] = ALONE if alone else sp.Symbol(f"p{len(symbols)}", real=True)
         symbols.append(names[reference])

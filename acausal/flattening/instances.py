@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 from sympy.concrete.expr_with_limits import ExprWithLimits
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.layout import Layout, members_of_forms
 from acausal.flattening.template import Integers, Template, slot
@@ -26,6 +26,7 @@ from acausal.modeling import (
     Variable,
     charge,
     der,
+    references,
     time,
 )
 
@@ -81,7 +82,9 @@ def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances
             charge("equations", instances, component._node)
             found.append(equation)
         return found
-    except (TypeError, ValueError, ArithmeticError) as error:
+    except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        if isinstance(error, AttributeError) and not _is_sympys(error):
+            raise  # an unknown name in the user's own line
         reason, line = str(error).partition("\n")[0], _line(error)
         raise DeclarationError(
             f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
@@ -91,6 +94,11 @@ def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances
         if component._node.label in str(error):
             raise
         raise DeclarationError(f"{component._node.label}{_line(error)}: {error}") from None
+
+
+def _is_sympys(error: Exception) -> bool:
+    """Whether sympy raised an error, which then is about what it was given."""
+    return "sympy" in Path(traceback.extract_tb(error.__traceback__)[-1].filename).parts
 
 
 def _line(error: Exception) -> str:
@@ -105,13 +113,12 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
     """The template of one equation of a component."""
     if not isinstance(equation, Eq):
         raise DeclarationError(
-            f"{owner._node.label}: equations() yields {equation!r}; yield ac.Eq(left, right)"
+            f"{owner._node.label}: equations() yields {shown(equation)}; yield ac.Eq(left, right)"
         )
     where = f"{type(owner).__name__}: {equation}"
     residual: Any = _without_der(equation.lhs - equation.rhs)
     _check_residual(residual, where)
     names: dict[sp.Basic, sp.Basic] = {}
-    names_of_parts: dict[sp.Basic, sp.Basic] = {}
     orders: dict[sp.Symbol, int] = {}
     variables: dict[sp.Symbol, SlotSource] = {}
     parameters: dict[sp.Symbol, SlotSource] = {}
@@ -126,8 +133,6 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
         local = layout.form(layout.position[id(reference.owner)])
         path = ".".join((*route, reference.path))
         named = names[symbol] = slot(path, order)
-        if route:
-            names_of_parts[reference] = slot(path)
         match reference.declaration:
             case Variable():
                 orders[named] = order
@@ -142,7 +147,7 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
         orders=tuple(orders.values()),
         parameters=tuple(parameters),
         modules=tuple(modules),
-        origin=f"{type(owner).__name__}: {_with_names(equation, names_of_parts)}",
+        origin=f"{type(owner).__name__}: {_with_names(equation, owner)}",
     )
     places = (tuple(p.values()) for p in (variables, parameters, modules))
     return template, _Places(*places)
@@ -156,14 +161,18 @@ def _check_residual(residual: sp.Expr, where: str) -> None:
             raise DeclarationError(
                 f"{where}: '{call.func}' cannot be computed; use the functions that acausal exports"
             )
-    for whole in residual.atoms(sp.Derivative, ExprWithLimits):
+    for whole in residual.atoms(sp.Derivative, ExprWithLimits, sp.Dict):
         raise DeclarationError(
             f"{where}: '{whole}' cannot be computed; a derivative in time is ac.der(...)"
         )
 
 
-def _with_names(equation: Eq, names: dict[sp.Basic, sp.Basic]) -> Eq:
-    """The equation with dotted names for the variables and parameters of parts."""
+def _with_names(equation: Eq, owner: Component) -> Eq:
+    """The equation with dotted names for the variables and parameters of parts, also where it says nothing (x = x)."""
+    names: dict[sp.Basic, sp.Basic] = {}
+    for reference in {*references(equation.lhs), *references(equation.rhs)}:
+        if route := reference.owner.route_from(owner._node):
+            names[reference] = slot(".".join((*route, reference.path)))
     if not names:
         return equation
     return Eq(equation.lhs.xreplace(names), equation.rhs.xreplace(names))

@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, members_of_forms, tiled
 from acausal.modeling import (
@@ -114,9 +114,7 @@ def _default(form: Form, path: str, declaration: Parameter) -> float:
         number = float(default)
         low, high = float(_or(declaration.min, -np.inf)), float(_or(declaration.max, np.inf))
     except (TypeError, ValueError, OverflowError):
-        given = (
-            f"its default {default!r:.60}, min={declaration.min!r:.40}, max={declaration.max!r:.40}"
-        )
+        given = f"its default {shown(default)}, min={declaration.min!r:.40}, max={declaration.max!r:.40}"
         raise DeclarationError(f"{where}: {given}: numbers are needed") from None
     if not (np.isfinite(number) and low <= number <= high):
         raise DeclarationError(
@@ -184,6 +182,11 @@ def module_values(layout: Layout) -> tuple[Callable[..., Any] | int, ...]:
                 value = (
                     int(layout.module_base[owner])
                     + layout.form(owner).module_index[value.symbol.path]
+                )
+            elif not callable(value):
+                raise DeclarationError(
+                    f"{component._node.label}.{name} is {shown(value)}; "
+                    "a module or a function key -> module is needed"
                 )
             values.append(value)
     return tuple(values)

@@ -269,15 +269,19 @@ class Initializer(LeavesCaches):
         wrong = np.flatnonzero(~(np.abs(rest) < LEFT_OVER))
         if not len(wrong):
             return
+        names = self.conditions.names(plan.starts, plan.resting)
         if not np.isfinite(rest).all():
             start = found._replace(x=self.conditions.starts(found.packed))
             program = self.conditions.program
             reason = explain_nonfinite(program, start, self.reduced.name, program.all_nodes)
+            without = listing([names[i] for i in np.flatnonzero(~np.isfinite(rest))])
             raise InitializationError(
                 "no initial values were found: the model's equations have no finite values at its starts. "
-                + (reason or "Give start values nearer to the solution (ac.Start).")
+                + (
+                    reason
+                    or f"Without one: {without}. Give start values nearer to the solution (ac.Start)."
+                )
             )
-        names = self.conditions.names(plan.starts, plan.resting)
         off = [f"{names[i]} by {abs(rest[i]):.3g}" for i in wrong]
         moved = [self.names[i] for i in plan.moved]
         held = self._held(plan, found, wrong)

@@ -9,7 +9,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field, fields
 from typing import Any, cast
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,7 @@ class Budget:
             value = getattr(self, limit.name)
             if isinstance(value, bool) or not isinstance(value, int | float) or not value > 0:
                 raise DeclarationError(
-                    f"Budget({limit.name}={value!r}): a limit is a positive number"
+                    f"Budget({limit.name}={shown(value)}): a limit is a positive number"
                 )
 
 

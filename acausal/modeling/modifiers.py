@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError, nearest
+from acausal.errors import DeclarationError, nearest, shown
 from acausal.modeling.budget import check_nested, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import (
@@ -49,18 +49,18 @@ def record_modifier(
         case Option():
             if declared.choices is not None and value not in declared.choices:
                 choices = ", ".join(map(repr, declared.choices))
-                raise DeclarationError(f"{where}={value!r} must be one of {choices}")
+                raise DeclarationError(f"{where}={shown(value)} must be one of {choices}")
             if isinstance(declared.default, bool) and not isinstance(value, bool):
-                raise DeclarationError(f"{where}={value!r}: True or False is needed")
+                raise DeclarationError(f"{where}={shown(value)}: True or False is needed")
             if _is_whole(declared.default) and not _is_whole(value):
-                raise DeclarationError(f"{where}={value!r:.60}: a whole number is needed")
+                raise DeclarationError(f"{where}={shown(value)}: a whole number is needed")
             node.options[name] = value
         case Variable():
             _merge_start(node, name, start_of(where, value))
         case Module():
             if not callable(value) and not isinstance(value, ModuleReference):
                 raise DeclarationError(
-                    f"{where} needs a module or a function key -> module, got {value!r}"
+                    f"{where} needs a module or a function key -> module, got {shown(value)}"
                 )
             node.modifiers[name] = value
         case Parameter() if is_open(value):
@@ -119,7 +119,7 @@ def start_of(where: str, value: Any) -> Start:
             raise DeclarationError(
                 f"{where}: a start has value, fixed, nominal and state"
             ) from None
-    raise DeclarationError(f"{where} is a variable; give its start as ac.Start({value!r})")
+    raise DeclarationError(f"{where} is a variable; give its start as ac.Start({shown(value)})")
 
 
 def _check_start(where: str, value: Any) -> None:
@@ -133,8 +133,8 @@ def _check_start(where: str, value: Any) -> None:
         ):
             return
         raise DeclarationError(f"{where}: only parameters may stand in a start, got {value}")
-    if isinstance(value, str | bool) or not _is_finite(value):
-        raise DeclarationError(f"{where}: a start is a finite number, got {value!r}")
+    if isinstance(value, str | bytes | bool) or not _is_finite(value):
+        raise DeclarationError(f"{where}: a start is a finite number, got {shown(value)}")
 
 
 def _is_finite(value: Any) -> bool:
@@ -187,10 +187,10 @@ def _number(where: str, declaration: Parameter, value: Any) -> Any:
             )
         return value
     try:
-        number = float("" if isinstance(value, str | bool) else value)
+        number = float("" if isinstance(value, str | bytes | bool) else value)
     except (TypeError, ValueError, OverflowError):
         raise DeclarationError(
-            f"{where}={value!r}: a number or an expression of parameters is needed"
+            f"{where}={shown(value)}: a number or an expression of parameters is needed"
         ) from None
     if not math.isfinite(number):
         raise DeclarationError(f"{where}={number}: a finite number is needed")

@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar, cast
 
 import numpy as np
 
-from acausal.errors import DeclarationError, nearest
+from acausal.errors import DeclarationError, nearest, shown
 from acausal.modeling.budget import Budget, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import Declaration, Module, Option, Parameter
@@ -176,9 +177,22 @@ class Node(Generic[C]):
                     f"{self.label}.{name} needs {len(declared_sizes)} dimension(s), got {len(shape)}"
                 )
             return shape
-        return tuple(
-            int(getattr(self.component, n)) if isinstance(n, str) else n for n in declared_sizes
-        )
+        return tuple(self._size(name, n) for n in declared_sizes)
+
+    def _size(self, name: str, size: int | str) -> int:
+        """One of the sizes; a text names an option or another attribute of the component, but no unknown."""
+        declared = self.declaration(size) if isinstance(size, str) else None
+        unknown = declared is not None and not isinstance(declared, Option)
+        value: Any = size
+        if isinstance(size, str) and not unknown:
+            value = getattr(self.component, size)
+        try:
+            return operator.index(value)
+        except TypeError:
+            given = f"'{size}', which is {type(declared).__name__}" if unknown else shown(value)
+            raise DeclarationError(
+                f"{self.label}.{name}: its size is a whole number, not {given}"
+            ) from None
 
 
 def _condition(declared: Declaration | Connector) -> str | None:

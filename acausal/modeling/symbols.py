@@ -13,7 +13,7 @@ from typing import Any, Protocol
 
 import sympy as sp
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 from acausal.modeling.declarations import Declaration, element_names
 
 time = sp.Symbol("time", real=True)
@@ -186,7 +186,7 @@ def _expression(value: Any, where: str) -> sp.Expr:
         number = float(value)
     except (TypeError, ValueError, OverflowError):
         raise DeclarationError(
-            f"{where} is {type(value).__name__} {value!r:.80}; an expression or a number is needed"
+            f"{where} is {type(value).__name__} {shown(value)}; an expression or a number is needed"
         ) from None
     if not math.isfinite(number):
         raise DeclarationError(f"{where} is {number}; a finite number is needed")

@@ -60,7 +60,7 @@ def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Non
         case Connector():
             value = _connector(scope, raw, where)
         case Variable():
-            value = _variable(scope, part, key, raw, where)
+            value = _variable(scope, part, declared, raw, where)
         case Parameter():
             value = _parameter(scope, raw, where)
         case Option():
@@ -100,13 +100,17 @@ def _parameter(scope: Scope, raw: Any, where: str) -> Any:
     return None if given is None else scope.value(given, where)
 
 
-def _variable(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Any:
+def _variable(scope: Scope, part: Component, declared: Variable, raw: Any, where: str) -> Any:
     """The attributes of a variable; a value for it becomes one more equation of the model."""
     attributes = cast(Mapping[str, Any], raw) if isinstance(raw, Mapping) else {"=": raw}
     if "=" in attributes:
-        _bind(scope, part, key, attributes["="], where)
+        _bind(scope, part, declared.name, attributes["="], where)
     rest = {k: v for k, v in attributes.items() if k != "="}
     start = scope.start(rest, where)
+    if isinstance(rest.get("start"), bool) and declared.unit not in ("", "1"):
+        raise NetlistError(
+            f"{where}.start: a number in {declared.unit} is needed, not a truth value"
+        )
     return start if any(k in START_KEYS for k in rest) else None
 
 

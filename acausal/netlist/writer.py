@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import ModelError
+from acausal.errors import ModelError, shown
 from acausal.modeling import (
     Component,
     Connector,
@@ -294,7 +294,7 @@ class Writer:
                     name = library.constant_name(value)
                     if name is not None:
                         return name
-                raise NetlistError(f"{where}: a file cannot hold {value!r:.60}")
+                raise NetlistError(f"{where}: a file cannot hold {shown(value)}")
 
     def _start(self, model: Component, start: Start, where: str) -> dict[str, Any]:
         given = {key: getattr(start, name) for key, name in START_KEYS.items()}

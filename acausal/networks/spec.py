@@ -93,6 +93,11 @@ class NetworkSpec:
                 raise DeclarationError(
                     f"{name}={value} is a derivative of an increasing law; give zero or more"
                 )
+        limits = self.limits if isinstance(self.limits, tuple) else (self.limits,) * 2
+        if self.limits is not None and not (len(limits) == 2 and all(map(_is_number, limits))):
+            raise DeclarationError(
+                f"limits={shown(self.limits)}; give a number for both sides, or a pair of numbers"
+            )
         if self.limits is not None and self.extrapolation is None:
             raise DeclarationError(
                 "limits=... is where extrapolation begins; choose its kind, too, such as extrapolation='linear'"

@@ -211,3 +211,16 @@ def test_modules_with_plain_functions_inside():
     at = jnp.array([0.3, -0.4])
     expected = [float(net(v)) for net, v in zip(nets, at, strict=True)]
     np.testing.assert_allclose(call(value, (0,), at), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("net", "reason"),
+    [
+        (lambda x: 1j * x, "its result is complex"),
+        (lambda x, y: x, "missing 1 required positional argument"),
+        (lambda x: jnp.stack([x, x]), "cannot reshape array of shape"),
+    ],
+)
+def test_what_is_no_network_is_named(net, reason):
+    with pytest.raises(ac.ModelError, match=f"the network 'net' cannot be evaluated .*{reason}"):
+        call(ModuleValue(net), (0,), 3.0)

@@ -438,7 +438,8 @@ def wrong_tree(rng: random.Random, doc: Document) -> Wrong:
         TREES[what](made, name)
         return ac.compile(made)
 
-    return Wrong(make, what, (*names(doc), "compile", "name", "again", "both", "contain"), True)
+    places = (*names(doc), "compile", "name", "again", "both", "contain", "flange_a")
+    return Wrong(make, what, places, True)
 
 
 # -- parameters that depend on each other ------------------------------------------------------------

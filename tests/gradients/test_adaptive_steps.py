@@ -5,10 +5,10 @@ from typing import Any
 import pytest
 
 from .models import CASES
-from .paths import PATHS, check, paths_of
+from .paths import check, paths_of
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_gradients(name: str, record_property: Any) -> None:
-    check(name, [p for p in paths_of(name) if PATHS[p].adaptive], record_property)
+    check(name, paths_of(name, "adaptive"), record_property)

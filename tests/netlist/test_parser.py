@@ -222,10 +222,10 @@ def test_refusals(text: str, reason: str) -> None:
     ],
 )
 def test_nothing_takes_long(text: str) -> None:
-    began = time.perf_counter()
+    began = time.process_time()
     with contextlib.suppress(ExpressionError):
         parse(text, lookup)
-    assert time.perf_counter() - began < 3
+    assert time.process_time() - began < 3
 
 
 # -- writing -----------------------------------------------------------------------------------------
