@@ -7,9 +7,11 @@ transposed system of a gradient is solved with the factors of the system itself.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import jax
@@ -108,8 +110,18 @@ class SparseMatrix:
         return _Memory(order, csc_array((np.zeros(len(order)), rows[order], starts), (n, n)))
 
 
+@cache
+def _thread(process: int) -> ThreadPoolExecutor:
+    """The thread of a process that factorizes; a forked process has its own."""
+    return ThreadPoolExecutor(1, f"factorizations of {process}")
+
+
 class _Memory:
-    """The latest factorization and the entries that it belongs to."""
+    """The latest factorization and the entries that it belongs to.
+
+    JAX calls the host from threads of its own, and SciPy does not free a factorization that another thread drops than
+    the one that has made it. So one thread makes and drops them all.
+    """
 
     def __init__(self, order: Integers, matrix: csc_array) -> None:
         self._order = order
@@ -120,8 +132,14 @@ class _Memory:
         """LU factors of the matrix with these entries, or None if it is singular or not finite."""
         latest = self._latest
         if latest is None or not np.array_equal(latest[0], entries):
-            self._latest = latest = np.array(entries), self._factorize(entries)
+            latest = None  # so that the other thread drops it
+            latest = _thread(os.getpid()).submit(self._replace, np.array(entries)).result()
         return latest[1]
+
+    def _replace(self, entries: np.ndarray) -> tuple[np.ndarray, Any]:
+        self._latest = None
+        self._latest = latest = entries, self._factorize(entries)
+        return latest
 
     def _factorize(self, entries: np.ndarray) -> Any:
         if not np.isfinite(entries).all():

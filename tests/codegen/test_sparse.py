@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -115,3 +118,27 @@ def test_single_precision_stays_single(system):
     found = matrix.solve(entries.astype(jnp.float32), b.astype(jnp.float32))
     assert found.dtype == jnp.float32
     np.testing.assert_allclose(found, dense(entries, b), rtol=1e-4, atol=1e-4)
+
+
+def test_one_thread_makes_and_drops_all_factorizations(system, monkeypatch):
+    """SciPy does not free those that another thread drops than the one that has made them."""
+    made, dropped = [], []
+
+    class Noted:
+        def __init__(self, *args, **options):
+            made.append(threading.get_ident())
+            self.solve = scipy.sparse.linalg.splu(*args, **options).solve
+
+        def __del__(self):
+            dropped.append(threading.get_ident())
+
+    monkeypatch.setattr(sparse, "splu", Noted)
+    _, entries, b, dense = system
+    matrix = SparseMatrix(system[0].pattern)
+    run = jax.jit(matrix.solve)
+    for scale in (1.0, 2.0, 3.0):
+        with ThreadPoolExecutor(1) as other:
+            close(other.submit(run, scale * entries, b).result(), dense(scale * entries, b))
+    assert len(made) == 3
+    assert len(dropped) == 2
+    assert set(made) == set(dropped)
