@@ -96,46 +96,40 @@ def simulate_adaptive(
     solver = solvers.for_adaptive_steps(solver)
     jump_times = jnp.asarray(jumps(run.inputs, run.begin, run.end))
     run, t, jump_times = cast((run, jnp.asarray(saved), jump_times), dtype)
-    solved = _solve(run, t, solver, rtol, atol, jump_times, max_steps, adjoint)
+    solved = _solve(_Task(run, t, solver, rtol, atol, jump_times, max_steps), adjoint)
     if not traced(solved.x, solved.reached):
         _check(run, saved, solved, max_steps, solver)
     u = evaluate_all(run.inputs, t)
     return Solution(run.start._replace(t=t, x=solved.x, u=u), run.system)
 
 
+class _Task(NamedTuple):
+    """What is asked of diffrax, whatever the way in which it is differentiated."""
+
+    run: Run
+    ts: Float[Array, " n"]
+    solver: solvers.Solver
+    rtol: Tolerance
+    atol: Tolerance
+    jump_times: Float[Array, " n_jumps"]
+    max_steps: int
+
+
 @eqx.filter_jit
-def _solve(
-    run: Run,
-    ts: Float[Array, " n"],
-    solver: solvers.Solver,
-    rtol: Tolerance,
-    atol: Tolerance,
-    jump_times: Float[Array, " n_jumps"],
-    max_steps: int,
-    adjoint: dfx.AbstractAdjoint | None,
-) -> Solved:
-    arrays, rest = eqx.partition((run, ts, rtol, atol, jump_times), eqx.is_array)
+def _solve(task: _Task, adjoint: dfx.AbstractAdjoint | None) -> Solved:
+    if adjoint is not None:
+        return _diffeqsolve(task, adjoint)
+    arrays, rest = eqx.partition(task, eqx.is_array)
 
     def solve(arrays: PyTree, adjoint: dfx.AbstractAdjoint) -> Solved:
-        run, ts, rtol, atol, jump_times = eqx.combine(arrays, rest)
-        return _diffeqsolve(run, ts, solver, rtol, atol, jump_times, max_steps, adjoint)
+        return _diffeqsolve(eqx.combine(arrays, rest), adjoint)
 
-    if adjoint is not None:
-        return solve(arrays, adjoint)
     reverse, forward = dfx.RecursiveCheckpointAdjoint(), dfx.ForwardMode()
     return two_modes(partial(solve, adjoint=reverse), partial(solve, adjoint=forward))(arrays)
 
 
-def _diffeqsolve(
-    run: Run,
-    ts: Float[Array, " n"],
-    solver: solvers.Solver,
-    rtol: Tolerance,
-    atol: Tolerance,
-    jump_times: Float[Array, " n_jumps"],
-    max_steps: int,
-    adjoint: dfx.AbstractAdjoint,
-) -> Solved:
+def _diffeqsolve(task: _Task, adjoint: dfx.AbstractAdjoint) -> Solved:
+    run, ts, solver, rtol, atol, jump_times, max_steps = task
     constant = run.start._replace(t=None, x=None, u=None)
     arrays, rest = eqx.partition((constant, run.inputs), eqx.is_array)
 
