@@ -4,9 +4,12 @@ Every message says what is wrong, where (dotted names, at most a dozen), and how
 """
 
 import os
+import sys
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
+
+LIBRARY = str(Path(__file__).parent)
 
 
 class AcausalError(Exception):
@@ -112,3 +115,11 @@ def need_path(given: object, function: str, error: type[AcausalError] = DataErro
             f"{function}: {shown(given)} is no path; give a text such as 'folder/file', or a pathlib.Path."
         )
     return Path(given)
+
+
+def user_level() -> int:
+    """How far up the first caller outside the library is, for `warnings.warn` in the function that asks."""
+    frame, level = sys._getframe(2), 2
+    while frame is not None and frame.f_code.co_filename.startswith(LIBRARY):
+        frame, level = frame.f_back, level + 1
+    return level

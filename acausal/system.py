@@ -63,8 +63,6 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
-    if not isinstance(budget, Budget | None):
-        raise ModelError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
     need_double_precision()
     flat = flatten(model, budget)
     if check_units:

@@ -31,8 +31,8 @@ def precision(dtype: DTypeLike) -> np.dtype[np.floating[Any]]:
     except TypeError:
         chosen = None
     if chosen is None or chosen.name not in PRECISIONS:
-        shown = repr(dtype) if chosen is None else chosen.name
-        raise DataError(f"dtype={shown}: models compute in {' or '.join(PRECISIONS)}.")
+        name = shown(dtype) if chosen is None else chosen.name
+        raise DataError(f"dtype={name}: models compute in {' or '.join(PRECISIONS)}.")
     return chosen
 
 

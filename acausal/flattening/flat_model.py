@@ -80,7 +80,8 @@ def flatten(model: Component, budget: Budget | None = None) -> FlatModel:
             or more than the budget allows.
         ConnectionError: for connections that cannot be made.
     """
-    with spending(budget or model._node.budget or PYTHON):
+    own = model._node.budget or PYTHON
+    with spending(own if budget is None else budget):
         return _flat(model)
 
 

@@ -70,7 +70,13 @@ _ACTIVE: ContextVar[_Account | None] = ContextVar("budget", default=None)
 
 @contextmanager
 def spending(budget: Budget) -> Generator[None]:
-    """Charge what is made meanwhile to a budget."""
+    """Charge what is made meanwhile to a budget.
+
+    Raises:
+        DeclarationError: for what is no budget.
+    """
+    if not isinstance(budget, Budget):
+        raise DeclarationError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
     token = _ACTIVE.set(_Account(budget))
     try:
         yield

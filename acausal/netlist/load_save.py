@@ -55,11 +55,9 @@ def load(
             that does not exist, an expression that is malformed, a model that is larger than its budget.
     """
     path, known = need_path(path, "load", ModelError), _libraries(libraries)
-    if not isinstance(budget, Budget | None):
-        raise ModelError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
-    allowed = budget or Budget()
-    document = netlist_file.read(path)
+    allowed = Budget() if budget is None else budget
     with spending(allowed):
+        document = netlist_file.read(path)
         model = within(path.name, lambda: build(document, path.name, known))
         within(path.name, lambda: _check_sizes(model))
     model._node.budget = allowed

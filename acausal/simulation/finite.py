@@ -5,10 +5,8 @@ While JAX traces, values are not known, and nothing can be said; it is said when
 
 from __future__ import annotations
 
-import sys
 import warnings
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import jax.numpy as jnp
@@ -18,12 +16,10 @@ from jaxtyping import Array, Float
 
 from acausal._jax import traced
 from acausal.codegen import Values
+from acausal.errors import user_level
 
 if TYPE_CHECKING:
     from acausal.system import System
-
-LIBRARY = str(Path(__file__).parents[1])
-
 
 AHEAD = (0.0, *np.geomspace(1e-6, 1.0, 7))
 """Where to look for a value that is not finite, as fractions of the time ahead."""
@@ -106,11 +102,3 @@ def _at(values: Values, k: int) -> Values:
 
 def _first_nonfinite(names: tuple[str, ...], row: Float[Array, " n"]) -> str:
     return names[int(np.argmax(~np.isfinite(np.asarray(row))))]
-
-
-def user_level() -> int:
-    """How far up the first caller outside the library is, for `warnings.warn` in the function that asks."""
-    frame, level = sys._getframe(2), 2
-    while frame is not None and frame.f_code.co_filename.startswith(LIBRARY):
-        frame, level = frame.f_back, level + 1
-    return level

@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from acausal._jax import is_real, traced
 from acausal.by_name import names_in
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
-from acausal.errors import DataError, listing, nearest, shortened, shown
+from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -164,7 +164,7 @@ def announce_derivatives(names: tuple[str, ...], given: Mapping[str, Any] | Data
         warnings.warn(
             f"The model differentiates input '{name}': its derivative is that of the record's {kind} "
             f"interpolation, noise included. If it was measured, give 'der({name})', too.",
-            stacklevel=3,
+            stacklevel=user_level(),
         )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.codegen import Values
-from acausal.simulation.finite import user_level
+from acausal.errors import user_level
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
-from acausal.errors import DataError, TrainingError, listing, reason
+from acausal.errors import DataError, TrainingError, listing, reason, user_level
 from acausal.training.history import Rows
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.trainer import State
@@ -170,7 +170,8 @@ class _Keeper:
             if error and not self.warned:
                 self.warned = True
                 warnings.warn(
-                    f"{self._cannot_be_written(error)} The training goes on.", stacklevel=2
+                    f"{self._cannot_be_written(error)} The training goes on.",
+                    stacklevel=user_level(),
                 )
 
     def close(self) -> None:
@@ -182,7 +183,7 @@ class _Keeper:
             warnings.warn(
                 f"{self._cannot_be_written(error)} The training has ended: save its result elsewhere, "
                 "ac.save_params(fit.params, ...).",
-                stacklevel=2,
+                stacklevel=user_level(),
             )
 
     def _write_first(self) -> None:

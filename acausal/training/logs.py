@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from acausal.data import replace_file
-from acausal.errors import DataError, TrainingError, need_path, reason
+from acausal.errors import DataError, TrainingError, need_path, reason, user_level
 from acausal.training.progress import Progress
 
 SCALARS: dict[str, Callable[[Progress], float]] = {
@@ -68,7 +68,7 @@ class CsvLog:
                 warnings.warn(
                     f"Log '{self.path}' cannot be written at epoch {progress.epoch}: "
                     f"{reason(error)}. The training goes on.",
-                    stacklevel=2,
+                    stacklevel=user_level(),
                 )
 
     def _begin(self, epoch: int) -> None:

@@ -19,7 +19,7 @@ from acausal.analysis import in_switches
 from acausal.by_name import names_in
 from acausal.codegen import Values
 from acausal.data import Data
-from acausal.errors import TrainingError, listing, shown
+from acausal.errors import TrainingError, listing, shown, user_level
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
@@ -91,7 +91,7 @@ def train_from_starts(
         trained = train(problem, starts, plan, keys, observers, keep, stored, held)
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in _warnings(own, start, one):
-            warnings.warn(sentence, stacklevel=3)
+            warnings.warn(sentence, stacklevel=user_level())
     return tuple(map(result, problems, trained))
 
 
