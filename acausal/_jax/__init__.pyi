@@ -9,6 +9,6 @@ from .dtypes import (
     precision as precision,
 )
 from .jacobian import value_and_jacobian as value_and_jacobian
-from .scan import stored_scan as stored_scan
+from .scan import Restarts as Restarts, stored_scan as stored_scan
 from .settings import configure as configure, need_double_precision as need_double_precision
 from .tracing import array as array, known as known, traced as traced

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Protocol, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax import lax
 from jax.custom_derivatives import SymbolicZero
-from jaxtyping import Array, PyTree, Shaped
+from jaxtyping import Array, Bool, PyTree, Shaped
 
 from acausal._jax import primitives
 from acausal._jax.batching import batched, is_small, operations
@@ -47,6 +47,22 @@ EXPLODED = 1e15
 """Growth of the adjoint from the results to the first state beyond which none of its digits is right: 1/eps or so."""
 
 
+class Restarts(NamedTuple):
+    """Rows at which another run begins, so that one loop makes many runs of any lengths.
+
+    Attributes:
+        begins: whether one begins at the row.
+        first: its first state; other rows are not read.
+    """
+
+    begins: Bool[Array, " n"]
+    first: Shaped[Array, "n n_states"]
+
+
+FIRST = 1
+"""Where the first states of further runs are among the flat rows."""
+
+
 def stored_scan(
     step: ScanStep,
     constants: PyTree,
@@ -54,6 +70,7 @@ def stored_scan(
     rows: PyTree,
     *,
     direct: bool = False,
+    restarts: Restarts | None = None,
 ) -> tuple[Shaped[Array, "n n_states"], Shaped[Array, " n_states"], PyTree]:
     """Repeat a step for every row, each from the state where the one before ended, as `jax.lax.scan` does.
 
@@ -63,12 +80,22 @@ def stored_scan(
         x0: the first state.
         rows: a pytree of arrays with a leading axis of n rows.
         direct: store what the steps compute, so that forward mode works, too.
+        restarts: rows at which another run begins.
 
     Returns:
         The states before the steps, with a leading axis of n; the state after the last one; the outputs of
         all steps, with a leading axis. All can be differentiated by all arguments. Where steps are repeated and the
         adjoint explodes, as it does when steps are too long for their scheme to be stable, derivatives are NaN.
     """
+    if restarts is not None:
+        begins, first = restarts
+        inner = step
+
+        def restarted(constants: PyTree, x: Array, row: PyTree) -> tuple[Array, PyTree]:
+            (begins, first), row = row
+            return inner(constants, jnp.where(begins, first, x), row)
+
+        step, rows = restarted, ((begins, first), rows)
     row = jax.tree.map(lambda a: jax.ShapeDtypeStruct(a.shape[1:], a.dtype), rows)
     closed, shapes = jax.make_jaxpr(step, return_shape=True)(constants, x0, row)
     shared, by_row = jax.tree.leaves(constants), jax.tree.leaves(rows)
@@ -79,8 +106,12 @@ def stored_scan(
         return evaluate(*constants[captured:], x, *row)
 
     is_repeated = not direct and is_small(closed.jaxpr, in_loop=True)
-    run = partial(_repeating, operations(closed.jaxpr)) if is_repeated else _forward
+    run = _forward
+    if is_repeated:
+        run = partial(_repeating, operations(closed.jaxpr), None if restarts is None else FIRST)
     states, end, *outputs = run(flat, [*closed.consts, *shared], x0, by_row)
+    if restarts is not None:
+        states = jnp.where(restarts.begins[:, None], restarts.first, states)
     return states, end, jax.tree.unflatten(jax.tree.structure(shapes[1]), outputs)
 
 
@@ -99,6 +130,7 @@ class _Saved(eqx.Module):
         sizes: the largest magnitudes of its results: the states', the last state's, the outputs'.
         moved: the constants and rows whose derivatives are needed.
         operations: in a step.
+        first: which of the rows holds first states of further runs, if one does.
     """
 
     constants: list[Array]
@@ -107,6 +139,7 @@ class _Saved(eqx.Module):
     sizes: list[Array]
     moved: tuple[tuple[bool, ...], tuple[bool, ...]] = eqx.field(static=True)
     operations: int = eqx.field(static=True)
+    first: int | None = eqx.field(static=True)
 
 
 def _forward(
@@ -123,7 +156,12 @@ def _forward(
 
 
 def _repeating(
-    size: int, step: FlatStep, constants: list[Array], x0: Array, rows: list[Array]
+    size: int,
+    first: int | None,
+    step: FlatStep,
+    constants: list[Array],
+    x0: Array,
+    rows: list[Array],
 ) -> Sequence[Array]:
     """The same, with a derivative that repeats the steps."""
     n = len(constants)
@@ -143,7 +181,7 @@ def _repeating(
         shared, by_row = [p.value for p in constants], [p.value for p in rows]
         results = run(*shared, x0.value, *by_row)
         sizes = [_size(r) for r in results]
-        return results, _Saved(shared, results[0], by_row, sizes, moved, size)
+        return results, _Saved(shared, results[0], by_row, sizes, moved, size, first)
 
     def back(saved: _Saved, cotangents: list[Array | SymbolicZero]) -> _Cotangents:
         return _back(step, saved, [None if isinstance(c, SymbolicZero) else c for c in cotangents])
@@ -187,15 +225,19 @@ def _back(step: FlatStep, saved: _Saved, cotangents: list[Array | None]) -> _Cot
 
     known = [c for c in cotangents if c is not None]
     found = batched(backward)(*saved.constants, saved.states, *saved.rows, *known)
-    exploded = _exploded(found[0], saved, cotangents)
-    adjoint, *others = (jnp.where(exploded, jnp.nan, c).astype(c.dtype) for c in found)
     count = sum(some_constants)
+    largest = jnp.abs(found[0])
+    if saved.first is not None:
+        by_first = _scatter(some_rows, found[1 + count :])[saved.first]
+        largest = largest if by_first is None else jnp.maximum(largest, jnp.abs(by_first).max(0))
+    exploded = _exploded(largest, saved, cotangents)
+    adjoint, *others = (jnp.where(exploded, jnp.nan, c).astype(c.dtype) for c in found)
     by_constants = _scatter(some_constants, others[:count])
     return by_constants, adjoint, _scatter(some_rows, others[count:])
 
 
 def _exploded(adjoint: Array, saved: _Saved, cotangents: list[Array | None]) -> Array:
-    """Whether the adjoint has grown more than `EXPLODED` times on its way, though the states have not.
+    """Whether the adjoint of first states has grown more than `EXPLODED` times on its way, though states have not.
 
     Both the plain numbers must have grown and those relative to the sizes of states and results: either may mislead, as
     units are arbitrary, and results may be zero. Where the states themselves grow, so does the adjoint: what they have

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -128,6 +128,19 @@ class ParameterLayout(LeavesCaches):
         """How to read some parameters out of ``Packed.values``."""
         position = self.position[parameters]
         return gather(np.zeros_like(position), position, [int(self.position.max(initial=-1)) + 1])
+
+    def depending(self, names: Sequence[str]) -> tuple[int, ...]:
+        """Where some free parameters, and all that are bound to them, lie in ``Packed.values``."""
+        sizes = [len(self.free), *(group.size for group in self.bound)]
+        offsets = np.cumsum([0, *sizes])
+        moved = np.zeros(offsets[-1], dtype=bool)
+        own = self.free[[self.names.index(n) for n in names]] if names else []
+        moved[self.position[own]] = True
+        for group, offset in zip(self.bound, offsets[1:], strict=False):
+            for _, argument in group.arguments:
+                source, index = argument.positions(sizes)
+                moved[offset : offset + group.size] |= moved[offsets[source] + index]
+        return tuple(np.flatnonzero(moved).tolist())
 
     @cached_property
     def name_at(self) -> dict[int, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import equinox as eqx
+import numpy as np
 from jax import Array
 from jax.typing import ArrayLike
 
@@ -19,6 +20,10 @@ class Packed(eqx.Module):
 
     values: Array
     modules: tuple[Any, ...]
+
+    def replaced(self, places: tuple[int, ...], numbers: Array) -> Packed:
+        """The same with other numbers in some places."""
+        return Packed(self.values.at[np.asarray(places)].set(numbers), self.modules)
 
 
 class Values(NamedTuple):

@@ -4,12 +4,20 @@ In: a `System`, inputs, parameters. Out: a `Solution`, any variable of it by nam
 It knows nothing of training; it calls `acausal.reporting` to draw.
 """
 
-from acausal.simulation.fixed_steps import Steps as Steps, integrate as integrate
+from acausal.simulation.fixed_steps import (
+    Integrated as Integrated,
+    Runs as Runs,
+    Steps as Steps,
+    integrate as integrate,
+)
 from acausal.simulation.inputs import (
     announce_derivatives as announce_derivatives,
     functions_of_time as functions_of_time,
 )
-from acausal.simulation.sampled_inputs import Samples as Samples, over_steps as over_steps
+from acausal.simulation.sampled_inputs import (
+    Samples as Samples,
+    polynomials_over_steps as polynomials_over_steps,
+)
 from acausal.simulation.simulate import simulate as simulate
 from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (

@@ -16,7 +16,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import stored_scan
+from acausal._jax import Restarts, stored_scan
 from acausal.codegen import Values
 from acausal.data import deviation_from_line
 from acausal.simulation.inputs import TimeFunction
@@ -105,6 +105,20 @@ class Within(NamedTuple):
         return self.values._replace(t=t, x=x, u=u)
 
 
+class Runs(eqx.Module):
+    """Several runs, one after the other among n steps.
+
+    Attributes:
+        restarts: where they begin, and with which state.
+        own: of the parameters that differ from run to run, their values at every step.
+        places: where these lie in `Packed.values`.
+    """
+
+    restarts: Restarts
+    own: Float[Array, "n n_own"] | None = None
+    places: tuple[int, ...] = eqx.field(static=True, default=())
+
+
 class Integrated(NamedTuple):
     """The result of `integrate`.
 
@@ -128,6 +142,7 @@ def integrate(
     outputs: Sequence[str] = (),
     substeps: int = 1,
     direct: bool = False,
+    runs: Runs | None = None,
 ) -> Integrated:
     """Integrate the model over some steps. Pure: trace, differentiate and map it.
 
@@ -140,6 +155,7 @@ def integrate(
             first stage of an explicit scheme.
         substeps: equal parts that each step is divided into.
         direct: whether derivatives in forward mode must work, too; those in reverse mode then take more memory.
+        runs: where further runs begin among the steps.
 
     Returns:
         States and outputs at the steps' starts, and the state at the end. A step whose equations are not solved
@@ -179,15 +195,21 @@ def integrate(
 
     def step(constants: PyTree, x: State, row: PyTree) -> tuple[State, Array | None]:
         values, functions, equal = eqx.combine(constants, fixed)
-        t, own, start, end, coefficients = row
-        length = equal if own is None else own
+        t, h, start, end, coefficients, own = row
+        length = equal if h is None else h
+        if own is not None:
+            values = values._replace(packed=values.packed.replaced(places, own))
         within = Within(values, functions, Step(t, length, start, end, coefficients))
         first_stage, y = observe(x, within)
         return whole(x, within, first_stage), y
 
-    own, samples = None if equal is not None else steps.h, steps.inputs
-    rows = (steps.t, own, samples.start, samples.end, samples.coefficients)
-    xs, end, ys = stored_scan(step, constants, start.x, rows, direct=direct)
+    samples = steps.inputs
+    h = None if equal is not None else steps.h
+    restarts, own, places = (
+        (None, None, ()) if runs is None else (runs.restarts, runs.own, runs.places)
+    )
+    rows = (steps.t, h, samples.start, samples.end, samples.coefficients, own)
+    xs, end, ys = stored_scan(step, constants, start.x, rows, direct=direct, restarts=restarts)
     return Integrated(xs, ys, end)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, TypeAlias
 
 import equinox as eqx
@@ -13,7 +14,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import traced
 from acausal.data import FRACTIONS, Signal, polynomial_coefficients
-from acausal.simulation.inputs import Constant, TimeFunction
+from acausal.simulation.inputs import Constant, TimeFunction, evaluate_all
 from acausal.simulation.step_grid import ON_GRID
 
 Ends: TypeAlias = Float[np.ndarray, " n_ends"]
@@ -55,12 +56,30 @@ def over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
     nothing = jnp.zeros(len(ends) - 1)
     columns = [_Sampled(nothing, nothing) if c is None else c for c in sampled]
     left = tuple(f if c is None else None for f, c in zip(functions, sampled, strict=True))
+    return _together(columns, left, ends)
+
+
+def polynomials_over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
+    """The inputs over fixed steps, all as samples: one that is no polynomial within a step is replaced by one.
+
+    It passes through the input at both ends of the step and at `FRACTIONS` of it.
+    """
+    sampled = [_on_grid(f, ends) or _through_points(f, ends) for f in functions]
+    return _together(sampled, (), ends)
+
+
+def _together(
+    columns: Sequence[_Sampled], functions: tuple[TimeFunction | None, ...], ends: Ends
+) -> Samples:
     if not columns:
         empty = jnp.zeros((len(ends) - 1, 0))
         return Samples(empty, empty)
     at_starts, at_ends, coefficients = zip(*columns, strict=True)
     return Samples(
-        jnp.stack(at_starts, axis=1), jnp.stack(at_ends, axis=1), left, _side_by_side(coefficients)
+        jnp.stack(at_starts, axis=1),
+        jnp.stack(at_ends, axis=1),
+        functions,
+        _side_by_side(coefficients),
     )
 
 
@@ -105,10 +124,24 @@ def _on_grid(function: TimeFunction, ends: Ends) -> _Sampled | None:
 
 def _curved(signal: Signal, ends: Ends) -> _Sampled:
     """A part of a polynomial is a polynomial of the same degree, determined by as many points."""
-    fractions = np.concatenate([[0.0], FRACTIONS, [1.0]])
-    points = ends[:-1, None] + np.diff(ends)[:, None] * fractions
+    points = _points(ends)
     middle = np.broadcast_to((ends[1:] + ends[:-1])[:, None] / 2, points.shape)
-    values = _pieces(signal, middle.ravel(), points.ravel()).reshape(points.shape)
+    return _through(_pieces(signal, middle.ravel(), points.ravel()).reshape(points.shape))
+
+
+def _through_points(function: TimeFunction, ends: Ends) -> _Sampled:
+    """The polynomial through a function's values in every step."""
+    points = _points(ends)
+    return _through(evaluate_all((function,), jnp.asarray(points.ravel())).reshape(points.shape))
+
+
+def _points(ends: Ends) -> Float[np.ndarray, "n n_points"]:
+    """The times in every step that determine a polynomial."""
+    fractions = np.concatenate([[0.0], FRACTIONS, [1.0]])
+    return ends[:-1, None] + np.diff(ends)[:, None] * fractions
+
+
+def _through(values: Float[Array, "n n_points"]) -> _Sampled:
     start, inner, end = values[:, 0], values[:, 1:-1], values[:, -1]
     return _Sampled(start, end, polynomial_coefficients(start, end, inner))
 

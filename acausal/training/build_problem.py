@@ -16,14 +16,16 @@ from acausal.errors import DataError, TrainingError, listing, nearest, shown
 from acausal.networks import networks
 from acausal.simulation import announce_derivatives, for_fixed_steps, solver_named
 from acausal.training.objective.context import context, states_before_training
-from acausal.training.objective.initial_state import first_state
+from acausal.training.objective.initial_state import first_states
+from acausal.training.objective.lay_out import check_step, lay_out
 from acausal.training.objective.losses import named
 from acausal.training.objective.modifiers import modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
 from acausal.training.objective.parameter_spread import parameter_spread
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.record import lay_out, sequences
+from acausal.training.objective.per_record import per_record
 from acausal.training.objective.regularizers import Context, Regularizer, label
+from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
 from acausal.training.options import FitOptions
 
@@ -36,7 +38,7 @@ VARIES = 1e-12
 
 def build_problem(
     system: System,
-    data: Data,
+    data: dict[str, Data],
     targets: tuple[str, ...],
     params: dict[str, Any],
     options: FitOptions,
@@ -45,7 +47,7 @@ def build_problem(
 
     Arguments:
         system: the model.
-        data: a record in the model's units.
+        data: records by name, in the model's units.
         targets: names of the variables to fit.
         params: all parameters where training starts.
         options: how to train.
@@ -63,23 +65,26 @@ def build_problem(
             "Give modifiers=[...] to train parameters."
         )
     _check_targets(system, targets)
-    if len(data) < 2:
-        raise DataError("The record has fewer than two samples.")
-    cut = sequences(data, options.sequence_length, options.batch_size, options.subsample)
-    missing = [n for n in system.states if n not in data.signals]
-    shooting = options.x0 == "fit"
-    if shooting:
-        cut = cut.tile()
-    elif missing and not cut.whole:
-        raise DataError(
-            f"The data lack {listing(missing)}: sequences start from measured states. "
-            "Let the training find where they start (x0='fit'), or train on the whole record "
-            "(sequence_length=None) with x0='model' or x0={...}."
-        )
-    record = lay_out(data, system.inputs, targets, None if missing else system.states)
-    announce_derivatives(system.inputs, data)
     dtype = precision(options.dtype)
-    check_resolution(data.time, dtype, "The record")
+    for name, record in data.items():
+        where = "The record" if len(data) == 1 else f"The record '{name}'"
+        if len(record) < 2:
+            raise DataError(f"{where} has fewer than two samples.")
+        check_resolution(record.time, dtype, where)
+        announce_derivatives(system.inputs, record)
+    check_step(data, options.dt)
+    starts, shooting = first_states(system, data, options.x0)
+    records, substeps = lay_out(data, system.inputs, targets, system.states, options.dt)
+    weights = np.ones(records.count)
+    sequences = cut(
+        records,
+        weights,
+        options.sequence_length,
+        options.batch_size,
+        options.subsample,
+        tiled=shooting,
+        lacking=[n for n in system.states if any(n not in d.signals for d in data.values())],
+    )
     problem = Problem(
         system=system,
         params={
@@ -88,18 +93,19 @@ def build_problem(
         networks=chosen,
         modifiers=changed,
         parameter_spread=parameter_spread(options.parameter_spread, params),
+        per_record=per_record(system, options.per_record, params),
         targets=targets,
-        records=(record,),
-        sequences=cut,
-        x0=None if shooting else first_state(system, data, options.x0),
+        records=records,
+        sequences=sequences,
+        first_states=starts,
         shooting=None,
         loss=named(options.loss),
         regularizers=_labelled(options.penalties),
         context=Context((), {}),
         solver=for_fixed_steps(solver_named(options.solver), dtype),
-        substeps=_substeps(data, options.dt),
+        substeps=substeps,
         dtype=dtype,
-        mesh=device_mesh(options.devices, cut.batch_size),
+        mesh=device_mesh(options.devices, sequences.batch_size),
     )
     _refuse_constant(problem)
     if shooting:
@@ -130,8 +136,8 @@ def _check_targets(system: System, targets: tuple[str, ...]) -> None:
 
 
 def _refuse_constant(problem: Problem) -> None:
-    largest = jnp.abs(problem.measured).max(axis=0)
-    for name, varies in zip(problem.targets, problem.sigma > VARIES * largest, strict=True):
+    largest = jnp.abs(problem.records.y).max(axis=0)
+    for name, varies in zip(problem.targets, problem.records.sigma > VARIES * largest, strict=True):
         if not varies:
             raise DataError(
                 f"Target '{name}' is constant in the data; it gives nothing to learn from."
@@ -147,26 +153,17 @@ def _labelled(regularizers: tuple[Regularizer, ...]) -> dict[str, Regularizer]:
     return labelled
 
 
-def _substeps(data: Data, dt: float | None) -> int:
-    """Steps of the integration from sample to sample."""
-    if dt is None:
-        return 1
-    longest = data.sample_time if data.uniform else float(np.max(np.diff(data.time)))
-    if not (isinstance(dt, float | int | np.number) and np.isfinite(dt) and dt > 0):
-        raise TrainingError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
-    n = max(1, round(longest / dt)) if data.uniform else int(np.ceil(longest / dt - 1e-6))
-    if data.uniform and abs(longest / dt - n) > 1e-6 * n:
-        raise TrainingError(
-            f"dt={dt:g} s does not divide the data's sample time, {longest:g} s: "
-            f"choose {longest / n:g} s, or resample the data."
-        )
-    return n
-
-
-def _shooting_states(problem: Problem, data: Data) -> ShootingStates:
+def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
     """Initial states of all parts: as measured, else on the model's trajectory before training."""
-    passed = np.array(states_before_training(problem))
+    records = problem.records
+    sequences = problem.sequences
+    untrained = replace(problem, first_states=problem.first_states.from_model())
+    passed = np.array(states_before_training(untrained))
     for i, name in enumerate(problem.system.states):
-        if name in data.signals:
-            passed[:, i] = data[name]
-    return shooting_states(passed, problem.sequences.parts, problem.sequences.length)
+        for k, record in enumerate(data.values()):
+            if name in record.signals:
+                measured = record.signals[name]
+                rows = records.rows_of(k)
+                passed[rows, i] = np.where(np.isnan(measured), passed[rows, i], measured)
+    rows = records.first if sequences.whole else sequences.starts
+    return shooting_states(passed, np.asarray(rows), np.asarray(records.of))

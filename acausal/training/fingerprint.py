@@ -25,14 +25,14 @@ import jax.numpy as jnp
 import numpy as np
 import sympy as sp
 
-from acausal.data import named_arrays
+from acausal.data import Data, named_arrays
 from acausal.system import System
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Leg
 
-DERIVED = ("context", "shooting", "mesh")
+DERIVED = ("context", "shooting", "mesh", "first_states")
 """Fields of a problem that follow from the others, or only choose the devices."""
 
 ARGUMENTS = {
@@ -47,7 +47,7 @@ def fingerprint(
     seeds: Sequence[int],
     others: Sequence[Trainable],
     held: HeldOut | None,
-    signals: Mapping[str, np.ndarray],
+    data: Mapping[str, Data],
 ) -> dict[str, str]:
     """A digest of everything that determines the course of trainings, by argument of `acausal.fit`.
 
@@ -57,7 +57,7 @@ def fingerprint(
         seeds: one for each training.
         others: where all but the first training start.
         held: what is held out, if anything is.
-        signals: all signals of the record; the start of trained states may follow from one that is no target.
+        data: all signals of the records; the start of trained states may follow from one that is no target.
     """
     fields = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     named = {ARGUMENTS.get(n, n): field for n, field in fields.items() if n not in DERIVED}
@@ -66,14 +66,14 @@ def fingerprint(
         "targets": (problem.targets, _outputs(problem)),
         "loss": ([leg.trainer.limit for leg in legs], _loss(problem)),
         "regularizers": {n: _regularizer(problem, r) for n, r in problem.regularizers.items()},
-        "data": (problem.records, signals),
+        "data": (problem.records, {n: dict(d.signals) for n, d in data.items()}),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
-        "x0": (problem.x0, problem.shooting is None),
+        "x0": (problem.first_states, problem.shooting is None),
         "strategy": [leg.name for leg in legs],
         "epochs": [leg.epochs for leg in legs],
         "evaluate_every": [leg.evaluate_every for leg in legs],
         "patience": [leg.patience for leg in legs],
-        "validation": held and (held.problem.records, held.problem.x0, held.first),
+        "validation": held and (held.problem.records, held.problem.first_states),
         "optimizer": [_optimizer(leg) for leg in legs],
         "seed": seeds,
         "members": others,
@@ -112,7 +112,7 @@ def _outputs(problem: Problem) -> str:
 def _loss(problem: Problem) -> str:
     """The loss and its gradient, for which a function may have rules of its own."""
     y, sigma = jnp.zeros((2, len(problem.targets))), jnp.zeros(len(problem.targets))
-    return program(jax.value_and_grad(problem.loss), y, y, sigma)
+    return program(jax.value_and_grad(problem.loss), y, y, sigma, jnp.ones_like(y))
 
 
 def _regularizer(problem: Problem, regularizer: Callable[..., Any]) -> str:

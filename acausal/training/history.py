@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.errors import DataError, listing
+from acausal.training.objective.records import Places
 
 
 @dataclass(frozen=True)
@@ -18,7 +19,7 @@ class Divergence:
 
     Attributes:
         epoch: the update.
-        time: where the first such sequence starts in the record, in seconds.
+        time: where the first such sequence starts, in seconds; ``record``: in which record, if there are several.
         count: how many there were; 0 where the gradient was not finite though no sequence diverged.
         exploded: how many of them had a finite loss, but a gradient that exploded: their steps are too long for the
             solver.
@@ -30,13 +31,20 @@ class Divergence:
     count: int
     rejected: bool
     exploded: int = 0
+    record: str | None = None
+
+    @property
+    def place(self) -> str:
+        """Where the sequence starts, in words."""
+        of = "" if self.record is None else f" of '{self.record}'"
+        return f"t = {self.time:g} s{of}"
 
     def __str__(self) -> str:
         end = "update rejected" if self.rejected else "left out"
         if self.count == 0:
             return f"epoch {self.epoch}: the gradient is not finite; {end}"
         others = f" and {self.count - 1} more" if self.count > 1 else ""
-        what = f"the sequence from t = {self.time:g} s{others} diverged"
+        what = f"the sequence from {self.place}{others} diverged"
         if self.exploded:
             what += f" ({self.exploded} in its gradient alone)"
         return f"epoch {self.epoch}: {what}; {end}"
@@ -147,17 +155,17 @@ class Log:
     """Collects a `History` while training runs.
 
     Arguments:
-        times: of the record's samples.
+        places: of every row of the records, its time, and its record's name where there are several.
         penalties, modifiers: names of what updates report.
     """
 
     def __init__(
         self,
-        times: Float[np.ndarray, " n_samples"],
+        places: Places,
         penalties: tuple[str, ...],
         modifiers: tuple[str, ...],
     ) -> None:
-        self._times, self._penalties, self._modifiers = times, penalties, modifiers
+        self._places, self._penalties, self._modifiers = places, penalties, modifiers
         whole = {n: np.zeros(0, int) for n in ("diverged", "exploded", "first")}
         names = ("loss", "seconds", *map(_penalty, penalties), *map(_modifier, modifiers))
         numbers = {n: np.zeros(0) for n in names}
@@ -188,10 +196,11 @@ class Log:
         new = [
             Divergence(
                 self.epochs + i,
-                float(self._times[first[i]]),
+                float(self._places.times[first[i]]),
                 int(diverged[i]),
                 bool(rejected[i]),
                 int(exploded[i]),
+                self._places.record(first[i]),
             )
             for i in np.flatnonzero(rejected | (diverged > 0)).tolist()
         ]

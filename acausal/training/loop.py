@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from statistics import fmean as mean
 
 import jax
@@ -171,7 +171,7 @@ class _Run:
         leg = self.legs[i]
         keys = [jax.random.fold_in(m.key, i) if i else m.key for m in self.members]
         begins = [
-            begin(leg.trainer, on_default_device(_entry(leg, entry), self.mesh), key)
+            begin(leg.trainer, on_default_device(leg.objective.entry(entry), self.mesh), key)
             for entry, key in zip(entries, keys, strict=True)
         ]
         return stacked(begins)
@@ -264,24 +264,16 @@ def _advance(
     return advance(objective, leg.trainer, state, until, side_by_side=on_accelerator)
 
 
-def _entry(leg: Leg, best: Trainable) -> Trainable:
-    """The start of a leg: the best up to now, with as many initial states as the leg has sequences."""
-    needed = leg.objective.start().states
-    if needed is None or best.states is None:
-        return best
-    return replace(best, states=best.states[: len(needed)])
-
-
 def _check_rejections(log: Log, rejected: int) -> None:
     if rejected < REJECTIONS:
         return
     first = log.epochs - rejected
     sequences = [d for d in log.divergences if d.epoch >= first and d.count]
     if sequences:
-        what = f"the sequence from t = {sequences[0].time:g} s diverges"
+        what = f"the sequence from {sequences[0].place} diverges"
         mend = "Start from smaller networks or better parameters, take shorter sequences, or a smaller dt."
         if sequences[0].exploded:
-            what = f"the gradient of the sequence from t = {sequences[0].time:g} s explodes"
+            what = f"the gradient of the sequence from {sequences[0].place} explodes"
             mend = SHORTER_STEPS
     else:
         what = "the gradient is not finite"

@@ -56,7 +56,7 @@ class Member:
     def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
         self.log = Log(
-            np.asarray(problem.times), tuple(problem.regularizers), problem.modifiers.names
+            problem.records.places, tuple(problem.regularizers), problem.modifiers.names
         )
 
     def evaluate(self, trainable: Trainable) -> None:

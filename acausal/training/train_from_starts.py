@@ -1,4 +1,4 @@
-"""Trainings of one model on one record, from one start or from several, in one program."""
+"""Trainings of one model on its records, from one start or from several, in one program."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ EXACT = 1e-100
 
 def train_from_starts(
     system: System,
-    data: Data | Mapping[str, ArrayLike],
+    data: Records,
     targets: str | Sequence[str],
     options: FitOptions,
     *,
@@ -68,9 +68,10 @@ def train_from_starts(
     for seed in seeds:
         if not isinstance(seed, int | np.integer):
             raise TrainingError(f"seed={shown(seed)}; give a whole number.")
-    training, kept = split(Data.of(data).for_system(system), options.validation)
+    given = {n: record.for_system(system) for n, record in records_of(data).items()}
+    kept = split(given, options.validation)
     names = names_in(targets, "targets")
-    problem = build_problem(system, training, names, dict(params[0]), options)
+    problem = build_problem(system, kept.training, names, dict(params[0]), options)
     held = hold_out(problem, kept, options.x0)
     plan = legs(problem, options, DIVERGED if options.loss == "nrmse" else np.inf)
     problems = [_from(problem, own) for own in params]
@@ -79,7 +80,7 @@ def train_from_starts(
     identity = (
         {}
         if options.checkpoint is None
-        else fingerprint(problem, plan, seeds, starts[1:], held, training.signals)
+        else fingerprint(problem, plan, seeds, starts[1:], held, kept.training)
     )
     path, stored = _checkpoint(options, identity)
     first = jax.process_index() == 0
@@ -163,7 +164,7 @@ def _long_steps(problem: Problem, best: Best) -> str | None:
     if not isinstance(problem.solver, EXPLICIT):
         return None
     packed = problem.system.pack(problem.assemble(best.trainable))
-    values = Values(problem.times, best.simulated.x, problem.inputs, packed)
+    values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
     return long_steps(problem.system, values, problem.longest_step)
 
 

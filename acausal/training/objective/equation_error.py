@@ -12,15 +12,18 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray
 
 from acausal.codegen import Values
 from acausal.errors import TrainingError, listing
-from acausal.training.objective.losses import number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.record import Batch
-from acausal.training.objective.smoothing import smoothed
+from acausal.training.objective.records import Records
+from acausal.training.objective.sequences import Batch
+from acausal.training.objective.smoothing import bridged, smoothed
 from acausal.training.objective.trainable import Trainable
 
 SAMPLES = 5000
-"""The most samples of the record that count; they are evenly spread."""
+"""The most samples of the records that count; they are evenly spread."""
+
+UNEVEN = 1e-6
+"""Sample times that differ by less than this part count as equal."""
 
 
 class EquationError(eqx.Module):
@@ -55,12 +58,24 @@ class EquationError(eqx.Module):
     def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " 1"]:
         """The loss over all samples."""
         p = self.problem
-        packed = p.system.pack(p.assemble(trainable))
-        t, u, y = (a[self.rows] for a in (p.times, p.inputs, p.measured))
-        predicted = jax.vmap(lambda t, x, u: p.system.read(p.targets, Values(t, x, u, packed)))(
-            t, self.x, u
+        packed = p.pack(p.assemble(trainable), trainable)
+        records = p.records
+        t, u, y, weight, of = (
+            a[self.rows] for a in (records.steps.t, p.inputs, records.y, records.weight, records.of)
         )
-        return number("The loss", p.loss, predicted, y, p.sigma)[None]
+
+        def at(t: Array, x: Array, u: Array, record: Array) -> Float[Array, " n_targets"]:
+            return p.system.read(p.targets, Values(t, x, u, p.packed_of(packed, record)))
+
+        return p.compare_some(jax.vmap(at)(t, self.x, u, of), y, weight)[None]
+
+    def entry(self, best: Trainable) -> Trainable:
+        """What another part of the training has found, as a start of this one."""
+        return best
+
+    def weighed(self, loss: Float[Array, ""], trainable: Trainable) -> Float[Array, ""]:
+        """The loss, and what is known without data."""
+        return self.problem.weighed(loss, trainable)
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
@@ -73,14 +88,15 @@ def equation_error(problem: Problem) -> EquationError:
     Raises:
         TrainingError: if states are not measured, or no target depends on something that is to be trained.
     """
-    if problem.measured_states is None:
+    if problem.records.x is None:
         raise TrainingError(
             "The equation error needs all states in the data: "
             "leave 'equation_error' out of the strategy, or measure them."
         )
-    states = _smoothed(np.asarray(problem.measured_states), problem.is_uniform)
-    count = problem.samples
-    rows = np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int))
+    states = _smoothed(problem.records, np.asarray(problem.records.x))
+    known = np.flatnonzero(np.isfinite(states).all(axis=1) & np.asarray(problem.records.sampled))
+    spread = np.linspace(0, len(known) - 1, min(len(known), SAMPLES)).astype(int)
+    rows = known[np.unique(spread)]
     objective = EquationError(problem, jnp.asarray(rows), jnp.asarray(states[rows]))
     unseen = _unseen(objective)
     if unseen:
@@ -91,11 +107,17 @@ def equation_error(problem: Problem) -> EquationError:
     return objective
 
 
-def _smoothed(
-    x: Float[np.ndarray, "n_samples n_states"], uniform: bool
-) -> Float[np.ndarray, "n_samples n_states"]:
-    """The measured states; smoothed, if samples are evenly spaced."""
-    return np.stack([smoothed(column) for column in x.T], axis=1) if uniform else x
+def _smoothed(records: Records, x: Float[np.ndarray, "N n_states"]) -> Float[np.ndarray, "N n_states"]:
+    """The measured states, record by record: short gaps bridged, and smoothed where samples are evenly spaced."""
+    found = x.copy()
+    h = np.asarray(records.steps.h)
+    for k in range(records.count):
+        rows = records.rows_of(k)
+        even = h.ndim == 0 or np.ptp(h[rows[:-1]]) <= UNEVEN * h[rows[0]]
+        for i in range(x.shape[1]):
+            column = bridged(x[rows, i])
+            found[rows, i] = smoothed(column) if even else column
+    return found
 
 
 def _unseen(objective: EquationError) -> list[str]:

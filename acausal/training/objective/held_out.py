@@ -2,101 +2,155 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import equinox as eqx
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal.data import Data
-from acausal.errors import DataError
-from acausal.training.objective.initial_state import InitialState, first_state
+from acausal.data import Data, records_of
+from acausal.errors import DataError, listing, nearest
+from acausal.training.objective.initial_state import InitialState, first_states
+from acausal.training.objective.lay_out import lay_out
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.record import Sequences, lay_out
+from acausal.training.objective.sequences import whole_records
 from acausal.training.objective.trainable import Trainable
 
-Validation = float | Data | Mapping[str, ArrayLike] | None
-"""What to hold out: the last part of the record, another record, or nothing."""
+Validation: TypeAlias = (
+    float | str | Sequence[str] | Data | Mapping[str, ArrayLike] | Mapping[str, Data] | None
+)
+"""What to hold out: the last part of every record, some of the records by name, other records, or nothing."""
 
 
 class HeldOut(eqx.Module):
-    """The held-out samples of a training.
-
-    Attributes:
-        problem: a record that ends with the held-out samples; the simulation runs through the samples before them.
-        first: index of the first of them.
-    """
+    """The held-out samples of a training: a problem in whose records only these samples count."""
 
     problem: Problem
-    first: int = eqx.field(static=True)
 
     def loss(self, trainable: Trainable) -> Float[Array, ""]:
-        """The loss over the held-out samples, in one simulation of their record."""
-        predicted = self.problem.simulate(trainable).y
-        return self.problem.compare(predicted, slice(self.first, None))
+        """The loss over the held-out samples, in one simulation of each record."""
+        return self.problem.simulate(trainable).loss
 
 
-def split(data: Data, validation: Validation) -> tuple[Data, tuple[Data, int] | None]:
-    """The record to train on; and the record that ends with the held-out samples, with the index of their first.
+class Split(NamedTuple):
+    """Records to train on, and records with the held-out samples.
+
+    Attributes:
+        training: by name.
+        held: by name; ``None`` without any.
+        ends: by name, where the part to train on ends in ``held``; empty where all of ``held`` is held out.
+    """
+
+    training: dict[str, Data]
+    held: dict[str, Data] | None
+    ends: dict[str, float]
+
+
+def split(data: dict[str, Data], validation: Validation) -> Split:
+    """What to train on and what to hold out.
 
     Raises:
-        DataError: for a fraction that leaves fewer than two samples for either.
+        DataError: for a fraction that leaves fewer than two samples for either, a name that is no record, or if
+            nothing is left to train on.
     """
     if validation is None:
-        return data, None
-    if not isinstance(validation, float | int | Real):
-        return data, (Data.of(validation), 0)
-    share = float(validation)
+        return Split(data, None, {})
+    if isinstance(validation, float | int | Real):
+        return _shared(data, float(validation))
+    if isinstance(validation, str) or _are_names(validation):
+        names = [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
+        for name in names:
+            if name not in data:
+                raise DataError(f"validation: there is no record '{name}': {nearest(name, data)}")
+        training = {n: d for n, d in data.items() if n not in names}
+        if not training:
+            raise DataError(f"validation={listing(names)} leaves no record to train on.")
+        return Split(training, {n: data[n] for n in names}, {})
+    return Split(data, records_of(validation), {})
+
+
+def _are_names(validation: Any) -> bool:
+    return isinstance(validation, list | tuple) and all(isinstance(n, str) for n in validation)
+
+
+def _shared(data: dict[str, Data], share: float) -> Split:
+    """The last part of every record is held out."""
     if not np.isfinite(share):
         raise DataError(f"validation={share} is not a fraction; give a number between 0 and 1.")
-    first = len(data) - round(share * len(data))
-    if not 2 <= first <= len(data) - 2:
-        raise DataError(
-            f"validation={share:g} of {len(data)} samples leaves {first} to train on; "
-            "give a fraction between 0 and 1, or another record."
-        )
-    return data.between(data.time[0], data.time[first - 1]), (data, first)
+    training, ends = {}, {}
+    for name, record in data.items():
+        first = len(record) - round(share * len(record))
+        if not 2 <= first <= len(record) - 2:
+            raise DataError(
+                f"validation={share:g} of {len(record)} samples leaves {first} to train on; "
+                "give a fraction between 0 and 1, or another record."
+            )
+        ends[name] = float(record.time[first - 1])
+        training[name] = record.between(record.time[0], ends[name])
+    return Split(training, data, ends)
 
 
-def hold_out(problem: Problem, kept: tuple[Data, int] | None, x0: InitialState) -> HeldOut | None:
+def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None:
     """The held-out samples that decide which state of a training is best, from the result of `split`.
 
-    The end of the record is predicted in one simulation from the record's start. Another record starts as ``x0``
-    says; where that is trained, from its own measured states.
+    The ends of records are predicted in one simulation from the records' starts. Other records start as ``x0`` says;
+    where that is trained, from their own measured states.
 
     Raises:
-        DataError: if the record lacks signals for that.
+        DataError: if the records lack signals for that.
     """
-    if kept is None:
+    if split.held is None:
         return None
-    data, first = kept
-    if first:
-        other = over(problem, data, problem.x0)
-        return HeldOut(replace(other, shooting=problem.shooting), first)
-    data = data.for_system(problem.system)
-    start = first_state(problem.system, data, "data" if x0 == "fit" else x0)
-    return HeldOut(over(problem, data, start), first)
+    if not split.ends:
+        held = {n: d.for_system(problem.system) for n, d in split.held.items()}
+        return HeldOut(over(problem, held, untrained(x0, held)))
+    other = over(problem, split.held, "model")
+    records = other.records
+    ends = jnp.asarray(list(split.ends.values()))[records.of]
+    weight = jnp.where((records.steps.t > ends)[:, None], records.weight, 0.0)
+    return HeldOut(
+        replace(
+            other,
+            records=replace(records, weight=weight),
+            first_states=problem.first_states,
+            shooting=problem.shooting,
+        )
+    )
 
 
-def over(problem: Problem, data: Data, x0: Float[Array, " n_states"] | None) -> Problem:
-    """The same model over another record as one sequence, with steps that are no longer.
+def untrained(x0: InitialState, records: Mapping[str, Data]) -> InitialState:
+    """The choice for records on which nothing is trained."""
+    if isinstance(x0, str):
+        return "data" if x0 == "fit" else x0
+    if not any(isinstance(v, str | Mapping) for v in x0.values()):
+        return x0
+    chosen: Mapping[str, Any] = x0
+    return {n: "data" if chosen.get(n, "data") == "fit" else chosen.get(n, "data") for n in records}
+
+
+def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Problem:
+    """The same model over other records, with steps that are no longer.
 
     Arguments:
         problem: the training. Errors stay relative to the standard deviations of its data.
-        data: the other record, in the model's units.
-        x0: the state at its start; ``None`` for the model's start values.
+        data: the other records, in the model's units.
+        x0: the states at their starts.
     """
-    record = lay_out(data, problem.system.inputs, problem.targets, None)
-    longest = float(np.max(np.asarray(record.steps.h)))
+    system = problem.system
+    records, substeps = lay_out(
+        data, system.inputs, problem.targets, None, problem.longest_step
+    )
     return replace(
         problem,
-        records=(replace(record, sigma=problem.sigma),),
-        sequences=Sequences(len(record), len(record), 1, None),
-        x0=x0,
+        records=replace(records, sigma=problem.records.sigma),
+        sequences=whole_records(records),
+        first_states=first_states(system, data, x0)[0],
         shooting=None,
-        substeps=max(1, int(np.ceil(longest / problem.longest_step - 1e-6))),
+        substeps=substeps,
         mesh=None,
     )

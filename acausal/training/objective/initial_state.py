@@ -1,36 +1,136 @@
-"""The state at which a record starts, as the user gives it."""
+"""The states at which records start, as the user gives them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
 
+import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jax import lax
+from jaxtyping import Array, Float, Int
 
 from acausal._jax import is_real
+from acausal.codegen import Packed
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, shown
 
 if TYPE_CHECKING:
     from acausal.system import System
 
-InitialState = Literal["data", "model", "fit"] | Mapping[str, float]
-"""As measured, as the model starts, found by the training, or values by name that replace the measured ones."""
+OfRecord = Literal["data", "model", "steady", "fit"] | Mapping[str, float]
+"""As measured, as the model starts, at rest, trained, or values by name that replace the measured ones."""
+
+InitialState = OfRecord | Mapping[str, OfRecord]
+"""The same for all records, or by record."""
+
+KINDS = ("data", "model", "steady", "fit")
+GIVEN, MODEL, STEADY, FIT = range(4)
 
 
-def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " n_states"] | None:
-    """The state at a record's start as ``x0`` says; ``None`` as the model starts.
+class Start(NamedTuple):
+    """Where a record starts.
+
+    Attributes:
+        kind: `GIVEN`, `MODEL`, `STEADY` or `FIT`.
+        state: the given one; else as measured as far as that is so, and NaN.
+    """
+
+    kind: int
+    state: Float[np.ndarray, " n_states"]
+
+
+class FirstStates(eqx.Module):
+    """The states at which R records start, where they are not trained.
+
+    Attributes:
+        kind: of every record.
+        given: states that do not depend on parameters.
+        kinds: those that occur.
+    """
+
+    kind: Int[Array, " R"]
+    given: Float[Array, "R n_states"]
+    kinds: tuple[int, ...] = eqx.field(static=True)
+
+    def from_model(self) -> FirstStates:
+        """The same with the model's start in the place of states that are trained."""
+        kind = jnp.where(self.kind == FIT, MODEL, self.kind)
+        return FirstStates(kind, self.given, tuple(sorted({*self.kinds, MODEL} - {FIT})))
+
+    def __call__(
+        self,
+        system: System,
+        packed: Packed,
+        t: Float[Array, " R"],
+        u: Float[Array, "R n_inputs"],
+    ) -> Float[Array, "R n_states"]:
+        """The states; ``packed`` has values for each record, shape (R, n_parameters)."""
+        states = self.given
+        for kind in (MODEL, STEADY):
+            if kind not in self.kinds:
+                continue
+            is_steady = kind == STEADY
+
+            def one(
+                own: tuple[Array, Array, Array], is_steady: bool = is_steady
+            ) -> Float[Array, " n_states"]:
+                values, u, t = own
+                start: Any = t
+                return system.initial_state(
+                    Packed(values, packed.modules), None, u, start, steady=is_steady
+                )
+
+            rows = packed.values, u, t
+            alone = len(self.kind) == 1
+            found = one(jax.tree.map(lambda a: a[0], rows))[None] if alone else lax.map(one, rows)
+            states = jnp.where((self.kind == kind)[:, None], found, states)
+        return states
+
+
+def first_states(
+    system: System, data: Mapping[str, Data], x0: InitialState
+) -> tuple[FirstStates, bool]:
+    """The states at which records start as ``x0`` says, and whether some of them are trained.
 
     Raises:
-        DataError: for another word, a name that is not a state, a value that is not a number, or a state that is
-            neither in the data nor in ``x0``.
+        DataError: for another word, a name that is neither a state nor a record, a value that is not a number, or a
+            state that is neither in the data nor in ``x0``.
     """
-    if x0 == "model":
-        return None
+    starts = [
+        _start(system, d, of) for d, of in zip(data.values(), by_record(data, x0), strict=True)
+    ]
+    kinds = tuple(sorted({s.kind for s in starts}))
+    states = FirstStates(
+        jnp.asarray([s.kind for s in starts]), jnp.asarray([s.state for s in starts]), kinds
+    )
+    return states, FIT in kinds
+
+
+def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
+    """The choice for each record.
+
+    Raises:
+        DataError: for a record that has none, or a name that is no record.
+    """
+    if isinstance(x0, str) or not any(isinstance(v, str | Mapping) for v in x0.values()):
+        return [cast(OfRecord, x0)] * len(records)
+    for name in x0:
+        if name not in records:
+            raise DataError(f"x0: there is no record '{name}': {nearest(name, records)}")
+    if missing := [n for n in records if n not in x0]:
+        raise DataError(f"x0 says nothing about the records {listing(missing)}.")
+    return [cast(OfRecord, x0[n]) for n in records]
+
+
+def _start(system: System, data: Data, x0: OfRecord) -> Start:
+    measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
     if isinstance(x0, str) and x0 != "data":
-        raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, ('data', 'model'))}")
+        if x0 not in KINDS:
+            raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
+        return Start(KINDS.index(x0), measured)
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
     for name, value in given.items():
         if name not in system.states:
@@ -39,10 +139,11 @@ def first_state(system: System, data: Data, x0: InitialState) -> Float[Array, " 
             )
         if not is_real(value) or not np.isfinite(value).all():
             raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
-    unknown = [n for n in system.states if n not in data.signals and n not in given]
+    state = np.array([given.get(n, v) for n, v in zip(system.states, measured, strict=True)], float)
+    unknown = [n for n, v in zip(system.states, state, strict=True) if np.isnan(v)]
     if unknown:
         raise DataError(
             f"The data lack {listing(unknown)}, with which the record starts: "
             f"give x0={{'{unknown[0]}': ...}}, or x0='model' for the model's start values."
         )
-    return jnp.asarray([given[n] if n in given else data[n][0] for n in system.states], float)
+    return Start(GIVEN, state)

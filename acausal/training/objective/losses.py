@@ -1,30 +1,47 @@
-"""Losses: how far a predicted sequence is from the measured one."""
+"""Losses: how far predicted samples are from the measured ones."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, nearest
 
-Loss = Callable[
-    [Float[Array, "M k"], Float[Array, "M k"], Float[Array, " k"]],
-    Float[Array, ""],
-]
-"""(predicted, measured, sigma) -> scalar, for M points of k targets."""
+Loss = Callable[..., Float[Array, ""]]
+"""(predicted, measured, sigma, weight) -> scalar, for M points of k targets; a user's own may leave out the weight."""
 
 
 def nrmse(
-    predicted: Float[Array, "M k"], measured: Float[Array, "M k"], sigma: Float[Array, " k"]
+    predicted: Float[Array, "M k"],
+    measured: Float[Array, "M k"],
+    sigma: Float[Array, " k"],
+    weight: Float[Array, "M k"] | None = None,
 ) -> Float[Array, ""]:
     """Normalised root mean square error, the paper's (21): ``sqrt(1/M Σ_i Σ_j ((q_ij − q̂_ij)/σ_j)²)``.
 
-    It sums over the targets: a prediction of the mean alone has the loss √k for k targets.
+    It sums over the targets: a prediction of the mean alone has the loss √k for k targets. Of each target only the
+    samples that are measured count.
     """
-    squares = jnp.sum(((predicted - measured) / sigma) ** 2, axis=1)
-    return jnp.sqrt(jnp.maximum(jnp.mean(squares), jnp.finfo(squares.dtype).tiny))
+    squares = ((predicted - measured) / sigma) ** 2
+    if weight is None:
+        weight = jnp.ones_like(squares)
+    return root(jnp.sum(mean_of(squares, weight)))
+
+
+def mean_of(terms: Float[Array, "M k"], weight: Float[Array, "M k"]) -> Float[Array, " k"]:
+    """The weighted mean over the points, by target; zero for one without any."""
+    total = jnp.sum(weight, axis=0)
+    return jnp.sum(terms * weight, axis=0) / jnp.where(total > 0, total, 1.0)
+
+
+def root(square: Float[Array, ""]) -> Float[Array, ""]:
+    """A square root whose derivative at zero is finite."""
+    return jnp.sqrt(jnp.maximum(square, jnp.finfo(square.dtype).tiny))
 
 
 def number(what: str, function: Callable[..., object], *arguments: object) -> Float[Array, ""]:
@@ -47,13 +64,40 @@ LOSSES: dict[str, Loss] = {"nrmse": nrmse}
 
 
 def named(loss: str | Loss) -> Loss:
-    """A loss from its name, or the user's own function as it is.
+    """A loss from its name, or the user's own function.
 
     Raises:
         TrainingError: for a name that is not known.
     """
     if callable(loss):
-        return loss
+        return loss if _takes_weights(loss) else WithoutWeights(loss)
     if loss not in LOSSES:
         raise TrainingError(f"No loss '{loss}': {nearest(loss, LOSSES)}")
     return LOSSES[loss]
+
+
+@dataclass(frozen=True)
+class WithoutWeights:
+    """A user's loss of (predicted, measured, sigma): what is not measured counts as predicted without error."""
+
+    loss: Callable[..., Any]
+
+    def __call__(
+        self,
+        predicted: Float[Array, "M k"],
+        measured: Float[Array, "M k"],
+        sigma: Float[Array, " k"],
+        weight: Float[Array, "M k"],
+    ) -> Any:
+        """The loss."""
+        return self.loss(predicted, jnp.where(weight > 0, measured, predicted), sigma)
+
+
+def _takes_weights(loss: Callable[..., Any]) -> bool:
+    try:
+        parameters = inspect.signature(loss).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    if any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        return True
+    return sum(p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in parameters) > 3

@@ -1,11 +1,9 @@
-"""The objective of a training: the loss of a model's predictions over sequences of its records, and penalties.
-
-A training has records; today there is one. Only this room indexes them; other files use the problem's methods.
-"""
+"""The objective of a training: the loss of a model's predictions over sequences of its records, and penalties."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -14,21 +12,36 @@ import numpy as np
 from jax.sharding import Mesh
 from jaxtyping import Array, Float, Int, PRNGKeyArray
 
-from acausal._jax import cast
+from acausal._jax import Restarts, cast
 from acausal.codegen import Packed, Values
-from acausal.simulation import Solver, Steps, integrate
+from acausal.simulation import Integrated, Runs, Solver, Steps, integrate
 from acausal.training.objective.arguments import arguments
+from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.parameter_spread import ParameterSpread
-from acausal.training.objective.record import Batch, Record, Sequences
+from acausal.training.objective.per_record import PerRecord, for_records
+from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer
+from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
 from acausal.training.objective.trainable import Simulated, Trainable
 
 if TYPE_CHECKING:
     from acausal.system import System
+
+
+class PackedRecords(NamedTuple):
+    """Parameters as the model's program reads them.
+
+    Attributes:
+        common: those of all records.
+        own: of every record, the numbers in `PerRecord.places`; ``None`` where records do not differ.
+    """
+
+    common: Packed
+    own: Float[Array, "R n_places"] | None
 
 
 class Problem(eqx.Module):
@@ -41,9 +54,10 @@ class Problem(eqx.Module):
         modifiers: the parameters that are trained.
         parameter_spread: the parameters that differ from run to run.
         targets: the variables that are compared.
+        per_record: the parameters that have a value for each record.
         records: the data.
         sequences: how batches are drawn from them.
-        x0: the state at the record's start, or ``None`` for the model's start values.
+        first_states: the states at which records start, where they are not trained.
         shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
         regularizers: penalties by name.
@@ -59,9 +73,10 @@ class Problem(eqx.Module):
     modifiers: Modifiers
     parameter_spread: ParameterSpread
     targets: tuple[str, ...] = eqx.field(static=True)
-    records: tuple[Record, ...]
+    per_record: PerRecord
+    records: Records
     sequences: Sequences
-    x0: Float[Array, " n_states"] | None
+    first_states: FirstStates
     shooting: ShootingStates | None
     loss: Loss = eqx.field(static=True)
     regularizers: dict[str, Regularizer]
@@ -74,62 +89,33 @@ class Problem(eqx.Module):
     # -- the data ------------------------------------------------------------------------------------
 
     @property
-    def _record(self) -> Record:
-        """The one record. To support several, start here."""
-        (record,) = self.records
-        return record
-
-    @property
-    def samples(self) -> int:
-        """How many samples are trained on."""
-        return len(self._record)
-
-    @property
-    def times(self) -> Float[Array, " n_samples"]:
-        """The time of every sample, in seconds."""
-        return self._record.steps.t
-
-    @property
-    def inputs(self) -> Float[Array, "n_samples n_inputs"]:
-        """The model's inputs at every sample."""
-        return self._record.steps.inputs.start
-
-    @property
-    def measured(self) -> Float[Array, "n_samples n_targets"]:
-        """The measured targets at every sample."""
-        return self._record.y
-
-    @property
-    def measured_states(self) -> Float[Array, "n_samples n_states"] | None:
-        """The measured states at every sample; ``None`` unless all of them are measured."""
-        return self._record.x
-
-    @property
-    def sigma(self) -> Float[Array, " n_targets"]:
-        """The standard deviations of the measured targets."""
-        return self._record.sigma
-
-    @property
-    def is_uniform(self) -> bool:
-        """Whether samples are evenly spaced."""
-        return self._record.steps.h.ndim == 0
-
-    @property
     def longest_step(self) -> float:
         """The longest step of the integration, in seconds."""
-        return float(np.max(np.asarray(self._record.steps.h))) / self.substeps
+        return float(np.max(np.asarray(self.records.steps.h))) / self.substeps
 
-    def residuals(
-        self, predicted: Float[Array, "n_samples n_targets"]
-    ) -> Float[Array, "n_samples n_targets"]:
-        """The residuals of predictions of the whole record: measured less predicted."""
-        return self.measured - predicted
+    @property
+    def inputs(self) -> Float[Array, "N n_inputs"]:
+        """The model's inputs at every row."""
+        return self.records.steps.inputs.start
 
-    def compare(
-        self, predicted: Float[Array, "n_samples n_targets"], rows: slice = slice(None)
+    def residuals(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, "N n_targets"]:
+        """The residuals of predictions of all records: measured less predicted; zero where nothing is measured."""
+        records = self.records
+        return jnp.where(records.weight > 0, records.y - predicted, 0.0)
+
+    def compare(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, ""]:
+        """The loss of predictions of all records."""
+        records = self.records
+        return self.compare_some(predicted, records.y, records.weight)
+
+    def compare_some(
+        self,
+        predicted: Float[Array, "M n_targets"],
+        measured: Float[Array, "M n_targets"],
+        weight: Float[Array, "M n_targets"],
     ) -> Float[Array, ""]:
-        """The loss of predictions of the whole record, over some of its samples."""
-        return number("The loss", self.loss, predicted[rows], self.measured[rows], self.sigma)
+        """The loss of predictions of some samples."""
+        return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
 
     # -- what is trained -----------------------------------------------------------------------------
 
@@ -137,14 +123,45 @@ class Problem(eqx.Module):
         """What is trained, where training starts."""
         networks = {n: eqx.filter(self.params[n], eqx.is_inexact_array) for n in self.networks}
         states = None if self.shooting is None else jnp.zeros_like(self.shooting.start)
-        return Trainable(networks, self.modifiers.start(), states)
+        own = self.per_record.start(self.records.count)
+        return Trainable(networks, self.modifiers.start(), own, states)
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
-        """The model's parameters, with physical values, for some state of the training."""
+        """The model's parameters, with physical values, for some state of the training: those common to all records."""
         networks = {
             n: eqx.combine(arrays, self.params[n]) for n, arrays in trainable.networks.items()
         }
         return self.modifiers.apply({**self.params, **networks}, trainable.modifiers)
+
+    def pack(self, params: dict[str, Any], trainable: Trainable) -> PackedRecords:
+        """Parameters as the model's program reads them."""
+        own = self.per_record.packed(self.system, params, trainable.per_record)
+        return PackedRecords(self.system.pack(params), own)
+
+    def entry(self, best: Trainable) -> Trainable:
+        """What another problem of this training has found, as a start of this one."""
+        states, shooting = best.states, self.shooting
+        if states is None or shooting is None or len(states) == len(shooting.parts):
+            return best
+        return replace(best, states=states[shooting.parts])
+
+    def over_other_records(self, trainable: Trainable) -> Trainable:
+        """What was trained on other records, for these, whose own parameters and states it does not know."""
+        own = self.per_record.expected(trainable.per_record, self.records.count)
+        return replace(trainable, per_record=own, states=None)
+
+    def weighed(self, loss: Float[Array, ""], trainable: Trainable) -> Float[Array, ""]:
+        """The loss, and what is known without data: a loss ℓ of n samples counts as the likelihood ``ℓ^-n``.
+
+        That is the likelihood of normal errors whose size is not known; its largest value is that of the root mean
+        square.
+        """
+        return loss * jnp.exp(self.log_prior(trainable)) if self.per_record.names else loss
+
+    def log_prior(self, trainable: Trainable) -> Float[Array, ""]:
+        """Minus the logarithm of the prior density of what is trained, for each measured sample."""
+        samples = jnp.sum(self.records.weight > 0)
+        return self.per_record.log_prior(trainable.per_record) / samples
 
     # -- losses of sequences -------------------------------------------------------------------------
 
@@ -185,28 +202,55 @@ class Problem(eqx.Module):
         points: Int[Array, "batch n_points"] | None,
         nudges: Float[Array, "batch n_states"] | None,
     ) -> Float[Array, " batch"]:
-        packed = self.system.pack(params)
+        packed = self.pack(params, trainable)
+        if self.sequences.whole:
+            first = jax.tree.map(lambda a: a[0], (points, nudges))
+            return self._loss_of_all(packed, trainable, *first)[None]
+        records, shooting = self.records, self.shooting
+        parts = None if shooting is None else self._part_states(trainable, packed)
 
         def one(
             start: Int[Array, ""],
             points: Int[Array, " n_points"] | None,
             nudge: Float[Array, " n_states"] | None,
         ) -> Float[Array, ""]:
-            steps, measured = self._record.window(start, self.sequences.length)
-            x0 = self._start_of(trainable, packed, start)
+            window = records.window(start, self.sequences.length)
+            if shooting is None or parts is None:
+                assert records.x is not None
+                x0 = records.x[start]
+            else:
+                x0 = parts[shooting.part(start)]
             x0 = x0 if nudge is None else x0 + nudge
-            _, predicted, end = self._integrate(packed, x0, steps)
+            own = self.packed_of(packed, records.of[start])
+            found = self._integrate(own, x0, window.steps)
+            assert found.y is not None
+            compared = found.y, window.y, window.weight
             if points is not None:
-                predicted, measured = predicted[points], measured[points]
-            loss = number("The loss", self.loss, predicted, measured, self.sigma)
-            if self.shooting is None:
+                compared = jax.tree.map(lambda a: a[points], compared)
+            loss = self.compare_some(*compared)
+            if shooting is None or parts is None:
                 return loss
-            return loss + self.shooting.gap(trainable.states, start // self.shooting.length, end)
+            return loss + shooting.gap(parts, shooting.part(start), found.end)
 
         if starts.shape[0] == 1:
             first = jax.tree.map(lambda a: a[0], (starts, points, nudges))
             return one(*first)[None]
         return jax.vmap(one)(starts, points, nudges)
+
+    def _loss_of_all(
+        self,
+        packed: PackedRecords,
+        trainable: Trainable,
+        points: Int[Array, " n_points"] | None,
+        nudge: Float[Array, " n_states"] | None,
+    ) -> Float[Array, ""]:
+        records = self.records
+        found = self._integrate_all(packed, trainable, nudge)
+        assert found.y is not None
+        compared = found.y, records.y, records.weight
+        if points is not None:
+            compared = jax.tree.map(lambda a: a[points], compared)
+        return self.compare_some(*compared)
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
@@ -216,110 +260,140 @@ class Problem(eqx.Module):
             for name, r in self.regularizers.items()
         }
 
-    # -- the whole record ----------------------------------------------------------------------------
+    # -- all records -----------------------------------------------------------------------------------
 
     @eqx.filter_jit
     def simulate(self, trainable: Trainable) -> Simulated:
-        """One simulation of the whole record."""
+        """One simulation of every record."""
         params = self.assemble(trainable)
-        x, predicted = self._whole(params, trainable)
+        x, predicted = self._all(params, trainable)
 
         def loss(p: dict[str, Any]) -> Float[Array, ""]:
-            y = predicted if p is params else self._whole(p, trainable)[1]
-            return self.compare(y)
+            return self.compare(predicted if p is params else self._all(p, trainable)[1])
 
         return Simulated(self.parameter_spread.mean(loss, params), x, predicted)
 
-    def _whole(
-        self, params: dict[str, Any], trainable: Trainable
-    ) -> tuple[Float[Array, "n_samples n_states"], Float[Array, "n_samples n_targets"]]:
-        """States and targets at every sample."""
-        packed = self.system.pack(params)
-        return self._integrate(packed, self.first_state(trainable, packed), self._record.steps)[:2]
+    def _all(
+        self, params: dict[str, Any], trainable: Trainable, *, direct: bool = False
+    ) -> tuple[Float[Array, "N n_states"], Float[Array, "N n_targets"]]:
+        """States and targets at every row."""
+        found = self._integrate_all(self.pack(params, trainable), trainable, direct=direct)
+        assert found.y is not None
+        return found.x, found.y
 
     @eqx.filter_jit
     def seen(
         self,
         trainable: Trainable,
-        x: Float[Array, "n_samples n_states"],
+        x: Float[Array, "N n_states"],
         rows: Int[Array, " n_rows"] | None = None,
     ) -> dict[str, Float[Array, "n_calls n_arguments"]]:
-        """The arguments of every network in the states ``x`` of the record.
+        """The arguments of every network in the states ``x``.
 
         Arguments:
             trainable: some state of the training.
-            x: states at every sample.
-            rows: indices of samples; ``None`` for all.
+            x: states at every row.
+            rows: indices of rows; ``None`` for all.
 
-        The calls of a network with several places in the model follow each other sample by sample.
+        The calls of a network with several places in the model follow each other row by row.
         """
-        packed = self.system.pack(self.assemble(trainable))
-        points = (self.times, x, self.inputs)
+        packed = self.pack(self.assemble(trainable), trainable)
+        points = (self.records.steps.t, x, self.inputs, self.records.of)
         if rows is not None:
             points = jax.tree.map(lambda a: a[rows], points)
 
         def at(name: str) -> Float[Array, "n_calls n_arguments"]:
-            def one(t: Array, x: Array, u: Array) -> Array:
-                return arguments(self.system, name, Values(t, x, u, packed))
+            def one(t: Array, x: Array, u: Array, record: Array) -> Array:
+                own = self.packed_of(packed, record)
+                return arguments(self.system, name, Values(t, x, u, own))
 
             values = jax.vmap(one)(*points)
             return values.reshape(-1, values.shape[-1])
 
         return {name: at(name) for name in self.networks}
 
-    def predict(
-        self, trainable: Trainable, params: dict[str, Any]
-    ) -> Float[Array, "n_samples n_targets"]:
-        """The targets at every sample of one simulation with other parameters.
+    def predict(self, trainable: Trainable, params: dict[str, Any]) -> Float[Array, "N n_targets"]:
+        """The targets at every row of one simulation with other parameters.
 
         It can be differentiated in forward mode.
 
         Arguments:
-            trainable: gives the state at the start, where that is trained.
+            trainable: gives what differs between records.
             params: physical values and networks.
         """
-        packed = self.system.pack(params)
-        x0 = self.first_state(trainable, packed)
-        return self._integrate(packed, x0, self._record.steps, direct=True)[1]
+        return self._all(params, trainable, direct=True)[1]
 
-    def predictions(self, trainable: Trainable) -> Float[Array, "n_models n_samples n_targets"]:
+    def predictions(self, trainable: Trainable) -> Float[Array, "n_models N n_targets"]:
         """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
         return self.parameter_spread.over_models(lambda p: self.predict(trainable, p), params)
 
-    # -- simulation ----------------------------------------------------------------------------------
+    # -- simulation ------------------------------------------------------------------------------------
 
-    def first_state(self, trainable: Trainable, packed: Packed) -> Float[Array, " n_states"]:
-        """The state at the record's start."""
-        if self.shooting is not None:
-            return self.shooting.state(trainable.states, 0)
-        if self.x0 is not None:
-            return self.x0
-        t0: Any = self.times[0]
-        return self.system.initial_state(packed, None, self.inputs[0], t0)
+    def start_states(
+        self, trainable: Trainable, packed: PackedRecords
+    ) -> Float[Array, "R n_states"]:
+        """The states at which records start."""
+        records = self.records
+        t, u = records.steps.t[records.first], self.inputs[records.first]
+        all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
+        states = self.first_states(self.system, all_packed, t, u)
+        if self.shooting is None:
+            return states
+        trained = self.shooting.of_first(trainable.states)
+        return jnp.where((self.first_states.kind == FIT)[:, None], trained, states)
 
-    def _start_of(
-        self, trainable: Trainable, packed: Packed, start: Int[Array, ""]
-    ) -> Float[Array, " n_states"]:
-        """The state at which the sequence begins that starts at a sample."""
-        if self.sequences.whole:
-            return self.first_state(trainable, packed)
-        if self.shooting is not None:
-            return self.shooting.state(trainable.states, start // self.shooting.length)
-        assert self.measured_states is not None
-        return self.measured_states[start]
+    def _part_states(
+        self, trainable: Trainable, packed: PackedRecords
+    ) -> Float[Array, "n_parts n_states"]:
+        """The states at which the parts of records begin."""
+        assert self.shooting is not None
+        states = self.shooting.states(trainable.states)
+        return states.at[self.shooting.first].set(self.start_states(trainable, packed))
+
+    def packed_of(self, packed: PackedRecords, record: Int[Array, ""]) -> Packed:
+        """The parameters of a record."""
+        if packed.own is None:
+            return packed.common
+        return packed.common.replaced(self.per_record.places, packed.own[record])
+
+    def _integrate_all(
+        self,
+        packed: PackedRecords,
+        trainable: Trainable,
+        nudge: Float[Array, " n_states"] | None = None,
+        *,
+        direct: bool = False,
+    ) -> Integrated:
+        """States and targets at every row of all records, in one loop."""
+        records = self.records
+        x0 = self.start_states(trainable, packed)
+        x0 = x0 if nudge is None else x0 + nudge
+        own = packed.own
+        if records.count == 1:
+            return self._integrate(
+                self.packed_of(packed, jnp.asarray(0)), x0[0], records.steps, direct=direct
+            )
+        runs = Runs(
+            Restarts(records.begins, records.spread_at_starts(x0)),
+            None if own is None else own[records.of],
+            self.per_record.places,
+        )
+        return self._integrate(packed.common, x0[0], records.steps, runs=runs, direct=direct)
 
     def _integrate(
-        self, packed: Packed, x0: Float[Array, " n_states"], steps: Steps, *, direct: bool = False
-    ) -> tuple[
-        Float[Array, "n_samples n_states"],
-        Float[Array, "n_samples n_targets"],
-        Float[Array, " n_states"],
-    ]:
-        """States and targets at every sample, and the state at the end."""
-        packed, x0, steps = cast((packed, x0, steps), self.dtype)
+        self,
+        packed: Packed,
+        x0: Float[Array, " n_states"],
+        steps: Steps,
+        *,
+        runs: Runs | None = None,
+        direct: bool = False,
+    ) -> Integrated:
+        """States and targets at every step, and the state at the end."""
+        packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
         first: Any = steps.t[0]
-        x, predicted, end = integrate(
+        found = integrate(
             self.system,
             Values(first, x0, steps.inputs.start[0], packed),
             steps,
@@ -327,6 +401,6 @@ class Problem(eqx.Module):
             outputs=self.targets,
             substeps=self.substeps,
             direct=direct,
+            runs=runs,
         )
-        assert predicted is not None
-        return cast((x, predicted, end), float)
+        return cast(found, float)

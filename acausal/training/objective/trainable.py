@@ -17,26 +17,28 @@ class Trainable(eqx.Module):
     Attributes:
         networks: the arrays of every network that is trained, by name.
         modifiers: the free variable δ of every parameter that is trained, by name.
+        per_record: by parameter, the deviation of every record, in the units of `PerRecord`.
         states: where sequences begin, in the units of `ShootingStates`; ``None`` where that is not trained.
     """
 
     networks: dict[str, Any]
     modifiers: dict[str, Float[Array, ""]]
+    per_record: dict[str, Float[Array, " R"]] = eqx.field(default_factory=dict)
     states: Float[Array, "n_parts n_states"] | None = None
 
 
 class Simulated(NamedTuple):
-    """One simulation of the whole record.
+    """One simulation of every record.
 
     Attributes:
-        loss: over every point of it.
-        x: the states at every sample.
-        y: the targets at every sample.
+        loss: over every sample of them.
+        x: the states at every row.
+        y: the targets at every row.
     """
 
     loss: Float[Array, ""]
-    x: Float[Array, "n_samples n_states"]
-    y: Float[Array, "n_samples n_targets"]
+    x: Float[Array, "N n_states"]
+    y: Float[Array, "N n_targets"]
 
 
 class WithModifiers(Protocol):

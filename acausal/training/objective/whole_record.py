@@ -1,4 +1,4 @@
-"""Problems over the whole record, as one sequence."""
+"""Problems over whole records, as one sequence."""
 
 from __future__ import annotations
 
@@ -8,23 +8,21 @@ import jax
 
 from acausal.errors import TrainingError
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.record import Sequences
+from acausal.training.objective.sequences import whole_records
 
 MEMORY = 2**30
 """Bytes that the Jacobian of predictions may take; all in all a few times as much is needed."""
 
 
 def over_whole_record(problem: Problem) -> Problem:
-    """The same problem with the whole record as one sequence, every point of it."""
-    count, shooting = problem.samples, problem.shooting
-    whole = Sequences(count, count, 1, None)
-    if shooting is not None:
-        shooting = shooting.first(count)
+    """The same problem with all of every record as one sequence, every point of it."""
+    shooting = None if problem.shooting is None else problem.shooting.of_records()
+    whole = whole_records(problem.records)
     return replace(problem, sequences=whole, shooting=shooting, mesh=None)
 
 
 def gauss_newton(problem: Problem) -> Problem:
-    """The whole record, if the Jacobian of its predictions fits into memory.
+    """Whole records, if the Jacobian of its predictions fits into memory.
 
     Raises:
         TrainingError: if not.
@@ -32,7 +30,7 @@ def gauss_newton(problem: Problem) -> Problem:
     whole = over_whole_record(problem)
     trained = sum(leaf.size for leaf in jax.tree.leaves(whole.start()))
     models = len(problem.parameter_spread.shifts)
-    if (size := 8 * trained * models * problem.measured.size) > MEMORY:
+    if (size := 8 * trained * models * problem.records.y.size) > MEMORY:
         raise TrainingError(
             f"The Jacobian of all predictions by {trained} weights and parameters takes {size / 2**30:.1f} GB: "
             "take strategy='whole_record' in place of 'gauss_newton', smaller networks, or a coarser record."

@@ -53,6 +53,10 @@ class Objective(Protocol):
         """The loss of every sequence of a batch."""
         ...
 
+    def weighed(self, loss: Scalar, trainable: PyTree) -> Scalar:
+        """A loss, weighed by what is known without data."""
+        ...
+
     def penalties(self, trainable: PyTree) -> dict[str, Scalar]:
         """Terms that are added, by name."""
         ...
@@ -100,7 +104,8 @@ def total(
     """The total to minimise; and the losses and penalties in it."""
     losses = objective.losses(trainable, batch)
     penalties = objective.penalties(trainable)
-    return jnp.average(losses, weights=batch.weight) + _sum(penalties), (losses, penalties)
+    loss = objective.weighed(jnp.average(losses, weights=batch.weight), trainable)
+    return loss + _sum(penalties), (losses, penalties)
 
 
 def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch) -> Evaluated:
@@ -138,6 +143,10 @@ def with_gauss_newton_hessian(
             predicted, jacobians
         ),
     )
+    mean = loss
+    loss, gradient, hessian = _weighed(
+        lambda loss, z: objective.weighed(loss, unravel(z)), flat, loss, gradient, hessian
+    )
     penalties = objective.penalties(trainable)
     if penalties:
         gradient += jax.grad(penalty)(flat)
@@ -145,7 +154,25 @@ def with_gauss_newton_hessian(
     exploded = ~(jnp.max(jnp.abs(gradient)) < EXPLODED)
     gradient = jnp.where(exploded, jnp.nan, gradient)
     value = loss + _sum(penalties)
-    return Evaluated(loss[None], penalties, value, unravel(gradient), exploded[None], hessian)
+    return Evaluated(mean[None], penalties, value, unravel(gradient), exploded[None], hessian)
+
+
+def _weighed(
+    weigh: Callable[[Scalar, Float[Array, " P"]], Scalar],
+    z: Float[Array, " P"],
+    loss: Scalar,
+    gradient: Float[Array, " P"],
+    hessian: Float[Array, "P P"],
+) -> tuple[Scalar, Float[Array, " P"], Float[Array, "P P"]]:
+    """A loss with its derivatives, after it is weighed by what is known without data."""
+    if weigh(loss, z) is loss:
+        return loss, gradient, hessian
+
+    def near(step: Float[Array, " P"]) -> Scalar:
+        return weigh(loss + gradient @ step + 0.5 * step @ hessian @ step, z + step)
+
+    at = jnp.zeros_like(z)
+    return near(at), jax.grad(near)(at), jax.hessian(near)(at)
 
 
 def _of_loss(

@@ -1,0 +1,188 @@
+"""Lay out records: the rows of a training from measured data."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Float
+
+from acausal._jax import is_number
+from acausal.data import Data
+from acausal.errors import DataError, TrainingError, shown
+from acausal.simulation import Samples, Steps, functions_of_time, polynomials_over_steps
+from acausal.training.objective.records import Records
+
+ALIKE = 1e-6
+"""Sample times that differ by less than this part count as equal."""
+
+
+class Grid(NamedTuple):
+    """Where the steps of a record begin.
+
+    Attributes:
+        t: every row's time.
+        sampled: the rows that hold samples.
+    """
+
+    t: Float[np.ndarray, " n"]
+    sampled: np.ndarray
+
+
+def lay_out(
+    data: Mapping[str, Data],
+    inputs: tuple[str, ...],
+    targets: tuple[str, ...],
+    states: tuple[str, ...] | None,
+    longest: float | None = None,
+) -> tuple[Records, int]:
+    """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
+
+    Rows are samples where these are evenly spaced; otherwise rows are added until no step is too long.
+
+    Arguments:
+        data: by name.
+        inputs, targets, states: names of signals; states may be missing in some records.
+        longest: step in seconds; by default steps go from sample to sample.
+
+    Raises:
+        DataError: for a signal that is missing.
+    """
+    even = sample_time(data.values())
+    substeps = 1 if longest is None or even is None else parts(even, longest)
+    grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
+    rows = [_rows(d, g, inputs, targets, states) for d, g in zip(data.values(), grids, strict=True)]
+    counts = np.array([len(g.t) for g in grids])
+    ends = np.cumsum(counts)
+    y = np.concatenate([r.y for r in rows])
+    x = np.concatenate([r.x for r in rows])
+    lengths = [np.append(np.diff(g.t), g.t[-1] - g.t[-2]) for g in grids]
+    steps = Steps(
+        jnp.asarray(np.concatenate([g.t for g in grids])),
+        jnp.asarray(np.concatenate(lengths) if even is None else even),
+        _joined([r.inputs for r in rows]),
+    )
+    missing = np.isnan(y)
+    if empty := [n for n, column in zip(targets, missing.T, strict=True) if column.all()]:
+        raise DataError(f"Target '{empty[0]}' has no samples in the data.")
+    records = Records(
+        steps=steps,
+        y=jnp.asarray(np.where(missing, 0.0, y)),
+        weight=jnp.asarray(np.where(missing, 0.0, 1.0)),
+        sigma=jnp.asarray(np.nanstd(y, axis=0)),
+        x=None if np.isnan(x).any(axis=1).all() else jnp.asarray(x),
+        of=jnp.asarray(np.repeat(np.arange(len(rows)), counts)),
+        first=jnp.asarray(ends - counts),
+        last=jnp.asarray(ends - 1),
+        sampled=jnp.asarray(np.concatenate([g.sampled for g in grids])),
+        names=tuple(data),
+    )
+    return records, substeps
+
+
+class _Rows(NamedTuple):
+    """The rows of one record; NaN where nothing is measured."""
+
+    y: Float[np.ndarray, "n n_targets"]
+    x: Float[np.ndarray, "n n_states"]
+    inputs: Samples
+
+
+def _rows(
+    data: Data,
+    grid: Grid,
+    inputs: tuple[str, ...],
+    targets: tuple[str, ...],
+    states: tuple[str, ...] | None,
+) -> _Rows:
+    def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
+        rows = np.full((len(grid.t), columns.shape[1]), np.nan)
+        rows[grid.sampled] = columns
+        return rows
+
+    span = float(grid.t[0]), float(grid.t[-1])
+    inner = polynomials_over_steps(functions_of_time(inputs, data, span), grid.t)
+    names = states or ()
+    nothing = np.full(len(data), np.nan)
+    x = [data.signals.get(n, nothing) for n in names] or [nothing]
+    y = data.columns(targets, "a target of the training")
+    return _Rows(at_rows(y), at_rows(np.stack(x, axis=1)), _with_last(inner))
+
+
+def _with_last(inner: Samples) -> Samples:
+    """The inputs with one more step at the end, over which they stay as they are."""
+    last = inner.end[-1:]
+    start, end = (jnp.concatenate([side, last]) for side in (inner.start, inner.end))
+    coefficients = inner.coefficients
+    if coefficients is not None:
+        coefficients = jnp.concatenate([coefficients, jnp.zeros_like(coefficients[:1])])
+    return Samples(start, end, (), coefficients)
+
+
+def _joined(parts: list[Samples]) -> Samples:
+    """The inputs of all records end to end."""
+    if len(parts) == 1:
+        return parts[0]
+    start, end = (
+        jnp.concatenate(side) for side in zip(*((p.start, p.end) for p in parts), strict=True)
+    )
+    curved = next((p.coefficients for p in parts if p.coefficients is not None), None)
+    if curved is None:
+        return Samples(start, end)
+    filled = [
+        jnp.zeros((len(p.start), *curved.shape[1:])) if p.coefficients is None else p.coefficients
+        for p in parts
+    ]
+    return Samples(start, end, (), jnp.concatenate(filled))
+
+
+def _grid(samples: Float[np.ndarray, " n"], longest: float | None) -> Grid:
+    """The samples' times, and between them as many others as keep steps from being longer."""
+    if longest is None:
+        return Grid(samples, np.ones(len(samples), bool))
+    h = np.diff(samples)
+    counts = np.maximum(1, np.ceil(h / longest - ALIKE)).astype(int)
+    ends = np.cumsum(np.append(0, counts))
+    before = np.repeat(np.arange(len(h)), counts)
+    fraction = (np.arange(ends[-1]) - ends[before]) / counts[before]
+    t = np.append(samples[before] + fraction * h[before], samples[-1])
+    sampled = np.zeros(len(t), bool)
+    sampled[ends] = True
+    return Grid(t, sampled)
+
+
+def sample_time(data: Iterable[Data]) -> float | None:
+    """The sample time that all records have in common, if samples are evenly spaced."""
+    records = list(data)
+    if not all(d.uniform for d in records):
+        return None
+    times = np.array([d.sample_time for d in records])
+    return float(times[0]) if np.ptp(times) <= ALIKE * times[0] else None
+
+
+def parts(step: float, longest: float) -> int:
+    """How many equal parts of a step are not too long."""
+    return max(1, int(np.ceil(step / longest - ALIKE)))
+
+
+def check_step(data: Mapping[str, Data], dt: float | None) -> None:
+    """Check a user's step of the integration.
+
+    Raises:
+        TrainingError: for what is no step, or does not divide evenly spaced samples.
+    """
+    if dt is None:
+        return
+    if not (is_number(dt) and dt > 0):
+        raise TrainingError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
+    even = sample_time(data.values())
+    if even is None:
+        return
+    n = max(1, round(even / dt))
+    if abs(even / dt - n) > ALIKE * n:
+        raise TrainingError(
+            f"dt={dt:g} s does not divide the data's sample time, {even:g} s: "
+            f"choose {even / n:g} s, or resample the data."
+        )

@@ -1,0 +1,123 @@
+"""Records laid out for training: the rows of all of them end to end, as arrays on the device.
+
+A row is a step of the integration. Most rows hold samples of targets; what was not measured there has the weight zero,
+so that gaps, several rates and unequal records are nothing special. Because the rows of all records form one table, a
+program has the same size however many there are.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal.simulation import Steps
+
+
+class Places(NamedTuple):
+    """Where the rows of records are.
+
+    Attributes:
+        times: of every row.
+        of: the record of every row.
+        names: of the records.
+    """
+
+    times: Float[np.ndarray, " N"]
+    of: Int[np.ndarray, " N"]
+    names: tuple[str, ...]
+
+    def record(self, row: int) -> str | None:
+        """The record of a row; ``None`` where there is only one."""
+        return self.names[self.of[row]] if len(self.names) > 1 else None
+
+
+class Window(eqx.Module):
+    """Some rows of one record, in which a sequence is compared.
+
+    Attributes:
+        steps: with the inputs.
+        y: targets.
+        weight: how much each of them counts.
+    """
+
+    steps: Steps
+    y: Float[Array, "length n_targets"]
+    weight: Float[Array, "length n_targets"]
+
+
+class Records(eqx.Module):
+    """R records, N rows in all. A step begins at every row; that of a record's last row is not used.
+
+    Attributes:
+        steps: N steps with the inputs.
+        y: targets; zero where they are not measured.
+        weight: how much each counts; zero where it is not measured.
+        sigma: standard deviations of the targets over all records.
+        x: states where all of them are measured, else NaN; ``None`` where that is never so.
+        of: the record of every row.
+        first, last: of every record, its first and its last row.
+        sampled: the rows that hold samples; the others only shorten steps.
+        names: of the records.
+    """
+
+    steps: Steps
+    y: Float[Array, "N n_targets"]
+    weight: Float[Array, "N n_targets"]
+    sigma: Float[Array, " n_targets"]
+    x: Float[Array, "N n_states"] | None
+    of: Int[Array, " N"]
+    first: Int[Array, " R"]
+    last: Int[Array, " R"]
+    sampled: Bool[Array, " N"]
+    names: tuple[str, ...] = eqx.field(static=True)
+
+    def __len__(self) -> int:
+        """How many rows there are."""
+        return self.y.shape[0]
+
+    @property
+    def count(self) -> int:
+        """How many records there are."""
+        return len(self.names)
+
+    @property
+    def places(self) -> Places:
+        """Where the rows are."""
+        return Places(np.asarray(self.steps.t), np.asarray(self.of), self.names)
+
+    @property
+    def begins(self) -> Bool[Array, " N"]:
+        """Whether a record begins at a row."""
+        return jnp.zeros(len(self), bool).at[self.first].set(True)
+
+    def spread_at_starts(self, x0: Float[Array, "R n_states"]) -> Float[Array, "N n_states"]:
+        """Rows with a state for each record at its first row, zero elsewhere."""
+        return jnp.zeros((len(self), x0.shape[1]), x0.dtype).at[self.first].set(x0)
+
+    def window(self, start: Int[Array, ""], length: int) -> Window:
+        """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight."""
+        if self.count == 1:
+
+            def cut(a: Array) -> Array:
+                return lax.dynamic_slice_in_dim(a, start, length) if a.ndim else a
+
+            return Window(jax.tree.map(cut, self.steps), cut(self.y), cut(self.weight))
+        rows = start + jnp.arange(length)
+        last = self.last[self.of[start]]
+        inside = (rows <= last)[:, None]
+        rows = jnp.minimum(rows, last)
+        steps, y, weight = jax.tree.map(
+            lambda a: a[rows] if a.ndim else a, (self.steps, self.y, self.weight)
+        )
+        return Window(steps, y, jnp.where(inside, weight, 0.0))
+
+    def rows_of(self, record: int) -> Int[np.ndarray, " n"]:
+        """The rows of a record that hold samples."""
+        first, last = int(self.first[record]), int(self.last[record])
+        return first + np.flatnonzero(np.asarray(self.sampled[first : last + 1]))

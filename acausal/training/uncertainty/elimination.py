@@ -1,0 +1,85 @@
+"""Covariances of numbers that several records have in common, beside numbers that each record has for itself.
+
+A record's own numbers touch its own rows of the Jacobian alone, so they are eliminated record by record: time and memory
+grow with the number of records, not with its square.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+from scipy.linalg import solve_triangular
+
+
+class Blocks(NamedTuple):
+    """The Jacobian of the predictions of one record, in standard deviations of the residuals.
+
+    Attributes:
+        common: by the numbers that all records have in common.
+        own: by the record's own numbers.
+    """
+
+    common: Float[np.ndarray, "rows n"]
+    own: Float[np.ndarray, "rows m"]
+
+
+class Covariance(NamedTuple):
+    """The covariance of numbers whose prior standard deviations are 1.
+
+    Attributes:
+        common: of those in common.
+        own: of each record's own numbers.
+    """
+
+    common: Float[np.ndarray, "n n"]
+    own: tuple[Float[np.ndarray, "m m"], ...]
+
+    @property
+    def determined(self) -> float:
+        """How many of the numbers the data determine."""
+        known = [len(c) - np.trace(c) for c in (self.common, *self.own)]
+        return float(sum(known))
+
+
+def posterior_covariance(blocks: Sequence[Blocks], samples: float) -> Covariance:
+    """The covariance of numbers, after their prior standard deviations of 1, from all records.
+
+    Residuals are smaller than the noise, because the numbers follow a part of it: as many as the data determine.
+
+    Arguments:
+        blocks: of every record.
+        samples: how many independent samples the rows are worth.
+    """
+    determined = covariance(blocks).determined
+    grown = np.sqrt(max(samples / max(samples - determined, 1.0), 1.0))
+    return covariance([Blocks(b.common / grown, b.own / grown) for b in blocks])
+
+
+def covariance(blocks: Sequence[Blocks]) -> Covariance:
+    """``(JᵀJ + 1)⁻¹`` by QR decompositions: JᵀJ would lose twice as many digits."""
+    triangles = [_triangle(b) for b in blocks]
+    m = blocks[0].own.shape[1]
+    n = blocks[0].common.shape[1]
+    reduced = np.concatenate([*(t[m:, m:] for t in triangles), np.eye(n)])
+    half = solve_triangular(np.linalg.qr(reduced, mode="r"), np.eye(n))
+    common = half @ half.T
+
+    def own(triangle: Float[np.ndarray, "k m+n"]) -> Float[np.ndarray, "m m"]:
+        alone, coupling = (
+            solve_triangular(triangle[:m, :m], side) for side in (np.eye(m), triangle[:m, m:])
+        )
+        return alone @ alone.T + coupling @ common @ coupling.T
+
+    return Covariance(common, tuple(own(t) for t in triangles))
+
+
+def _triangle(block: Blocks) -> Float[np.ndarray, "k m+n"]:
+    """The triangle of a record's rows and the prior of its own numbers, which come first."""
+    m, n = block.own.shape[1], block.common.shape[1]
+    prior = np.concatenate([np.eye(m), np.zeros((m, n))], axis=1)
+    return np.linalg.qr(
+        np.concatenate([np.concatenate([block.own, block.common], axis=1), prior]), mode="r"
+    )
