@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 Record: TypeAlias = "Data | Mapping[str, Any] | DataFrame"
 """One record: `Data`, a plain mapping ``{"time": ..., name: ...}``, or a pandas DataFrame."""
 
+RecordsLike: TypeAlias = "Record | Sequence[Record] | Mapping[str, Record]"
+"""One record, several of them, or several by name."""
+
 ONE = "record"
 """Name of a record that is the only one and was given without a name."""
 

@@ -18,13 +18,15 @@ from acausal.reporting.plot import (
     plot_losses as plot_losses,
     plot_modifiers as plot_modifiers,
 )
+from acausal.reporting.records import (
+    add_predictions as add_predictions,
+    add_records as add_records,
+)
 from acausal.reporting.sections import (
     LearnedLaw as LearnedLaw,
     add_divergences as add_divergences,
     add_laws as add_laws,
     add_losses as add_losses,
     add_parameters as add_parameters,
-    add_predictions as add_predictions,
     add_residuals as add_residuals,
-    add_trajectories as add_trajectories,
 )

@@ -29,9 +29,6 @@ WIDE, NARROW = (9.0, 3.2), (6.0, 3.2)
 MEASURED, AFTER, BEFORE = "#22303c", "#1f77b4", "#d1603d"
 """Colours of curves."""
 
-SAMPLES_SHOWN = 2000
-"""Samples in the middle of a record that are drawn."""
-
 DIVERGENCES_SHOWN = 50
 """Divergences that are listed."""
 
@@ -109,57 +106,6 @@ def add_losses(page: Page, histories: Mapping[str, Losses]) -> None:
     )
 
 
-def add_trajectories(
-    page: Page,
-    time: Float[np.ndarray, " N"],
-    measured: Float[np.ndarray, "N n_targets"],
-    before: Float[np.ndarray, "N n_targets"],
-    after: Float[np.ndarray, "N n_targets"],
-    units: Mapping[str, str],
-) -> None:
-    """Targets as measured, and as simulated before and after training; ``units`` has them in order."""
-    page.section("Measured and simulated")
-    rows = _middle(len(time))
-    low, high = measured[rows].min(axis=0), measured[rows].max(axis=0)
-    room = 0.5 * (high - low) + 1e-12
-    curves = {
-        "measured": (measured, MEASURED, 1.6, 0.5),
-        "before training": (before, BEFORE, 0.9, 0.9),
-        "after training": (after, AFTER, 1.1, 1.0),
-    }
-    for i, (name, unit) in enumerate(units.items()):
-
-        def draw(ax: Axes, i: int = i, name: str = name, unit: str = unit) -> None:
-            for label, (values, color, width, alpha) in curves.items():
-                near = np.clip(values[rows, i], low[i] - 2 * room[i], high[i] + 2 * room[i])
-                ax.plot(time[rows], near, color=color, lw=width, alpha=alpha, label=label)
-            bottom, top = ax.get_ylim()
-            ax.set_ylim(max(bottom, low[i] - room[i]), min(top, high[i] + room[i]))
-            _label_trajectory(ax, name, unit, columns=3)
-
-        page.figure(figure(WIDE, draw), f"A stretch of '{name}'.")
-
-
-def add_predictions(
-    page: Page,
-    measured: Float[np.ndarray, "N n_targets"],
-    predicted: Mapping[str, UncertainCurve],
-    units: Mapping[str, str],
-) -> None:
-    """Targets as measured, and as the members of an ensemble predict them on average."""
-    page.section("Measured and simulated")
-    rows = _middle(len(measured))
-    for i, (name, band) in enumerate(predicted.items()):
-        shown = _Part(band.x[rows], band.law[rows], band.sigma[rows])
-
-        def draw(ax: Axes, i: int = i, name: str = name, shown: _Part = shown) -> None:
-            ax.plot(shown.x, measured[rows, i], color=MEASURED, lw=1.6, alpha=0.5, label="measured")
-            plot_band(ax, shown, color=AFTER, label="mean of the members")
-            _label_trajectory(ax, name, units[name], columns=2)
-
-        page.figure(figure(WIDE, draw), f"A stretch of '{name}', two standard deviations wide.")
-
-
 def add_laws(page: Page, laws: Mapping[str, LearnedLaw]) -> None:
     """Learned laws by network with their bands, over the arguments in training."""
     if not laws:
@@ -227,23 +173,3 @@ def add_divergences(page: Page, divergences: Sequence[DivergedUpdate]) -> None:
     page.text(f"{len(divergences)} times; the first {DIVERGENCES_SHOWN} at most:")
     rows = [(d.epoch, str(d)) for d in divergences[:DIVERGENCES_SHOWN]]
     page.table(("epoch", "what"), rows)
-
-
-class _Part(NamedTuple):
-    """Some points of a band."""
-
-    x: Float[np.ndarray, " points"]
-    law: Float[np.ndarray, " points"]
-    sigma: Float[np.ndarray, " points"]
-
-
-def _middle(samples: int) -> slice:
-    """The rows in the middle of a record that are drawn."""
-    middle = samples // 2
-    return slice(max(0, middle - SAMPLES_SHOWN // 2), middle + SAMPLES_SHOWN // 2)
-
-
-def _label_trajectory(ax: Axes, name: str, unit: str, columns: int) -> None:
-    ax.set(xlabel="time [s]", ylabel=f"{name} [{unit}]")
-    ax.grid(alpha=0.25)
-    ax.legend(frameon=False, ncols=columns, loc="lower right", bbox_to_anchor=(1, 1))

@@ -12,7 +12,7 @@ import numpy as np
 from acausal._jax import precision
 from acausal.by_name import names_in
 from acausal.data import Data, check_resolution
-from acausal.errors import DataError, TrainingError, listing, nearest, shown
+from acausal.errors import DataError, TrainingError, listing, nearest
 from acausal.networks import networks
 from acausal.simulation import announce_derivatives, for_fixed_steps, solver_named
 from acausal.training.objective.context import context, states_before_training
@@ -22,8 +22,8 @@ from acausal.training.objective.losses import named
 from acausal.training.objective.modifiers import modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
 from acausal.training.objective.parameter_spread import parameter_spread
-from acausal.training.objective.problem import Problem
 from acausal.training.objective.per_record import per_record
+from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh

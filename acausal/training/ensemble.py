@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal.data import Data
+from acausal.data import Data, RecordsLike
 from acausal.errors import TrainingError, need_compiled, need_path, shown
 from acausal.networks import law_of
 from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_predictions
@@ -66,16 +66,23 @@ class Ensemble:
 
     @cached_property
     def predicted(self) -> dict[str, Band]:
-        """By target, mean and standard deviation over the time of the record, in one simulation by each member."""
-        time = np.asarray(self.fits[0].problem.times)
-        return self._predictions(time, [fit.predicted for fit in self.fits])
+        """By target, mean and standard deviation over the time of the only record, in one simulation by each member."""
+        return self._predictions(self.fits[0].time, [fit.predicted for fit in self.fits])
+
+    @cached_property
+    def predicted_records(self) -> dict[str, dict[str, Band]]:
+        """The same for every record, by name."""
+        return {
+            name: self._predictions(record.time, [fit.records[name].predicted for fit in self.fits])
+            for name, record in self.fits[0].records.items()
+        }
 
     def predict(
         self, data: Data | Mapping[str, ArrayLike], x0: InitialState = "data"
     ) -> dict[str, Band]:
         """The same over another record; arguments as those of `Fit.conformal`."""
-        found = [predicted(fit.problem, fit.trained, data, x0) for fit in self.fits]
-        return self._predictions(found[0][0], [y for _, y, _ in found])
+        found = [one for f in self.fits for one in predicted(f.problem, f.trained, data, x0)]
+        return self._predictions(found[0].time, [one.y for one in found])
 
     def _predictions(
         self, time: Float[np.ndarray, " N"], ys: Sequence[Float[np.ndarray, "N n_targets"]]
@@ -102,7 +109,7 @@ class Ensemble:
         trained = ", ".join((*best.seen, *best.modifiers))
         page = Page(
             title,
-            f"{trained} trained {len(self.fits)} times on {best.problem.samples} samples of "
+            f"{trained} trained {len(self.fits)} times on {best.samples_trained} samples of "
             f"{', '.join(best.problem.targets)} in {best.seconds:.3g} s.",
         )
         rows = [
@@ -111,9 +118,8 @@ class Ensemble:
         ]
         page.table(("member", "loss before", "after", "deciding loss"), rows)
         add_losses(page, {f"member {k}": fit.history for k, fit in enumerate(self.fits)})
-        measured = np.asarray(best.problem.measured)
         units = {name: best.system.unit(name) for name in best.problem.targets}
-        add_predictions(page, measured, self.predicted, units)
+        add_predictions(page, best.records, self.predicted_records, units)
         add_laws(page, best.with_bands(self.laws))
         changes = [
             (name, f"{mean:+.4g}", f"{sigma:.2g}") for name, (mean, sigma) in self.modifiers.items()
@@ -136,7 +142,7 @@ class Ensemble:
 @documented
 def ensemble(
     system: System,
-    data: Data | Mapping[str, ArrayLike],
+    data: RecordsLike,
     targets: str | Sequence[str],
     *,
     members: int = 5,

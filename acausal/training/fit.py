@@ -6,9 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from acausal.data import Data
+from acausal.data import RecordsLike
 from acausal.errors import DataError, TrainingError, need_compiled, shown
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
@@ -21,22 +20,23 @@ if TYPE_CHECKING:
 @documented
 def fit(
     system: System,
-    data: Data | Mapping[str, ArrayLike],
+    data: RecordsLike,
     targets: str | Sequence[str],
     *,
     params: Mapping[str, Any] | None = None,
     seed: int = 0,
     **options: Unpack[FitKeywords],
 ) -> Fit:
-    """Train networks and parameters of a model so that its outputs follow a measured record.
+    """Train networks and parameters of a model so that its outputs follow measured records.
 
-    Every update takes a batch of random sequences that start from measured states (or the whole record),
+    Every update takes a batch of random sequences that start from measured states (or whole records),
     integrates the model over them in fixed steps, and moves along the gradient of the loss. All updates run in one
     compiled program. A sequence that diverges is left out, noted in the history, and harms nothing.
 
     Arguments:
         system: a compiled model.
-        data: a record with all inputs and targets of the model, and its states where sequences start from them.
+        data: a record with all inputs and targets of the model, and its states where sequences start from them; or
+            several records, as a list or by name. They may differ in length and sample times, and miss samples.
         targets: the variables to fit, measured in the data.
         params: where to start: those of the model's parameters that differ from what `system.parameters` gives for
             ``seed``, from which networks are made.

@@ -8,7 +8,6 @@ from typing import NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 
 from acausal.training.history import Log
@@ -55,9 +54,7 @@ class Member:
 
     def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
-        self.log = Log(
-            problem.records.places, tuple(problem.regularizers), problem.modifiers.names
-        )
+        self.log = Log(problem.records.places, tuple(problem.regularizers), problem.modifiers.names)
 
     def evaluate(self, trainable: Trainable) -> None:
         """Evaluate a trainable, and keep it if it is better than the best so far."""

@@ -65,6 +65,7 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "train": (_are_texts, "names of networks"),
     "modifiers": (_are_texts, "names of parameters, nor modifiers by name"),
     "gamma": (_is_number, "a number"),
+    "per_record": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
     "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
     "loss": (lambda v: isinstance(v, str) or callable(v), "a loss, by name or as a function"),
     "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
@@ -98,6 +99,7 @@ class FitKeywords(TypedDict, total=False):
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None
     gamma: float
     parameter_spread: Mapping[str, float] | None
+    per_record: Mapping[str, float | None] | None
     loss: str | Loss
     regularizers: Regularizer | Iterable[Regularizer]
     sequence_length: float | None
@@ -133,10 +135,15 @@ class FitOptions:
         parameter_spread: parameters that differ from run to run, with their standard deviations: the loss of a
             simulation is the mean over the model and those with one of these parameters a deviation higher or lower,
             so that the model follows other runs, too.
-        loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) -> scalar of shapes
-            (M, k), (M, k), (k,); averaged over a batch's sequences.
+        per_record: parameters with a value for each record, such as an offset or a friction that changes from day to
+            day: by name the standard deviation from record to record, which ties the values to the common one, or
+            ``None`` for free values. Unlike a `parameter_spread`, which makes the model follow runs that nobody has
+            measured, it finds the values of the runs that are measured.
+        loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) or (predicted, measured, sigma,
+            weight) -> scalar of shapes (M, k), (M, k), (k,), (M, k); averaged over a batch's sequences. The weight is
+            zero where nothing is measured.
         regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
-        sequence_length: in seconds; ``None`` takes the whole record at once.
+        sequence_length: in seconds; ``None`` takes all of every record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
         strategy: what to do, or several parts one after the other, each from where the one before was best:
@@ -151,16 +158,17 @@ class FitOptions:
             cosine.
         dt: step of the integration in seconds, a whole part of the sample time (the default).
         solver: of the fixed steps, by name or a diffrax solver.
-        x0: state at the record's start, for sequences that begin there and for the loss over the whole record:
-            ``"data"`` as measured, ``"model"`` as the model starts, or values by name that replace the measured ones.
+        x0: state at a record's start, for sequences that begin there and for the loss over the whole record:
+            ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start,
+            or values by name that replace the measured ones. By record: ``{"run 1": "data", "run 2": {...}}``.
             ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
             then lie side by side (multiple shooting). No state need be measured.
         dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
         devices: which share the sequences of every batch, such as ``jax.devices()``; ``batch_size`` is a
             multiple of their number. By default JAX's default device alone.
-        validation: what to hold out, which chooses the best: the last part of the record, such as 0.2 (predicted
-            in one simulation from the record's start), or another record (which starts as ``x0`` says; with ``"fit"``
-            from its own measured states).
+        validation: what to hold out, which chooses the best: the last part of every record, such as 0.2 (predicted
+            in one simulation from the record's start), names of records, or other records (which start as ``x0`` says;
+            with ``"fit"`` from their own measured states).
         evaluate_every: updates between two evaluations over the whole record and what is held out, among which the
             best is returned; by default a tenth of the epochs.
         patience: evaluations without a better one after which a part of the strategy ends.
@@ -177,6 +185,7 @@ class FitOptions:
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None = None
     gamma: float = 0.2
     parameter_spread: Mapping[str, float] | None = None
+    per_record: Mapping[str, float | None] | None = None
     loss: str | Loss = "nrmse"
     regularizers: Regularizer | Iterable[Regularizer] = ()
     sequence_length: float | None = None

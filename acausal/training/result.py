@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
-from numpy.typing import ArrayLike
 
 from acausal.analysis import Distilled, distill
-from acausal.data import Data
+from acausal.data import RecordsLike
 from acausal.errors import TrainingError, nearest, need_path
 from acausal.networks import remove_offset
 from acausal.reporting import (
@@ -24,18 +23,20 @@ from acausal.reporting import (
     add_laws,
     add_losses,
     add_parameters,
+    add_records,
     add_residuals,
-    add_trajectories,
 )
 from acausal.training.history import History
 from acausal.training.loop import Trained
+from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
 from acausal.training.uncertainty.conformal import Conformal, conformal
-from acausal.training.uncertainty.residuals import Residuals, residuals
+from acausal.training.uncertainty.residuals import Residuals
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -72,11 +73,11 @@ class Fit:
         validation_loss: of ``params``, over the held-out samples; ``None`` without validation.
         best_epoch: updates after which ``params`` were reached: those of the lowest loss over the held-out samples,
             else over the whole record, among all evaluations.
-        x0: the state at the record's start, by name.
+        records: by name of a record, how the trained model follows it: times, predictions, errors, initial state.
+        held_out: the same for the records with held-out samples; there only these count as measured.
         modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
             absolute, p̃ − p.
-        predicted: the targets in one simulation of the record.
-        arguments: by network, what it was called with in that simulation.
+        arguments: by network, what it was called with in one simulation of every record.
         seen: by network, the statistics of these arguments.
         history: the training, update by update.
         seconds: total time; ``compile_seconds``: the part in XLA's compiler.
@@ -91,9 +92,9 @@ class Fit:
     loss_before: float
     validation_loss: float | None
     best_epoch: int
-    x0: dict[str, float]
+    records: dict[str, RecordFit]
+    held_out: dict[str, RecordFit]
     modifiers: dict[str, float]
-    predicted: Float[np.ndarray, "N n_targets"]
     arguments: dict[str, Float[np.ndarray, "n_calls n_arguments"]]
     seen: dict[str, Seen]
     history: History
@@ -105,51 +106,122 @@ class Fit:
     trained: Trainable
 
     @property
+    def x0(self) -> dict[str, float]:
+        """The state at the start of the only record, by name."""
+        return self._only("x0").x0
+
+    @property
+    def predicted(self) -> Float[np.ndarray, "N n_targets"]:
+        """The targets in one simulation of the only record."""
+        return self._only("predicted").predicted
+
+    @property
+    def predicted_before(self) -> Float[np.ndarray, "N n_targets"]:
+        """The same before training."""
+        self._only("predicted")
+        return next(iter(self.before.values())).predicted
+
+    @property
+    def time(self) -> Float[np.ndarray, " N"]:
+        """The times of the only record, in seconds."""
+        return self._only("time").time
+
+    @property
+    def samples_trained(self) -> int:
+        """How many samples the training's records have."""
+        return sum(len(record.time) for record in self.records.values())
+
+    def _only(self, what: str) -> RecordFit:
+        """The only record.
+
+        Raises:
+            TrainingError: if there are several.
+        """
+        first, *others = self.records.values()
+        if others:
+            raise TrainingError(
+                f"There are {len(self.records)} records: ask one of them, fit.records['{first.name}'].{what}."
+            )
+        return first
+
+    @property
+    def rms(self) -> dict[str, float]:
+        """By target, the root mean square error over all records, in the target's unit."""
+        errors = np.concatenate([record.errors for record in self.records.values()])
+        squares = np.sqrt(np.nanmean(errors**2, axis=0))
+        return dict(zip(self.problem.targets, squares.tolist(), strict=True))
+
+    @property
     def score(self) -> float:
         """The loss by which the best was chosen: over the held-out samples, else over the whole record."""
         return self.loss if self.validation_loss is None else self.validation_loss
 
-    def confidence(self) -> Confidence:
-        """How well the record determines the learned laws and the trained parameters; computed when first asked for."""
-        return self._confidence
+    def confidence(self, record: str | None = None) -> Confidence:
+        """How well the records determine the learned laws and the trained parameters; computed when first asked for.
+
+        Arguments:
+            record: what this record alone determines; by default all together.
+
+        Raises:
+            TrainingError: for a name that is no record, or if the model diverges over a record.
+        """
+        if record not in self._confidences:
+            problem = self.problem if record is None else self._alone(record)
+            self._confidences[record] = confidence(problem, self.trained, self.arguments)
+        return self._confidences[record]
 
     @cached_property
-    def _confidence(self) -> Confidence:
-        return confidence(self.problem, self.trained, self.arguments)
+    def _confidences(self) -> dict[str | None, Confidence]:
+        return {}
+
+    def _alone(self, record: str) -> Problem:
+        """The problem in which one record alone counts."""
+        known = self.problem.records
+        if record not in known.names:
+            raise TrainingError(f"There is no record '{record}': {nearest(record, known.names)}")
+        counts = (known.of == known.names.index(record))[:, None]
+        return replace(
+            self.problem, records=replace(known, weight=jnp.where(counts, known.weight, 0.0))
+        )
 
     def conformal(
         self,
-        data: Data | Mapping[str, ArrayLike],
+        data: RecordsLike,
         level: float = 0.9,
         x0: InitialState = "data",
     ) -> Conformal:
-        """Bands around predictions that hold a share of all measurements, calibrated on another record.
+        """Bands around predictions that hold a share of all measurements, calibrated on other records.
 
         Arguments:
-            data: a record with inputs and targets that the training has never used, not even to choose the best
-                (``validation``).
+            data: one record or several, with inputs and targets, that the training has never used, not even to choose
+                the best (``validation``).
             level: the share, in (0, 1).
-            x0: the state at the record's start: ``"data"`` as measured, ``"model"`` as the model starts, or
-                values by name that replace the measured ones.
+            x0: the state at a record's start: ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"``
+                at rest, or values by name that replace the measured ones; or such a choice by record.
 
         Raises:
             DataError: if the record is too short for the level, or lacks what is needed.
         """
         return conformal(self.problem, self.trained, data, level, x0)
 
-    def residuals(self) -> tuple[Residuals, ...]:
-        """The residuals of every target over the record."""
-        left = np.asarray(self.problem.residuals(jnp.asarray(self.predicted)))
-        u = np.asarray(self.problem.inputs)
-        drivers = {n: u[:, i] for i, n in enumerate(self.system.inputs)}
-        sigmas = np.asarray(self.problem.sigma).tolist()
-        rows = zip(self.problem.targets, left.T, sigmas, strict=True)
-        return tuple(residuals(n, column, drivers, sigma) for n, column, sigma in rows)
+    def residuals(self, record: str | None = None) -> tuple[Residuals, ...]:
+        """The residuals of every target: over one record, or over all of them.
+
+        Raises:
+            TrainingError: for a name that is no record.
+        """
+        if record is not None and record not in self.records:
+            raise TrainingError(f"There is no record '{record}': {nearest(record, self.records)}")
+        chosen = list(self.records.values()) if record is None else [self.records[record]]
+        return residuals_of(chosen)
 
     @cached_property
-    def predicted_before(self) -> Float[np.ndarray, "N n_targets"]:
-        """The targets in one simulation of the record before training."""
-        return np.asarray(self.problem.simulate(self.problem.start()).y)
+    def before(self) -> dict[str, RecordFit]:
+        """The records before training, as `records`."""
+        start = self.problem.start()
+        return of_records(
+            self.problem, self.problem.simulate(start), own_parameters(self.problem, start)
+        )
 
     def samples(self, network: str, most: int = 400) -> Float[np.ndarray, " n_samples"]:
         """Some of the values that a network's first argument had over the record, at most so many."""
@@ -181,19 +253,15 @@ class Fit:
         end = ", ended by the user" if self.interrupted else ""
         page = Page(
             title,
-            f"{trained} trained on {self.problem.samples} samples of {', '.join(self.problem.targets)} in "
+            f"{trained} trained on {self.samples_trained} samples of {', '.join(self.problem.targets)} in "
             f"{self.seconds:.3g} s, {self.history.epochs} updates{end}.",
         )
         page.table(("figure", "before", "after"), self._losses())
         add_losses(page, {"whole record": self.history})
-        add_trajectories(
-            page,
-            np.asarray(self.problem.times),
-            np.asarray(self.problem.measured),
-            self.predicted_before,
-            self.predicted,
-            {name: self.system.unit(name) for name in self.problem.targets},
-        )
+        units = {name: self.system.unit(name) for name in self.problem.targets}
+        add_records(page, "Measured and simulated", self.before, self.records, units)
+        if self.held_out:
+            add_records(page, "Held out", {}, self.held_out, units)
         if np.isfinite(self.loss):
             sure = self.confidence()
             add_laws(page, self.with_bands(sure.laws))
@@ -252,7 +320,20 @@ class Fit:
         return "\n".join(lines)
 
 
-def result(problem: Problem, trained: Trained) -> Fit:
+def own_parameters(problem: Problem, trainable: Trainable) -> dict[str, Float[np.ndarray, " R"]]:
+    """The parameters that differ between records, for some state of the training."""
+    params = problem.assemble(trainable)
+    found = problem.per_record.values(params, trainable.per_record)
+    return {n: np.asarray(values) for n, values in found.items()}
+
+
+def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]:
+    problem = replace(problem, mesh=None)
+    known = problem.over_other_records(trainable)
+    return of_records(problem, problem.simulate(known), own_parameters(problem, known))
+
+
+def result(problem: Problem, trained: Trained, held: HeldOut | None = None) -> Fit:
     """The result of a training."""
     best, history = on_default_device(trained.best, problem.mesh), trained.history
     problem = replace(problem, mesh=None)
@@ -265,9 +346,9 @@ def result(problem: Problem, trained: Trained) -> Fit:
         loss_before=float(history.full_loss[0, 1]),
         validation_loss=best.validation,
         best_epoch=best.epoch,
-        x0=dict(zip(problem.system.states, best.simulated.x[0].tolist(), strict=True)),
+        records=of_records(problem, best.simulated, own_parameters(problem, best.trainable)),
+        held_out={} if held is None else _of_held_out(held.problem, best.trainable),
         modifiers={n: float(value) for n, value in changes_of(problem, best.trainable).items()},
-        predicted=np.asarray(best.simulated.y),
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},
         history=history,

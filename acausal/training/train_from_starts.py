@@ -12,13 +12,12 @@ import equinox as eqx
 import jax
 import numpy as np
 from jaxtyping import PyTree
-from numpy.typing import ArrayLike
 
 from acausal._jax import need_double_precision
 from acausal.analysis import in_switches
 from acausal.by_name import names_in
 from acausal.codegen import Values
-from acausal.data import Data
+from acausal.data import RecordsLike, records_of
 from acausal.errors import TrainingError, listing, shown, user_level
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
@@ -46,7 +45,7 @@ EXACT = 1e-100
 
 def train_from_starts(
     system: System,
-    data: Records,
+    data: RecordsLike,
     targets: str | Sequence[str],
     options: FitOptions,
     *,
@@ -93,7 +92,7 @@ def train_from_starts(
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in _warnings(own, start, one):
             warnings.warn(sentence, stacklevel=user_level())
-    return tuple(map(result, problems, trained))
+    return tuple(result(own, one, held) for own, one in zip(problems, trained, strict=True))
 
 
 def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import acausal as ac
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.record import Batch
+from acausal.training.objective.sequences import Batch
 from acausal.training.objective.sharding import replicate
 from acausal.training.options import FitOptions
 from benchmarks.qvm.task import NETWORKS, Gradient, Task, flat
@@ -41,7 +41,9 @@ def posed(task: Task, **choice: Any) -> Problem:
         batch_size=len(task.starts),
         **choice,
     )
-    return build_problem(ac.compile(with_networks()), task.record, OUTPUTS, task.params, options)
+    return build_problem(
+        ac.compile(with_networks()), {"record": task.record}, OUTPUTS, task.params, options
+    )
 
 
 def _loss(trainable: Any, problem: Problem, batch: Batch) -> Any:

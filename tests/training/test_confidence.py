@@ -14,8 +14,9 @@ from scipy.signal import lfilter
 
 import acausal as ac
 from acausal.components import translational as tl
-from acausal.training.uncertainty.confidence import TAKEN, posterior_covariance
-from acausal.training.uncertainty.residuals import residuals
+from acausal.training.uncertainty.confidence import TAKEN
+from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
+from acausal.training.uncertainty.residuals import Piece, residuals
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
 from tests.support.oscillator import Oscillator, learned, plain, record
 
@@ -104,6 +105,11 @@ def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure
     assert "which count as one here" in sure[0].summary()[-1]
 
 
+def covariance_of(J: np.ndarray, samples: float) -> np.ndarray:
+    """Of numbers that one record has in common with others."""
+    return posterior_covariance([Blocks(J, J[:, :0])], samples).common
+
+
 def test_a_covariance_keeps_its_digits():
     """Against fractions; the plain inverse of JᵀJ + 1 is off by its own size here."""
     J = np.array([[1e9, 1e9], [1e9, 1e9 + 1.0]])
@@ -111,17 +117,15 @@ def test_a_covariance_keeps_its_digits():
     p, q, r = 2 * a * a + 1, a * b + a * d, b * b + d * d + 1
     det = p * r - q * q
     exact = np.array([[float(r / det), float(-q / det)], [float(-q / det), float(p / det)]])
-    np.testing.assert_allclose(posterior_covariance(J, 1e20), exact, rtol=1e-6)
+    np.testing.assert_allclose(covariance_of(J, 1e20), exact, rtol=1e-6)
 
 
 def test_few_samples_make_less_sure_than_they_leave_over():
     """A linear model of 4 numbers and 20 samples: the unbiased estimate divides by 16."""
     J = 1e3 * np.random.default_rng(0).standard_normal((20, 4))
-    np.testing.assert_allclose(
-        posterior_covariance(J, 20.0), np.linalg.inv(J.T @ J) * 20 / 16, rtol=1e-4
-    )
+    np.testing.assert_allclose(covariance_of(J, 20.0), np.linalg.inv(J.T @ J) * 20 / 16, rtol=1e-4)
     unseen = np.concatenate([J, np.zeros((20, 1))], axis=1)
-    assert posterior_covariance(unseen, 20.0)[4, 4] == pytest.approx(1.0)
+    assert covariance_of(unseen, 20.0)[4, 4] == pytest.approx(1.0)
 
 
 class TwoSprings(ac.Component):
@@ -221,12 +225,12 @@ def test_residuals_are_judged():
     white, u = rng.standard_normal((2, 4000))
     slow = np.convolve(white, np.ones(5) / 5, mode="same")
     driven = white + 0.3 * np.roll(u, 7)
-    quiet = residuals("y", white, {"u": u}, 1.0)
+    quiet = residuals("y", [Piece(white, {"u": u})], 1.0)
     assert quiet.is_white
     assert quiet.drivers == ()
     assert "look like white noise" in quiet.summary()
-    assert not residuals("y", slow, {"u": u}, 1.0).is_white
-    follows = residuals("y", driven, {"u": u}, 1.0)
+    assert not residuals("y", [Piece(slow, {"u": u})], 1.0).is_white
+    follows = residuals("y", [Piece(driven, {"u": u})], 1.0)
     lag = int(np.argmax(np.abs(follows.inputs["u"]))) - len(follows.inputs["u"]) // 2
     assert lag == 7
     assert follows.inputs["u"].max() == pytest.approx(0.3 / np.sqrt(1.09), abs=0.05)
@@ -235,29 +239,29 @@ def test_residuals_are_judged():
 def test_two_lags_are_enough_to_betray_colour():
     white = np.random.default_rng(0).standard_normal(4000)
     short = white[2:] + 0.8 * white[1:-1] + 0.5 * white[:-2]
-    assert not residuals("y", short, {}, 1.0).is_white
+    assert not residuals("y", [Piece(short, {})], 1.0).is_white
 
 
 def test_slow_noise_is_not_taken_for_what_a_slow_input_does():
     """Of 40 pairs that have nothing to do with each other; the bound of white noise would accuse most of them."""
     rng = np.random.default_rng(0)
     slow = lfilter([1.0], [1.0, -0.97], rng.standard_normal((2, 40, 4000)))
-    found = [residuals("y", y, {"u": u}, 1.0) for y, u in zip(*slow, strict=True)]
+    found = [residuals("y", [Piece(y, {"u": u})], 1.0) for y, u in zip(*slow, strict=True)]
     assert sum(bool(r.drivers) for r in found) <= 2
     assert sum(np.max(np.abs(r.inputs["u"])) > r.bound for r in found) > 20
-    driven = residuals("y", slow[0, 0] + 0.7 * slow[1, 0], {"u": slow[1, 0]}, 1.0)
+    driven = residuals("y", [Piece(slow[0, 0] + 0.7 * slow[1, 0], {"u": slow[1, 0]})], 1.0)
     assert driven.drivers == ("u",)
 
 
 @pytest.mark.parametrize("count", [2, 3, 5, 12])
 def test_few_samples_tell_nothing(count: int):
-    found = residuals("y", np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0}, 1.0)
+    found = residuals("y", [Piece(np.arange(count) ** 2.0, {"u": np.arange(count) - 1.0})], 1.0)
     assert found.summary() == f"'y': {count} samples are too few to tell residuals from noise."
 
 
 def test_what_is_followed_exactly_leaves_nothing_to_learn():
     u = np.sin(np.arange(1000) / 20)
-    found = residuals("y", 1e-9 * u, {"u": u}, 2.0)
+    found = residuals("y", [Piece(1e-9 * u, {"u": u})], 2.0)
     assert found.drivers == ("u",)
     assert found.summary() == (
         "'y': the residuals are 4e-08 % of it; there is nothing more to learn."

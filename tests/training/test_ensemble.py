@@ -75,7 +75,9 @@ def test_members_side_by_side_find_the_same():
     """As on an accelerator: mapped over, L-BFGS with its line searches and all."""
     system, data = learned(), record(end=5.0)
     params = [system.parameters(seed) for seed in SEEDS[:2]]
-    problem = build_problem(system, data, ("mass.a",), params[0], FitOptions(modifiers=["mass.m"]))
+    problem = build_problem(
+        system, {"record": data}, ("mass.a",), params[0], FitOptions(modifiers=["mass.m"])
+    )
     trainer = Trainer(ac.lbfgs(), 1e3, changes_of)
     trainables = [replace(problem, params=own).start() for own in params]
     keys = [jax.random.key(seed) for seed in SEEDS[:2]]
@@ -98,7 +100,7 @@ def test_the_spread_is_that_of_the_members():
     ys = np.stack([fit.predicted[:, 0] for fit in found.fits])
     np.testing.assert_allclose(told.law, ys.mean(axis=0))
     np.testing.assert_allclose(told.sigma, ys.std(axis=0, ddof=1))
-    assert len(told.x) == found.fits[0].problem.samples
+    assert len(told.x) == found.fits[0].samples_trained
     ahead = found.predict(record(end=5.0).between(2.5, 5.0))["mass.a"]
     sol = ac.simulate(
         learned(), (2.5, 5.0), dt=0.01, inputs=record(end=5.0).between(2.5, 5.0), solver="heun",

@@ -10,8 +10,8 @@ from acausal.simulation.fixed_steps import integrate
 from acausal.training.build_problem import build_problem
 from acausal.training.objective import losses
 from acausal.training.objective.modifiers import modifiers
-from acausal.training.objective.record import sequences
 from acausal.training.objective.regularizers import Context
+from acausal.training.objective.sequences import Sequences
 from acausal.training.objective.trainable import changes_of
 from acausal.training.optimizers.trainer import Trainer, advance, begin, evaluate_healthy
 from acausal.training.options import FitOptions
@@ -25,7 +25,7 @@ def problem(system=None, data=None, targets=("mass.a",), **chosen):
     system = learned() if system is None else system
     options = FitOptions(**({"sequence_length": 0.5, "batch_size": 4} | chosen))
     data = (record() if data is None else ac.Data.of(data)).for_system(system)
-    return build_problem(system, data, targets, system.parameters(0), options)
+    return build_problem(system, {"record": data}, targets, system.parameters(0), options)
 
 
 # -- the loss ----------------------------------------------------------------------------------------
@@ -95,13 +95,13 @@ def test_the_loss_of_sequences_is_that_of_simulations():
 def test_substeps_are_smaller_steps():
     fine, coarse = problem(dt=0.0025), problem()
     start = learned().values(0.0, jnp.zeros(2), jnp.zeros(1), learned().parameters(0))
-    ends = [integrate(learned(), start, p.records[0].steps, p.solver, substeps=p.substeps)[2]
+    ends = [integrate(learned(), start, p.records.steps, p.solver, substeps=p.substeps)[2]
             for p in (fine, coarse)]  # fmt: skip
     sol = ac.simulate(
         learned(), (0, 20.0), dt=0.0025, solver="heun", params=learned().parameters(0),
         inputs=record(), saveat=record().time,
     )  # fmt: skip
-    xs = integrate(learned(), start, fine.records[0].steps, fine.solver, substeps=4)[0]
+    xs = integrate(learned(), start, fine.records.steps, fine.solver, substeps=4)[0]
     np.testing.assert_allclose(xs, sol.x, atol=1e-9)
     assert float(jnp.abs(ends[0] - ends[1]).max()) > 1e-6
 
@@ -230,24 +230,27 @@ def test_regularizers_formulas():
         ac.ZeroCrossing(1.0, ("c",))(params, context)
 
 
+def cut(**chosen) -> Sequences:
+    return problem(**chosen).sequences
+
+
 # -- sequences ---------------------------------------------------------------------------------------
 
 
 def test_batches():
-    cut = sequences(record(), 0.5, 64, 0.2)
-    batch = cut.draw(jax.random.key(0))
+    batch = cut(batch_size=64, subsample=0.2).draw(jax.random.key(0))
     assert batch.points is not None
     assert batch.points.shape == (64, 10)
     assert all(len(set(row)) == 10 for row in np.asarray(batch.points).tolist())
     assert int(batch.start.min()) >= 0
     assert int(batch.start.max()) <= 2001 - 50
-    whole = sequences(record(), None, 1, None)
+    whole = cut(sequence_length=None, batch_size=1)
     assert whole.whole
     assert whole.draw(jax.random.key(0)).start.tolist() == [0]
 
 
 def test_leaving_out_repeats_a_good_sequence():
-    batch = sequences(record(), 0.5, 4, 0.2).draw(jax.random.key(0))
+    batch = cut(subsample=0.2).draw(jax.random.key(0))
     kept = batch.without(jnp.asarray([True, False, True, False]))
     assert kept.weight.tolist() == [0, 1, 0, 1]
     assert kept.start.tolist() == [batch.start[1], batch.start[1], batch.start[1], batch.start[3]]

@@ -39,7 +39,7 @@ def posed(**chosen: Any) -> Problem:
         modifiers=["mass.m", "spring.c"], gamma=0.5, parameter_spread={"spring.d": 0.2}, x0="fit", **chosen
     )  # fmt: skip
     problem = build_problem(
-        system, record(end=2.0), ("mass.a", "mass.s"), system.parameters(0), options
+        system, {"record": record(end=2.0)}, ("mass.a", "mass.s"), system.parameters(0), options
     )
     return over_whole_record(problem)
 
@@ -75,8 +75,8 @@ def test_the_hessian_of_root_mean_squares_is_that_of_their_squares():
     ]
     at = predict(start)
     losses = jax.vmap(problem.compare)(at)
-    J = jnp.stack(derivatives) / problem.sigma
-    expected = jnp.einsum("imnk,jmnk,m->ij", J, J, 1 / losses) / (problem.samples * len(at))
+    J = jnp.stack(derivatives) / problem.records.sigma
+    expected = jnp.einsum("imnk,jmnk,m->ij", J, J, 1 / losses) / (len(problem.records) * len(at))
     found = eqx.filter_jit(with_gauss_newton_hessian)(
         problem, problem.start(), problem.draw(jax.random.key(0))
     )

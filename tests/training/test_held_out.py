@@ -43,7 +43,7 @@ def trained() -> ac.Fit:
 
 def test_the_best_is_the_one_that_predicts_what_was_held_out():
     fit, data = trained(), noisy()
-    assert fit.problem.samples == 301
+    assert fit.samples_trained == 301
     epochs, losses = fit.history.validation_loss.T
     assert fit.validation_loss == losses.min()
     assert fit.best_epoch == epochs[losses.argmin()]

@@ -77,7 +77,7 @@ def test_promises_hold_before_during_and_after_training() -> None:
     system = ac.compile(Learner())
     data = record(end=2.0).for_system(system)
     options = FitOptions(x0="model")  # the memory of the hysteresis is not measured
-    problem = build_problem(system, data, ("mass.a",), system.parameters(0), options)
+    problem = build_problem(system, {"record": data}, ("mass.a",), system.parameters(0), options)
     trainer = Trainer(
         optax.with_extra_args_support(optax.adam(0.3)), np.inf, lambda problem, trainable: {}
     )

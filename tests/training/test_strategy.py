@@ -14,7 +14,7 @@ import pytest
 import acausal as ac
 from acausal.training.build_problem import build_problem
 from acausal.training.history import Log
-from acausal.training.objective.record import Batch
+from acausal.training.objective.sequences import Batch
 from acausal.training.objective.smoothing import smoothed
 from acausal.training.objective.whole_record import over_whole_record
 from acausal.training.optimizers.trainer import Trainer, advance, begin
@@ -82,6 +82,12 @@ class Bowl(eqx.Module):
         else:  # zero, with an infinite derivative
             spoilt = jnp.where(beyond, jnp.sqrt(jnp.where(beyond, x - x, 1.0)), 0.0)
         return ((x - 1) ** 2 + spoilt)[None]
+
+    def weighed(self, loss: Any, x: Any) -> Any:
+        return loss
+
+    def entry(self, best: Any) -> Any:
+        return best
 
     def penalties(self, x: Any) -> dict[str, Any]:
         return {}
@@ -211,7 +217,7 @@ def shooting() -> Any:
     system = learned()
     data, options = without_states(), FitOptions(sequence_length=0.5, batch_size=3, x0="fit")
     return build_problem(
-        system, data.for_system(system), ("mass.a",), system.parameters(0), options
+        system, {"record": data.for_system(system)}, ("mass.a",), system.parameters(0), options
     )
 
 
@@ -220,14 +226,14 @@ def test_sequences_lie_side_by_side():
     starts = np.sort(cut.draw(jax.random.key(0)).start)
     assert len(set(starts.tolist())) == 3
     assert not np.any(starts % cut.length)
-    assert shooting().samples - cut.parts * cut.length < cut.parts
+    assert len(shooting().records) - len(cut.starts) * cut.length < len(cut.starts)
     assert over_whole_record(shooting()).sequences.always_alike
 
 
 def test_parts_of_one_trajectory_have_no_gaps():
     """Shooting states start on the model's own trajectory: sequences and the whole record agree."""
     problem = shooting()
-    length, parts = problem.sequences.length, problem.sequences.parts
+    length, parts = problem.sequences.length, len(problem.sequences.starts)
     batch = Batch(jnp.arange(parts) * length, jnp.ones(parts), None)
     losses = problem.losses(problem.start(), batch)
     whole = over_whole_record(problem)

@@ -107,7 +107,9 @@ def equation_error(problem: Problem) -> EquationError:
     return objective
 
 
-def _smoothed(records: Records, x: Float[np.ndarray, "N n_states"]) -> Float[np.ndarray, "N n_states"]:
+def _smoothed(
+    records: Records, x: Float[np.ndarray, "N n_states"]
+) -> Float[np.ndarray, "N n_states"]:
     """The measured states, record by record: short gaps bridged, and smoothed where samples are evenly spaced."""
     found = x.copy()
     h = np.asarray(records.steps.h)

@@ -11,9 +11,8 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
-from numpy.typing import ArrayLike
 
-from acausal.data import Data, records_of
+from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out
@@ -21,9 +20,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.sequences import whole_records
 from acausal.training.objective.trainable import Trainable
 
-Validation: TypeAlias = (
-    float | str | Sequence[str] | Data | Mapping[str, ArrayLike] | Mapping[str, Data] | None
-)
+Validation: TypeAlias = "float | str | Sequence[str] | RecordsLike | None"
 """What to hold out: the last part of every record, some of the records by name, other records, or nothing."""
 
 
@@ -34,7 +31,7 @@ class HeldOut(eqx.Module):
 
     def loss(self, trainable: Trainable) -> Float[Array, ""]:
         """The loss over the held-out samples, in one simulation of each record."""
-        return self.problem.simulate(trainable).loss
+        return self.problem.simulate(self.problem.over_other_records(trainable)).loss
 
 
 class Split(NamedTuple):
@@ -63,7 +60,9 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
     if isinstance(validation, float | int | Real):
         return _shared(data, float(validation))
     if isinstance(validation, str) or _are_names(validation):
-        names = [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
+        names = (
+            [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
+        )
         for name in names:
             if name not in data:
                 raise DataError(f"validation: there is no record '{name}': {nearest(name, data)}")
@@ -71,7 +70,7 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         if not training:
             raise DataError(f"validation={listing(names)} leaves no record to train on.")
         return Split(training, {n: data[n] for n in names}, {})
-    return Split(data, records_of(validation), {})
+    return Split(data, records_of(cast(RecordsLike, validation)), {})
 
 
 def _are_names(validation: Any) -> bool:
@@ -116,7 +115,7 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None
     return HeldOut(
         replace(
             other,
-            records=replace(records, weight=weight),
+            records=replace(records, weight=weight, known=True),
             first_states=problem.first_states,
             shooting=problem.shooting,
         )
@@ -142,14 +141,13 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         x0: the states at their starts.
     """
     system = problem.system
-    records, substeps = lay_out(
-        data, system.inputs, problem.targets, None, problem.longest_step
-    )
+    starts, _ = first_states(system, data, x0)
+    records, substeps = lay_out(data, system.inputs, problem.targets, None, problem.longest_step)
     return replace(
         problem,
-        records=replace(records, sigma=problem.records.sigma),
+        records=replace(records, sigma=problem.records.sigma, known=False),
         sequences=whole_records(records),
-        first_states=first_states(system, data, x0)[0],
+        first_states=starts,
         shooting=None,
         substeps=substeps,
         mesh=None,

@@ -130,7 +130,7 @@ def _start(system: System, data: Data, x0: OfRecord) -> Start:
     if isinstance(x0, str) and x0 != "data":
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
-        return Start(KINDS.index(x0), measured)
+        return Start(KINDS.index(x0), np.full(len(system.states), np.nan))
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
     for name, value in given.items():
         if name not in system.states:

@@ -146,7 +146,9 @@ class Problem(eqx.Module):
         return replace(best, states=states[shooting.parts])
 
     def over_other_records(self, trainable: Trainable) -> Trainable:
-        """What was trained on other records, for these, whose own parameters and states it does not know."""
+        """What was trained, for these records: of others it knows neither their own parameters nor their states."""
+        if self.records.known:
+            return trainable
         own = self.per_record.expected(trainable.per_record, self.records.count)
         return replace(trainable, per_record=own, states=None)
 

@@ -64,6 +64,7 @@ class Records(eqx.Module):
         first, last: of every record, its first and its last row.
         sampled: the rows that hold samples; the others only shorten steps.
         names: of the records.
+        known: whether these are the records of the training.
     """
 
     steps: Steps
@@ -76,6 +77,7 @@ class Records(eqx.Module):
     last: Int[Array, " R"]
     sampled: Bool[Array, " N"]
     names: tuple[str, ...] = eqx.field(static=True)
+    known: bool = eqx.field(static=True, default=True)
 
     def __len__(self) -> int:
         """How many rows there are."""

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 from scipy.interpolate import PchipInterpolator
-from scipy.ndimage import label
 from scipy.signal import savgol_coeffs, savgol_filter
 
 WINDOWS = (5, 9, 15, 25, 41, 67, 111, 181, 301)
@@ -25,14 +26,18 @@ def bridged(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
     known = np.flatnonzero(~missing)
     if not missing.any() or len(known) < 4:
         return signal
-    inner = slice(known[0], known[-1] + 1)
-    labels, count = label(missing[inner])
-    lengths = np.bincount(labels, minlength=count + 1)
-    short = missing[inner] & (lengths[labels] <= SHORT)
     found = signal.copy()
-    at = known[0] + np.flatnonzero(short)
-    found[at] = PchipInterpolator(known, signal[known])(at)
+    between = PchipInterpolator(known, signal[known])
+    for start, end in _runs(missing):
+        if known[0] < start and end <= known[-1] and end - start <= SHORT:
+            found[start:end] = between(np.arange(start, end))
     return found
+
+
+def _runs(mask: Bool[np.ndarray, " N"]) -> Iterator[tuple[int, int]]:
+    """First index and end of every run of true values."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], mask.astype(int), [0]])))
+    yield from zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
 
 
 def smoothed(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
@@ -60,9 +65,7 @@ def smoothed(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
 
 def _in_pieces(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
     """A signal with gaps, smoothed from gap to gap."""
-    labels, count = label(~np.isnan(signal))
     found = signal.copy()
-    for piece in range(1, count + 1):
-        rows = labels == piece
-        found[rows] = smoothed(signal[rows])
+    for start, end in _runs(~np.isnan(signal)):
+        found[start:end] = smoothed(signal[start:end])
     return found

@@ -1,10 +1,11 @@
 """Confidence: how well the record determines learned laws and parameters.
 
 A law may change by small bumps over the range of its argument in training; trained parameters may change, too, and so
-may a trained initial state. The sensitivity of the whole simulation to all of them gives the Fisher information, whose
-inverse is their covariance: a Laplace approximation in the space of functions, independent of the number of weights of
-a network. It does not resolve details of a law that are narrower than a bump, half a standard deviation of its input.
-Samples with correlated residuals count for less than one each.
+may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
+simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
+the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
+narrower than a bump, half a standard deviation of its input. Samples with correlated residuals count for less than one
+each.
 """
 
 from __future__ import annotations
@@ -20,14 +21,15 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
-from scipy.linalg import solve_triangular
 
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import law_of, output_scale
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
+from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
 
@@ -75,6 +77,7 @@ class Confidence:
         correlation: between the parameters, in their order.
         with_laws: by parameter and law, the multiple correlation of what the parameter changes with what the weights
             of the law's network can change: 1 where the law can take any part of the parameter.
+        per_record: by parameter that differs between records, the standard deviation of each record's value.
         noise: standard deviation of the residuals, by target.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
         about: how well each parameter is known, one sentence each.
@@ -84,6 +87,7 @@ class Confidence:
     parameters: dict[str, float]
     correlation: Float[np.ndarray, "n_parameters n_parameters"]
     with_laws: dict[str, dict[str, float]]
+    per_record: dict[str, Float[np.ndarray, " R"]]
     noise: dict[str, float]
     alike: dict[str, float]
     about: tuple[str, ...]
@@ -133,32 +137,32 @@ def confidence(
     trainable: Trainable,
     seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
 ) -> Confidence:
-    """How well a record determines the laws and parameters that were trained on it.
+    """How well records determine the laws and parameters that were trained on them.
 
     Residuals that are correlated over τ neighbouring samples have at low frequencies τ times the spectrum of white
     noise, so that each sample counts 1/τ.
 
     Arguments:
-        problem: what was trained, over the whole record.
+        problem: what was trained.
         trainable: its result.
-        seen: by network, the arguments it was called with over the record.
+        seen: by network, the arguments it was called with over the records.
 
     Raises:
-        TrainingError: if the model diverges over the record.
+        TrainingError: if the model diverges over a record.
     """
     params = problem.assemble(trainable)
     names, laws = problem.modifiers.names, problem.networks
     bumped = {n: bumped_law(params[n], seen[n]) for n in laws}
     heights = [np.full(BUMPS, output_scale(params[n])) for n in laws]
-    prior, moves = _prior(problem, params), np.ones(_moves(trainable))
+    prior, own = _prior(problem, params), _own_deviations(problem, trainable)
     ways = [law_directions(params[n], seen[n]) if names else (0, None) for n in laws]
-    deviations = np.concatenate([*heights, prior, moves])
-    count = len(deviations)
-    ends = np.cumsum([BUMPS * len(laws), len(names), len(moves)]).tolist()
+    deviations = np.concatenate([*heights, prior])
+    count, alone = len(deviations), len(own)
+    ends = np.cumsum([BUMPS * len(laws), len(names), alone]).tolist()
     bounds = np.cumsum([0, *(n for n, _ in ways)]).tolist()
 
     def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
-        bumps, changes, moves, along = jnp.split(scale * z, ends)
+        bumps, changes, own, along = jnp.split(scale * z, ends)
         nets = {
             n: Bumped(
                 params[n] if move is None else move(along[a:b]),
@@ -171,23 +175,38 @@ def confidence(
             )
         }
         new = problem.modifiers.changed({**params, **nets}, dict(zip(names, changes, strict=True)))
-        return _moved(trainable, moves), new
+        return _moved(problem, trainable, own), new
 
-    scale = jnp.asarray(np.concatenate([deviations, np.ones(bounds[-1])]))
+    scale = jnp.asarray(np.concatenate([deviations, own, np.ones(bounds[-1])]))
     left, jacobian = _sensitivity(problem, changed, len(scale))
     if not (np.isfinite(left).all() and np.isfinite(jacobian).all()):
         raise TrainingError(
             "The trained model diverges over the record; its confidence cannot be computed."
         )
-    noise = np.sqrt(np.mean(left**2, axis=0))
-    alike = np.array([correlation_time(column) for column in left.T])
-    least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.sigma)) * np.sqrt(alike)
-    sensitivity = (jacobian / least[:, None]).reshape(-1, len(scale))
-    weighted, along = sensitivity[:, :count], sensitivity[:, count:]
-    samples = float(np.sum(len(left) / alike))
-    covariance = posterior_covariance(weighted, samples) * np.outer(deviations, deviations)
-    own = covariance[ends[0] : ends[1], ends[0] : ends[1]]
-    sigma = np.sqrt(np.diag(own))
+    counts = np.asarray(problem.records.weight) > 0
+    n = np.maximum(counts.sum(axis=0), 1)
+    noise = np.sqrt(np.sum(left**2, axis=0) / n)
+    alike = _alike(problem.records, left, counts)
+    least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.records.sigma)) * np.sqrt(alike)
+    sensitivity = np.where(counts[:, :, None], jacobian / least[:, None], 0.0)
+    weighted = sensitivity[..., :count]
+    along = sensitivity[..., count + alone :].reshape(left.size, bounds[-1])
+    blocks = [
+        Blocks(*(s.reshape(w.shape[0] * w.shape[1], s.shape[-1]) for s in (w, o)))
+        for w, o in zip(
+            *(
+                np.split(s, np.asarray(problem.records.first)[1:])
+                for s in (weighted, sensitivity[..., count : count + alone])
+            ),
+            strict=True,
+        )
+    ]
+    found = posterior_covariance(blocks, float(np.sum(n / alike)))
+    weighted = weighted.reshape(left.size, count)
+    covariance = found.common * np.outer(deviations, deviations)
+    between = covariance[ends[0] : ends[1], ends[0] : ends[1]]
+    sigma = np.sqrt(np.diag(between))
+    each = np.sqrt([np.diag(c) for c in found.own]) * own
     with_laws = {
         name: {
             law: correlation_with(weighted[:, ends[0] + i], along[:, a:b])
@@ -204,8 +223,9 @@ def confidence(
     return Confidence(
         bands,
         dict(zip(names, known.tolist(), strict=True)),
-        own / np.maximum(np.outer(sigma, sigma), 1e-300),
+        between / np.maximum(np.outer(sigma, sigma), 1e-300),
         with_laws,
+        {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
         _about(problem, trainable, sigma, prior, taken),
@@ -253,40 +273,42 @@ def _prior(problem: Problem, params: dict[str, Any]) -> Float[np.ndarray, " n_pa
     )
 
 
-def _moves(trainable: Trainable) -> int:
-    """How many numbers of the state at the start were trained."""
-    return 0 if trainable.states is None else trainable.states.shape[1]
+def _own_deviations(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " n_own"]:
+    """The prior standard deviations of what each record has for itself: its parameters, and a trained initial state."""
+    states = 0 if trainable.states is None else trainable.states.shape[1]
+    return np.concatenate([np.asarray(problem.per_record.scale), np.ones(states)])
 
 
-def _moved(trainable: Trainable, moves: Float[Array, " n_states"]) -> Trainable:
-    """The same with another state at the record's start."""
-    if trainable.states is None:
-        return trainable
-    return replace(trainable, states=trainable.states.at[0].add(moves))
+def _moved(problem: Problem, trainable: Trainable, own: Float[Array, " n_own"]) -> Trainable:
+    """The same with other parameters and initial states of each record: the same change for all records.
 
-
-def posterior_covariance(
-    jacobian: Float[np.ndarray, "rows n"], samples: float
-) -> Float[np.ndarray, "n n"]:
-    """The covariance of n numbers whose prior standard deviations are 1.
-
-    Residuals are smaller than the noise, because the numbers follow a part of it: as many as the data determine.
-
-    Arguments:
-        jacobian: of all predictions, in standard deviations of the residuals.
-        samples: how many independent samples the rows are worth.
+    A record's predictions depend on its own alone, so that one direction gives the derivatives for all records.
     """
-    determined = jacobian.shape[1] - float(np.trace(_inverse(jacobian)))
-    grown = samples / max(samples - determined, 1.0)
-    return _inverse(jacobian / np.sqrt(max(grown, 1.0)))
+    names, scale = problem.per_record.names, problem.per_record.scale
+    per_record = {n: trainable.per_record[n] + own[i] / scale[i] for i, n in enumerate(names)}
+    states = trainable.states
+    if states is not None and problem.shooting is not None:
+        all_first = len(states) == problem.records.count
+        first = jnp.arange(len(states)) if all_first else problem.shooting.first
+        states = states.at[first].add(own[len(names) :])
+    return replace(trainable, per_record=per_record, states=states)
 
 
-def _inverse(jacobian: Float[np.ndarray, "rows n"]) -> Float[np.ndarray, "n n"]:
-    """``(JᵀJ + 1)⁻¹`` by QR decomposition: JᵀJ would lose twice as many digits."""
-    count = jacobian.shape[1]
-    triangle = np.linalg.qr(np.concatenate([jacobian, np.eye(count)]), mode="r")
-    inverse = solve_triangular(triangle, np.eye(count))
-    return inverse @ inverse.T
+def _alike(
+    records: Records,
+    left: Float[np.ndarray, "N n_targets"],
+    counts: Bool[np.ndarray, "N n_targets"],
+) -> Float[np.ndarray, " n_targets"]:
+    """By target, how many neighbouring residuals are worth one independent sample: the mean over all records."""
+    of = np.asarray(records.of)
+
+    def one(column: Float[np.ndarray, " N"], count: Bool[np.ndarray, " N"]) -> float:
+        parts = [column[count & (of == k)] for k in range(records.count)]
+        times = [(correlation_time(part), len(part)) for part in parts if len(part) > 1]
+        total = sum(n for _, n in times)
+        return sum(time * n for time, n in times) / total if total else 1.0
+
+    return np.array([one(*pair) for pair in zip(left.T, counts.T, strict=True)])
 
 
 def _sensitivity(

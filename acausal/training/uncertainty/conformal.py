@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal.data import Data
+from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError
 from acausal.training.objective.held_out import over
-from acausal.training.objective.initial_state import InitialState, first_state
+from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.residuals import correlation_time
@@ -60,7 +61,7 @@ class Conformal:
         x0: InitialState = "data",
     ) -> dict[str, Prediction]:
         """The targets over another record, by name; arguments as those of `Fit.conformal`."""
-        time, y, _ = predicted(self.problem, self.trained, data, x0)
+        ((time, y, _),) = predicted(self.problem, self.trained, data, x0)
         return {
             name: Prediction(time, y[:, i] - width, y[:, i], y[:, i] + width)
             for i, (name, width) in enumerate(self.width.items())
@@ -68,13 +69,14 @@ class Conformal:
 
     def coverage(
         self,
-        data: Data | Mapping[str, ArrayLike],
+        data: RecordsLike,
         x0: InitialState = "data",
     ) -> dict[str, float]:
-        """How often the bands hold the targets of a third record, by name; arguments as those of `Fit.conformal`."""
-        _, y, measured = predicted(self.problem, self.trained, data, x0)
+        """How often the bands hold the targets of further records, by name; arguments as those of `Fit.conformal`."""
+        found = predicted(self.problem, self.trained, data, x0)
+        errors = np.abs(np.concatenate([p.measured - p.y for p in found]))
         return {
-            name: float(np.mean(np.abs(measured[:, i] - y[:, i]) <= width))
+            name: float(np.mean(errors[~np.isnan(errors[:, i]), i] <= width))
             for i, (name, width) in enumerate(self.width.items())
         }
 
@@ -86,11 +88,11 @@ class Conformal:
 def conformal(
     problem: Problem,
     trained: Trainable,
-    data: Data | Mapping[str, ArrayLike],
+    data: RecordsLike,
     level: float,
     x0: InitialState,
 ) -> Conformal:
-    """Calibrate bands: the quantile of the errors on a record, with the correction for its finite length.
+    """Calibrate bands: the quantile of the errors on other records, with the correction for their finite length.
 
     Split conformal prediction (V. Vovk, A. Gammerman, G. Shafer: Algorithmic Learning in a Random World, Springer
     2005) assumes exchangeable samples. Those of a record are not; the number of independent samples follows
@@ -101,14 +103,18 @@ def conformal(
     """
     if not 0 < level < 1:
         raise DataError(f"level={level:g} is not a share of the samples; give a number in (0, 1).")
-    _, y, measured = predicted(problem, trained, data, x0)
-    errors = np.abs(measured - y)
-    if not np.isfinite(errors).all():
+    found = predicted(problem, trained, data, x0)
+    if not all(np.isfinite(p.y).all() for p in found):
         raise DataError("The trained model diverges over the record; it has no bands.")
     width: dict[str, float] = {}
     independent: dict[str, float] = {}
-    for name, column in zip(problem.targets, errors.T, strict=True):
-        count = len(column) / correlation_time(column)
+    for i, name in enumerate(problem.targets):
+        columns = [np.abs(p.measured[:, i] - p.y[:, i]) for p in found]
+        columns = [c[~np.isnan(c)] for c in columns]
+        count = sum(len(c) / correlation_time(c) for c in columns if len(c) > 1)
+        column = np.concatenate(columns)
+        if not count:
+            raise DataError(f"Target '{name}' has no samples in the data.")
         raised = np.ceil((count + 1) * level) / count
         if raised > 1:
             raise DataError(
@@ -120,16 +126,23 @@ def conformal(
     return Conformal(level, width, independent, problem, trained)
 
 
+class Predicted(NamedTuple):
+    """The targets over one record: its times, and their predicted and measured values."""
+
+    time: Float[np.ndarray, " n"]
+    y: Float[np.ndarray, "n n_targets"]
+    measured: Float[np.ndarray, "n n_targets"]
+
+
 def predicted(
-    problem: Problem,
-    trained: Trainable,
-    data: Data | Mapping[str, ArrayLike],
-    x0: InitialState,
-) -> tuple[
-    Float[np.ndarray, " N"], Float[np.ndarray, "N n_targets"], Float[np.ndarray, "N n_targets"]
-]:
-    """Time, predicted and measured targets of another record."""
-    record = Data.of(data).for_system(problem.system)
-    start = first_state(problem.system, record, x0)
-    other = over(problem, record, start)
-    return record.time, np.asarray(other.simulate(trained).y), np.asarray(other.measured)
+    problem: Problem, trained: Trainable, data: RecordsLike, x0: InitialState
+) -> list[Predicted]:
+    """The targets over other records, each in one simulation."""
+    records = {n: d.for_system(problem.system) for n, d in records_of(data).items()}
+    other = over(problem, records, x0)
+    y = np.asarray(other.simulate(other.over_other_records(trained)).y)
+    laid = other.records
+    measured = np.where(np.asarray(laid.weight) > 0, np.asarray(laid.y), np.nan)
+    rows = [laid.rows_of(k) for k in range(laid.count)]
+    t = np.asarray(laid.steps.t)
+    return [Predicted(t[r], y[r], measured[r]) for r in rows]

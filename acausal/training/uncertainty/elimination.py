@@ -1,7 +1,7 @@
 """Covariances of numbers that several records have in common, beside numbers that each record has for itself.
 
-A record's own numbers touch its own rows of the Jacobian alone, so they are eliminated record by record: time and memory
-grow with the number of records, not with its square.
+A record's own numbers touch its own rows of the Jacobian alone, so they are eliminated record by record: time and
+memory grow with the number of records, not with its square.
 """
 
 from __future__ import annotations
@@ -80,6 +80,5 @@ def _triangle(block: Blocks) -> Float[np.ndarray, "k m+n"]:
     """The triangle of a record's rows and the prior of its own numbers, which come first."""
     m, n = block.own.shape[1], block.common.shape[1]
     prior = np.concatenate([np.eye(m), np.zeros((m, n))], axis=1)
-    return np.linalg.qr(
-        np.concatenate([np.concatenate([block.own, block.common], axis=1), prior]), mode="r"
-    )
+    rows = np.concatenate([np.concatenate([block.own, block.common], axis=1), prior])
+    return np.asarray(np.linalg.qr(rows, mode="r"))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -80,39 +82,48 @@ class Residuals:
         )
 
 
-def residuals(
-    target: str,
-    values: Float[np.ndarray, " N"],
-    inputs: dict[str, Float[np.ndarray, " N"]],
-    sigma: float,
-) -> Residuals:
-    """Correlations of a target's residuals with themselves and with inputs.
+class Piece(NamedTuple):
+    """The residuals of a target over one record.
+
+    Attributes:
+        values: measured less predicted.
+        inputs: by name, at the same samples.
+    """
+
+    values: Float[np.ndarray, " n"]
+    inputs: Mapping[str, Float[np.ndarray, " n"]]
+
+
+def residuals(target: str, pieces: Sequence[Piece], sigma: float) -> Residuals:
+    """Correlations of a target's residuals with themselves and with inputs, over all records together.
 
     Arguments:
         target: its name; ``sigma``: its standard deviation.
-        values: measured less predicted.
-        inputs: by name.
+        pieces: of every record.
 
     An autocorrelation of N samples of white noise has the variance 1/N. The correlation with an unrelated input has the
     variance ``1/N Σ ρ_k ρ'_k`` over all lags of both autocorrelations (L. Ljung: System Identification, Prentice Hall
     1999, section 16.6): slow noise and a slow input look similar by chance.
     """
-    lags = max(1, min(LAGS, len(values) // 4))
-    own = _correlation(values, values, lags)
-    chance = CHANCE / np.sqrt(len(values))
+    values = [piece.values for piece in pieces]
+    count = sum(map(len, values))
+    lags = max(1, min(LAGS, max(map(len, values)) // 4))
+    own = _together(values, values, lags)
+    chance = CHANCE / np.sqrt(count)
+    inputs = {n: [piece.inputs[n] for piece in pieces] for n in pieces[0].inputs}
+    varying = {n: us for n, us in inputs.items() if any(np.std(u) > 0 for u in us)}
 
-    def bound(u: Float[np.ndarray, " N"]) -> float:
-        return float(chance * np.sqrt(max(1.0, own @ _correlation(u, u, lags))))
+    def bound(us: list[Float[np.ndarray, " n"]]) -> float:
+        return float(chance * np.sqrt(max(1.0, own @ _together(us, us, lags))))
 
-    varying = {n: u for n, u in inputs.items() if np.std(u) > 0}
     return Residuals(
         target,
-        values,
-        float(np.std(values) / sigma),
+        np.concatenate(values),
+        float(np.std(np.concatenate(values)) / sigma),
         own[lags + 1 :],
-        {n: _correlation(values, u, lags) for n, u in varying.items()},
+        {n: _together(values, us, lags) for n, us in varying.items()},
         float(chance),
-        {n: bound(u) for n, u in varying.items()},
+        {n: bound(us) for n, us in varying.items()},
     )
 
 
@@ -129,7 +140,19 @@ def _correlation(
     a: Float[np.ndarray, " N"], b: Float[np.ndarray, " N"], lags: int
 ) -> Float[np.ndarray, " 2*lags+1"]:
     """The correlation of a with earlier b, at the lags −lags to lags; 0 where one of them is constant."""
-    a, b = a - a.mean(), b - b.mean()
-    size = np.sqrt((a @ a) * (b @ b)) or 1.0
-    first = len(a) - 1 - lags
-    return np.asarray(correlate(a, b, method="fft"))[first : first + 2 * lags + 1] / size
+    return _together([a], [b], lags)
+
+
+def _together(
+    a: Sequence[Float[np.ndarray, " n"]], b: Sequence[Float[np.ndarray, " n"]], lags: int
+) -> Float[np.ndarray, " 2*lags+1"]:
+    """The same over several records, each about its own mean."""
+    total, squares = np.zeros(2 * lags + 1), np.zeros(2)
+    for left, right in zip(a, b, strict=True):
+        left, right = left - left.mean(), right - right.mean()
+        squares += left @ left, right @ right
+        reach = min(lags, len(left) - 1)
+        first = len(left) - 1 - reach
+        found = np.asarray(correlate(left, right, method="fft"))[first : first + 2 * reach + 1]
+        total[lags - reach : lags + reach + 1] += found
+    return total / (np.sqrt(squares.prod()) or 1.0)

@@ -1,0 +1,103 @@
+"""The result of a training for one of its records."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Simulated
+from acausal.training.uncertainty.residuals import Piece, Residuals, residuals
+
+
+@dataclass(frozen=True, eq=False)
+class RecordFit:
+    """How a trained model follows one of the records.
+
+    Attributes:
+        name: of the record.
+        targets: names of the columns of ``measured`` and ``predicted``.
+        time: of its samples, in seconds.
+        measured: the targets; NaN where they are not measured.
+        predicted: the targets in one simulation of the record.
+        inputs: by name, the model's inputs at the samples.
+        sigma: standard deviations of the targets over all records.
+        x0: the state at the record's start, by name.
+        parameters: the values of the parameters that differ between records, by name.
+    """
+
+    name: str
+    targets: tuple[str, ...]
+    time: Float[np.ndarray, " n"]
+    measured: Float[np.ndarray, "n n_targets"]
+    predicted: Float[np.ndarray, "n n_targets"]
+    inputs: Mapping[str, Float[np.ndarray, " n"]]
+    sigma: Float[np.ndarray, " n_targets"]
+    x0: dict[str, float]
+    parameters: dict[str, float]
+
+    @property
+    def errors(self) -> Float[np.ndarray, "n n_targets"]:
+        """Measured less predicted; NaN where nothing is measured."""
+        return self.measured - self.predicted
+
+    @property
+    def rms(self) -> dict[str, float]:
+        """By target, the root mean square error in the target's unit; NaN for one that is not measured."""
+        squares = self.errors**2
+        counts = (~np.isnan(squares)).sum(axis=0)
+        means = np.nansum(squares, axis=0) / np.where(counts > 0, counts, np.nan)
+        return dict(zip(self.targets, np.sqrt(means).tolist(), strict=True))
+
+    def residuals(self) -> tuple[Residuals, ...]:
+        """The residuals of every target that is measured."""
+        return residuals_of([self])
+
+    def __repr__(self) -> str:
+        errors = ", ".join(f"{n} {value:.4g}" for n, value in self.rms.items())
+        return f"RecordFit('{self.name}', {len(self.time)} samples, RMS error: {errors})"
+
+
+def residuals_of(records: Sequence[RecordFit]) -> tuple[Residuals, ...]:
+    """The residuals of every target over some records together, at the samples that are measured."""
+    found: list[Residuals] = []
+    for i, name in enumerate(records[0].targets):
+        pieces: list[Piece] = []
+        for record in records:
+            error = record.errors[:, i]
+            known = ~np.isnan(error)
+            if known.sum() > 1:
+                pieces.append(Piece(error[known], {n: u[known] for n, u in record.inputs.items()}))
+        if pieces:
+            found.append(residuals(name, pieces, float(records[0].sigma[i])))
+    return tuple(found)
+
+
+def of_records(
+    problem: Problem, simulated: Simulated, parameters: Mapping[str, Float[np.ndarray, " R"]]
+) -> dict[str, RecordFit]:
+    """The results for all records, by name."""
+    records = problem.records
+    t, x, y, u = (
+        np.asarray(a) for a in (records.steps.t, simulated.x, simulated.y, problem.inputs)
+    )
+    measured = np.where(np.asarray(records.weight) > 0, np.asarray(records.y), np.nan)
+
+    def one(k: int, name: str) -> RecordFit:
+        rows = records.rows_of(k)
+        return RecordFit(
+            name,
+            problem.targets,
+            t[rows],
+            measured[rows],
+            y[rows],
+            {n: u[rows, i] for i, n in enumerate(problem.system.inputs)},
+            np.asarray(records.sigma),
+            dict(zip(problem.system.states, x[rows[0]].tolist(), strict=True)),
+            {n: float(values[k]) for n, values in parameters.items()},
+        )
+
+    return {name: one(k, name) for k, name in enumerate(records.names)}
