@@ -11,6 +11,7 @@ from acausal.data.band_limited import (
 )
 from acausal.data.params_file import load_params as load_params, save_params as save_params
 from acausal.data.record import Data as Data, is_data_frame as is_data_frame
+from acausal.data.several import Record as Record, records_of as records_of
 from acausal.data.signal import (
     Interpolation as Interpolation,
     Signal as Signal,
