@@ -66,7 +66,7 @@ def test_temperatures_have_an_offset():
     [
         (
             lambda: ac.Data(TIME, {"x": np.where(TIME > 0.75, np.nan, TIME)}),
-            "'x' is nan at sample 8 and 2 more; leave such samples out, or fill the gap.",
+            "'x' is nan at sample 8 (0.8 s) and 2 more; if such samples are missing, say missing='nan'.",
         ),
         (lambda: ac.Data(TIME, {"x": TIME[:-1]}), "'x' has 10 samples for 11 times."),
         (lambda: ac.Data(TIME, {"x": 1j * TIME}), "'x' holds complex128; real numbers are needed."),
@@ -230,7 +230,7 @@ def test_csv(tmp_path):
         ("time,x\n0,1\n1,abc\n", ", line 3: 'abc' in column 'x' is not a number."),
         (
             "time,x\n0,1\n1,nan\n",
-            ": 'x' is nan at sample 1; leave such samples out, or fill the gap.",
+            ": 'x' is nan at sample 1 (1 s); if such samples are missing, say missing='nan'.",
         ),
         ("time;x\n0;1\n", ", line 1: columns are separated by semicolons; commas are needed."),
         ("time,x,x\n0,1,1\n", ", line 1: two columns are called 'x'."),
