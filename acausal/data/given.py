@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -11,8 +12,8 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.by_name import names_in
-from acausal.data.readers import is_data_frame
-from acausal.data.samples import check_samples, check_time_base
+from acausal.data.readers import Table, is_data_frame
+from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
 
@@ -62,14 +63,8 @@ def columns_of(
         own = ts if given.times is None else given.times
         assert own is not None
         present = _present(name, given.samples, masks.get(name))
-        check_samples(
-            present,
-            own.shape,
-            f"'{name}'",
-            missing=missing == "nan" or name in masks,
-            place=lambda i, own=own: f"sample {i} ({own[i]:g} {unit})",
-            mend="if such samples are missing, say missing='nan'",
-        )
+        place = partial(_place, ts=own, unit=unit)
+        _check(name, present, own, place, "nan" if name in masks else missing)
         checked[name] = np.asarray(present, float)
     own_times = {name: given.times for name, given in measured.items() if given.times is not None}
     bases = ([] if ts is None else [ts]) + list(own_times.values())
@@ -81,6 +76,19 @@ def columns_of(
     }
     with_gaps = missing == "nan" or masks or any(r is not None for r in rows)
     return merged, columns, "nan" if with_gaps else "refuse"
+
+
+def check_table(table: Table, missing: Missing) -> None:
+    """Refuse samples of a file as `columns_of` does, but name their lines.
+
+    Raises:
+        DataError: for the first wrong sample.
+    """
+    if table.time is None:
+        return
+    check_time_base(table.time, "The record", table.place)
+    for name, samples in table.signals.items():
+        _check(name, samples, table.time, table.place, missing)
 
 
 def _by_name(signals: object) -> Mapping[str, Any]:
@@ -175,6 +183,21 @@ def _present(name: str, samples: Any, mask: np.ndarray | None) -> Any:
             f"'{name}' is a masked array; give its data, and mask={{'{name}': ~samples.mask}}."
         )
     return samples if mask is None else np.where(mask, samples, np.nan)
+
+
+def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missing) -> None:
+    check_samples(
+        samples,
+        ts.shape,
+        f"'{name}'",
+        missing=missing == "nan",
+        place=place,
+        mend="if such samples are missing, say missing='nan'",
+    )
+
+
+def _place(i: int, ts: np.ndarray, unit: str) -> str:
+    return f"{sample(i)} ({ts[i]:g} {unit})"
 
 
 def _described(thing: object) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
@@ -21,12 +20,13 @@ from acausal.data.by_signal import (
     chosen,
     kept,
 )
+from acausal.data.formats import Formats
 from acausal.data.gaps import warn_of_gaps
-from acausal.data.given import Missing, columns_of
-from acausal.data.readers import is_data_frame, read_csv, time_and_signals
+from acausal.data.given import Missing, check_table, columns_of
+from acausal.data.readers import Table, is_data_frame
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
-from acausal.errors import DataError, listing, nearest, need_path, shown
+from acausal.errors import DataError, listing, nearest, shown
 from acausal.units import convert
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Data(ByName):
+class Data(ByName, Formats):
     """A record of measured signals. ``data["mass.s"]`` is one, ``data[["mass.s", "mass.v"]]`` are two side by side.
 
     A record is a table over the sorted union of all sample times, in which a missing sample is NaN.
@@ -122,7 +122,7 @@ class Data(ByName):
         if isinstance(record, Data):
             return record
         if is_data_frame(record):
-            return cls(*time_and_signals(record))
+            return cls.from_dataframe(record)
         if not isinstance(record, Mapping):
             raise DataError(f"A record is acausal.Data or a mapping, not {shown(record)}")
         if "time" not in record:
@@ -130,37 +130,13 @@ class Data(ByName):
         return cls(record["time"], {n: v for n, v in record.items() if n != "time"})
 
     @classmethod
-    def from_csv(
-        cls,
-        path: str | Path,
-        interpolation: Choices = None,
-        *,
-        before_start: Choices = None,
-        after_end: Choices = None,
-    ) -> Data:
-        """Read a file whose first line names the columns, as ``name`` or ``name [unit]``.
-
-        One column is called ``time``. Either every column has a unit or none has. The other arguments are those of
-        `Data`.
-
-        Raises:
-            DataError: for a file that cannot be read, with the line's number.
-        """
-        path = need_path(path, "from_csv")
-        columns, units = read_csv(path)
-        if "time" not in columns:
-            raise DataError(f"{path} has no column 'time': {nearest('time', columns)}")
+    def _of_table(cls, table: Table, options: Mapping[str, Any]) -> Data:
+        missing = options.get("missing", "refuse")
         try:
-            return cls(
-                columns.pop("time"),
-                columns,
-                units or None,
-                interpolation,
-                before_start=before_start,
-                after_end=after_end,
-            )
+            check_table(table, missing)
+            return cls(table.time, table.signals, table.units or None, **options)
         except DataError as e:
-            raise DataError(f"{path}: {e}") from None
+            raise DataError(f"{table.source}: {e}" if table.source else str(e)) from None
 
     def for_system(self, system: System) -> Data:
         """The record in the model's units.

@@ -123,8 +123,9 @@ def test_a_long_gap_of_an_input_gives_one_warning():
         data.signal("u", "previous")
     assert [str(w.message) for w in found] == [
         (
-            "'u' has no samples from 0.1 to 0.2 s, 100 times its median sample time and 1 more gap; the interpolation "
-            "'previous' bridges it. If that is wrong, use the record on both sides of the gap: data.between(start, end)."
+            "'u' has no samples from 0.1 to 0.2 s, 100 times its median sample time and 1 more gap; the "
+            "interpolation 'previous' bridges it. If that is wrong, use the record on both sides of the gap: "
+            "data.between(start, end)."
         )
     ]
     assert found[0].filename == __file__
