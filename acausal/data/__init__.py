@@ -9,6 +9,11 @@ from acausal.data.band_limited import (
     deviation_from_line as deviation_from_line,
     polynomial_coefficients as polynomial_coefficients,
 )
+from acausal.data.formats import (
+    CsvOptions as CsvOptions,
+    Formats as Formats,
+    ReadOptions as ReadOptions,
+)
 from acausal.data.params_file import load_params as load_params, save_params as save_params
 from acausal.data.readers import is_data_frame as is_data_frame
 from acausal.data.record import Data as Data

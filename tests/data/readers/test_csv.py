@@ -141,8 +141,8 @@ def test_many_files_that_are_none(write, tmp_path):
             ", line 4: 'abc' in column 'x' is not a number (guessed: columns separated by commas, a decimal point).",
         ),
         (
-            "time;x\n0,5;1.5,2\n",
-            ", line 2: '1.5,2' in column 'x' is not a number (guessed: columns separated by semicolons, a decimal comma).",
+            "time;x\n0,5;1.5\n",
+            ", line 2: '1.5' in column 'x' is not a number (guessed: columns separated by semicolons, a decimal comma).",  # noqa: E501
         ),
         ("time,x\n0,1\n1,nan\n", ": 'x' is nan at line 3; if such samples are missing, say missing='nan'."),
         ("time,x\n0,1\n\n1,inf\n", ": 'x' is inf at line 4; leave such samples out, or fill the gap."),

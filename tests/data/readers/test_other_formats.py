@@ -231,8 +231,9 @@ def test_mdf(mf4):
 @pytest.mark.parametrize(
     "content", [b"", b"no", bytes(range(256)) * 4, b"MDF     4.10    " + bytes(200)]
 )
-def test_what_is_no_mdf_file(tmp_path, content):
+def test_what_is_no_mdf_file(tmp_path, monkeypatch, content):
     need("asammdf")
+    monkeypatch.setattr(sys, "unraisablehook", lambda _: None)
     path = tmp_path / "bad.mf4"
     path.write_bytes(content)
     assert "bad.mf4 is not an MDF file" in refused(lambda: ac.Data.from_mdf(path))
