@@ -9,8 +9,15 @@ from acausal.data.band_limited import (
     deviation_from_line as deviation_from_line,
     polynomial_coefficients as polynomial_coefficients,
 )
+from acausal.data.formats import (
+    CsvOptions as CsvOptions,
+    Formats as Formats,
+    ReadOptions as ReadOptions,
+)
 from acausal.data.params_file import load_params as load_params, save_params as save_params
-from acausal.data.record import Data as Data, is_data_frame as is_data_frame
+from acausal.data.readers import is_data_frame as is_data_frame
+from acausal.data.record import Data as Data
+from acausal.data.samples import check_resolution as check_resolution
 from acausal.data.several import (
     Record as Record,
     RecordsLike as RecordsLike,
@@ -19,7 +26,6 @@ from acausal.data.several import (
 from acausal.data.signal import (
     Interpolation as Interpolation,
     Signal as Signal,
-    check_resolution as check_resolution,
     differentiate as differentiate,
 )
 from acausal.data.tensors import (

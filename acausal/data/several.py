@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
-from acausal.data.record import Data, is_data_frame
+from acausal.data.readers import is_data_frame
+from acausal.data.record import Data
 from acausal.errors import DataError, shown
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import dataclasses
 import warnings
 from collections.abc import Callable
 from functools import partial
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 import equinox as eqx
 import jax
@@ -27,6 +27,7 @@ from acausal.data.band_limited import (
     deviation_from_line,
     polynomial_coefficients,
 )
+from acausal.data.samples import check_samples, check_time_base, is_uniform
 from acausal.errors import DataError, shown
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
@@ -38,9 +39,6 @@ DERIVATIVES: dict[str, int] = {"previous": 0, "linear": 1, "cubic": 2, "band-lim
 """How often each interpolation can be differentiated. Beyond that, derivatives are impulses or dominated by noise."""
 
 ORDINALS = ("first", "second", "third", "higher")
-
-UNIFORM = 1e-6
-"""A time base is uniform if every sample lies within this fraction of the sample time of its place."""
 
 
 class Signal(eqx.Module):
@@ -245,63 +243,6 @@ def differentiate(
     return lambda t: jax.jvp(inner, (t,), (jnp.ones_like(t),))[1]
 
 
-def check_time_base(ts: np.ndarray, what: str) -> None:
-    """Refuse a time base that is not a strictly increasing, finite vector of two samples or more."""
-    if ts.ndim != 1 or len(ts) < 2:
-        raise DataError(f"{what} needs a time base of at least two samples, got shape {ts.shape}.")
-    if not is_real(ts) or ts.dtype == bool:
-        raise DataError(f"{what} has a time base of {ts.dtype}; seconds are needed.")
-    bad = np.flatnonzero(~np.isfinite(ts))
-    if len(bad):
-        raise DataError(f"{what} has a time that is {ts[bad[0]]} at sample {bad[0]}.")
-    back = np.flatnonzero(~(ts[1:] > ts[:-1]))
-    if len(back):
-        i = int(back[0])
-        coarse = np.issubdtype(ts.dtype, np.floating) and ts.dtype.itemsize < 8
-        equal = f" Times in {ts.dtype} are too coarse for this: give float64." if coarse else ""
-        raise DataError(
-            f"{what} has a time base that does not increase: "
-            f"{ts[i]:.9g} s at sample {i} is followed by {ts[i + 1]:.9g} s."
-            + (equal if ts[i] == ts[i + 1] else "")
-        )
-
-
-def check_resolution(ts: np.ndarray, dtype: np.dtype[Any], what: str) -> None:
-    """Refuse times that a precision cannot tell apart."""
-    spacing = np.spacing(np.maximum(np.abs(ts[:-1]), np.abs(ts[1:])).astype(dtype))
-    same = np.flatnonzero(np.diff(ts) < spacing)
-    if len(same):
-        i = int(same[0])
-        raise DataError(
-            f"{what}: {ts[i]:.17g} s and {ts[i + 1]:.17g} s are too close for {dtype.name}; "
-            "let time start at zero, or compute in float64."
-        )
-
-
-def check_samples(values: ArrayLike, shape: tuple[int, ...], what: str) -> None:
-    """Refuse samples of another length than their time base, or that are not finite real numbers."""
-    if not is_real(values):
-        raise DataError(f"{what} holds {_kind(values)}; real numbers are needed.")
-    if np.shape(values) != shape:
-        raise DataError(f"{what} has {_count(values)} for {shape[0]} times.")
-    if traced(values):
-        return
-    samples = np.asarray(values)
-    bad = np.flatnonzero(~np.isfinite(samples))
-    if len(bad):
-        more = f" and {len(bad) - 1} more" if len(bad) > 1 else ""
-        raise DataError(
-            f"{what} is {samples[bad[0]]} at sample {bad[0]}{more}; leave such samples out, or fill the gap."
-        )
-
-
-def is_uniform(ts: Float[np.ndarray, " n"]) -> bool:
-    """Whether the samples are equally spaced."""
-    interval = (ts[-1] - ts[0]) / (len(ts) - 1)
-    places = ts[0] + interval * np.arange(len(ts))
-    return bool(np.max(np.abs(ts - places)) <= UNIFORM * interval)
-
-
 def _between(low: Array, t: Array, high: Array) -> Array:
     """The nearest time between two; where ``t`` is an end, its derivative is that of ``t``."""
     return jnp.where(t < low, low, jnp.where(t > high, high, t))
@@ -318,23 +259,6 @@ def _no_derivative(name: str, interpolation: str, times: int) -> str:
         f"'{name}' has the interpolation '{interpolation}', which has no useful "
         f"{ORDINALS[min(times, len(ORDINALS)) - 1]} derivative; {mend} as measured."
     )
-
-
-def _kind(values: Any) -> str:
-    """The type of samples, for a message."""
-    if values is None:
-        return "None"
-    if isinstance(values, str | dict):
-        return f"a {type(values).__name__}"
-    try:
-        return str(values.dtype if hasattr(values, "dtype") else np.asarray(values).dtype)
-    except ValueError:
-        return "rows of different lengths"
-
-
-def _count(values: ArrayLike) -> str:
-    shape = np.shape(values)
-    return f"{shape[0]} samples" if len(shape) == 1 else f"values of shape {shape}"
 
 
 def _check_choice(name: str, what: str, value: str, choices: tuple[str, ...]) -> None:

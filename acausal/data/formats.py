@@ -1,0 +1,236 @@
+"""Records from files and from tables of other libraries, and back."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypedDict, Unpack
+
+from acausal.data import readers
+from acausal.data.by_signal import Choices
+from acausal.data.given import Missing
+from acausal.data.readers import Selection, Table
+from acausal.errors import DataError, nearest
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+Paths: TypeAlias = str | Path | Sequence[str | Path]
+"""One file, a pattern such as ``"runs/*.csv"``, or a list of files."""
+
+
+class CsvOptions(TypedDict, total=False):
+    """Options of all ways to read a record.
+
+    Attributes:
+        columns: names of the columns to read, besides the times; by default all.
+        rename: names in the file, and the model's variables that they are: ``{"ch 7": "mass.a"}``.
+        units: units by name of the signal in the record; they count, not those of the file.
+        before_start, after_end, missing: as of `acausal.Data`.
+    """
+
+    columns: Sequence[str] | None
+    rename: Mapping[str, str] | None
+    units: Mapping[str, str] | None
+    before_start: Choices
+    after_end: Choices
+    missing: Missing
+
+
+class ReadOptions(CsvOptions, total=False):
+    """The same, and ``interpolation`` as of `acausal.Data`."""
+
+    interpolation: Choices
+
+
+class Formats(ABC):
+    """What a record can be read from and turned into.
+
+    Methods that read files take one path and give one record, or take a pattern (``"runs/*.csv"``) or a list of paths
+    and give a dictionary of records. They are called by the files' names without the ending; where these are the same,
+    by the paths below the common folder. All methods have the `ReadOptions`, too.
+    """
+
+    time: Any
+    signals: Any
+    units: Mapping[str, str] | None
+
+    @classmethod
+    @abstractmethod
+    def _of_table(cls, table: Table, options: Mapping[str, Any]) -> Self:
+        """The record of a table."""
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: Paths,
+        interpolation: Choices = None,
+        *,
+        time: str = "time",
+        separator: str | None = None,
+        decimal: str | None = None,
+        encoding: str = "utf-8-sig",
+        **options: Unpack[CsvOptions],
+    ) -> Any:
+        """Read a file whose first line names the columns, as ``name`` or ``name [unit]``.
+
+        Either every column has a unit or none has. An empty cell, ``nan``, ``NA`` or ``null`` is a missing sample,
+        with ``missing="nan"``.
+
+        Arguments:
+            path: one or many files, see `Formats`.
+            interpolation: as of `Data`.
+            time: name of the column with the times.
+            separator: of the columns: a comma, a semicolon, a tab or a blank; by default guessed from the first line.
+            decimal: the decimal mark, ``"."`` or ``","``; by default guessed from the first rows.
+            encoding: of the text.
+            options: see `ReadOptions`.
+
+        Raises:
+            DataError: for a file that cannot be read, with the line's number and what was guessed.
+        """
+        selection, others = _split("from_csv", {**options, "interpolation": interpolation}, time)
+
+        def read(file: Path) -> Table:
+            return readers.read_csv(
+                file, selection, separator=separator, decimal=decimal, encoding=encoding
+            )
+
+        return cls._of_files(path, "from_csv", read, others)
+
+    @classmethod
+    def from_parquet(
+        cls, path: Paths, *, time: str = "time", **options: Unpack[ReadOptions]
+    ) -> Any:
+        """Read a Parquet file as its data frame, see `from_dataframe`; needs ``acausal[parquet]``.
+
+        Arguments:
+            path: one or many files, see `Formats`.
+            time: name of the column, or of the index, with the times.
+            options: see `ReadOptions`.
+
+        Raises:
+            DataError: for a file that cannot be read.
+        """
+        selection, others = _split("from_parquet", options, time)
+        return cls._of_files(
+            path, "from_parquet", lambda file: readers.read_parquet(file, selection), others
+        )
+
+    @classmethod
+    def from_mat(cls, path: Paths, *, time: str = "time", **options: Unpack[ReadOptions]) -> Any:
+        """Read the vectors of a MATLAB file; a field of a structure is called ``structure.field``.
+
+        Without ``columns`` the record has every vector that is as long as the times. MATLAB's version 7.3 needs
+        ``acausal[mat]``.
+
+        Arguments:
+            path: one or many files, see `Formats`.
+            time: name of the variable with the times.
+            options: see `ReadOptions`; a MATLAB file has no units of its own.
+
+        Raises:
+            DataError: for a file that cannot be read.
+        """
+        selection, others = _split("from_mat", options, time)
+        return cls._of_files(
+            path, "from_mat", lambda file: readers.read_mat(file, selection), others
+        )
+
+    @classmethod
+    def from_mdf(cls, path: Paths, **options: Unpack[ReadOptions]) -> Any:
+        """Read the channels of an MDF or MF4 file, each with its own times and unit; needs ``acausal[mdf]``.
+
+        A channel whose name occurs in several groups is called ``name@group``. Without ``columns`` the record has all
+        channels of numbers. Samples that the file marks as invalid are left out.
+
+        Arguments:
+            path: one or many files, see `Formats`.
+            options: see `ReadOptions`.
+
+        Raises:
+            DataError: for a file that cannot be read.
+        """
+        selection, others = _split("from_mdf", options)
+        return cls._of_files(
+            path, "from_mdf", lambda file: readers.read_mdf(file, selection), others
+        )
+
+    @classmethod
+    def from_dataframe(
+        cls, frame: DataFrame, *, time: str = "time", **options: Unpack[ReadOptions]
+    ) -> Self:
+        """A record of a pandas DataFrame.
+
+        Units are those of ``frame.attrs["units"]`` (by name), of a column's ``attrs["units"]``, or of column names
+        such as ``name [unit]``. Dates become seconds from the first one.
+
+        Arguments:
+            frame: a column for each signal; the times are a column, or the index.
+            time: name of the column, or of the index, with the times.
+            options: see `ReadOptions`.
+
+        Raises:
+            DataError: for anything else.
+        """
+        selection, others = _split("from_dataframe", options, time)
+        return cls._of_table(readers.read_data_frame(frame, selection), others)
+
+    @classmethod
+    def from_xarray(cls, dataset: Any, **options: Unpack[ReadOptions]) -> Self:
+        """A record of an `xarray.Dataset` whose variables have one dimension, with the times as its coordinate.
+
+        Variables with other dimensions are signals with times of their own. Units are those of ``attrs["units"]``.
+
+        Arguments:
+            dataset: the data set.
+            options: see `ReadOptions`.
+
+        Raises:
+            DataError: for anything else.
+        """
+        selection, others = _split("from_xarray", options)
+        return cls._of_table(readers.read_xarray(dataset, selection), others)
+
+    def to_dataframe(self) -> DataFrame:
+        """A pandas DataFrame indexed by time, with the units in ``attrs["units"]``.
+
+        Raises:
+            DataError: if pandas is not installed.
+        """
+        return readers.data_frame(self.time, self.signals, self.units)
+
+    def to_xarray(self) -> Any:
+        """An `xarray.Dataset` over the coordinate ``time``, with the units in ``attrs["units"]``.
+
+        Raises:
+            DataError: if xarray is not installed.
+        """
+        return readers.dataset(self.time, self.signals, self.units)
+
+    @classmethod
+    def _of_files(
+        cls,
+        path: object,
+        function: str,
+        read: Callable[[Path], Table],
+        options: Mapping[str, Any],
+    ) -> Self | dict[str, Self]:
+        found = readers.files(path, function)
+        if isinstance(found, Path):
+            return cls._of_table(read(found), options)
+        return {name: cls._of_table(read(file), options) for name, file in found.items()}
+
+
+def _split(
+    function: str, options: Mapping[str, Any], time: str = "time"
+) -> tuple[Selection, dict[str, Any]]:
+    """What is read, and the options of the record itself."""
+    known = ReadOptions.__annotations__
+    unknown = next((name for name in options if name not in known), None)
+    if unknown is not None:
+        raise DataError(f"{function} has no option '{unknown}': {nearest(unknown, known)}")
+    of_selection = {n: options[n] for n in ("columns", "rename", "units") if n in options}
+    others = {n: option for n, option in options.items() if n not in of_selection}
+    return Selection(time, **of_selection), others

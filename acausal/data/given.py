@@ -1,0 +1,205 @@
+"""What a user gives for a record, as columns over one time base in which a missing sample is NaN."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+
+import numpy as np
+from jaxtyping import Float
+from numpy.typing import ArrayLike
+
+from acausal.by_name import names_in
+from acausal.data.readers import Table, is_data_frame
+from acausal.data.samples import Place, check_samples, check_time_base, sample
+from acausal.data.time_bases import on_rows, union
+from acausal.errors import DataError, listing, nearest, shown
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+Missing = Literal["refuse", "nan"]
+"""What a NaN among samples is: a mistake, or a missing sample."""
+
+Columns: TypeAlias = dict[str, Float[np.ndarray, " n"]]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A signal as measured: samples at times of its own, or (``times`` is None) at those of the record."""
+
+    times: Float[np.ndarray, " n"] | None
+    samples: Any
+
+
+def columns_of(
+    time: ArrayLike | None, signals: object, missing: Missing, mask: object, unit: str
+) -> tuple[Float[np.ndarray, " n"], Columns, Missing]:
+    """The time base, the signals as columns over it, and whether samples are missing.
+
+    Arguments:
+        time: of the signals that have no times of their own; None where all have.
+        signals: by name, samples or a pair (times, samples).
+        missing: what a NaN is.
+        mask: by name, which samples count.
+        unit: of time, for messages.
+
+    Raises:
+        DataError: for anything that is not this, with the signal and its first wrong sample.
+    """
+    if missing not in get_args(Missing):
+        raise DataError(f"missing={shown(missing)}; choose one of refuse, nan.")
+    ts = None if time is None else np.asarray(time)
+    if ts is not None:
+        check_time_base(ts, "The record")
+        ts = ts.astype(float, copy=False)
+    measured = {name: _measured(name, value) for name, value in _by_name(signals).items()}
+    _check_times(ts, measured)
+    masks = _masks(mask, measured)
+    checked: Columns = {}
+    for name, given in measured.items():
+        own = ts if given.times is None else given.times
+        assert own is not None
+        present = _present(name, given.samples, masks.get(name))
+        place = partial(_place, ts=own, unit=unit)
+        _check(name, present, own, place, "nan" if name in masks else missing)
+        checked[name] = np.asarray(present, float)
+    own_times = {name: given.times for name, given in measured.items() if given.times is not None}
+    bases = ([] if ts is None else [ts]) + list(own_times.values())
+    merged, rows = union(bases)
+    rows_of = dict(zip(own_times, rows if ts is None else rows[1:], strict=True))
+    columns = {
+        name: on_rows(values, rows_of.get(name, rows[0]), len(merged))
+        for name, values in checked.items()
+    }
+    with_gaps = missing == "nan" or masks or any(r is not None for r in rows)
+    return merged, columns, "nan" if with_gaps else "refuse"
+
+
+def check_table(table: Table, missing: Missing) -> None:
+    """Refuse samples of a file as `columns_of` does, but name their lines.
+
+    Raises:
+        DataError: for the first wrong sample.
+    """
+    if table.time is None:
+        return
+    check_time_base(table.time, "The record", table.place)
+    for name, samples in table.signals.items():
+        _check(name, samples, table.time, table.place, missing)
+
+
+def _by_name(signals: object) -> Mapping[str, Any]:
+    """What is given for each signal.
+
+    Raises:
+        DataError: for what has no names, and for a name that is no text, or that occurs twice.
+    """
+    if is_data_frame(signals):
+        return _frame_columns(signals)
+    if not isinstance(signals, Mapping):
+        raise DataError(
+            "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
+            f"not {_described(signals)}."
+        )
+    return {name: signals[name] for name in names_in(signals, "signals")}
+
+
+def _frame_columns(frame: DataFrame) -> Mapping[str, Any]:
+    if not frame.columns.is_unique:
+        doubled = frame.columns[frame.columns.duplicated()][0]
+        raise DataError(f"The data frame has two columns '{doubled}'.")
+    return {name: frame[name].to_numpy() for name in names_in(frame.columns, "signals")}
+
+
+def _measured(name: str, given: Any) -> Measured:
+    """Samples, or a pair (times, samples), as arrays where they can be."""
+    if not (isinstance(given, tuple) and len(given) == 2 and all(map(_is_vector, given))):
+        return Measured(None, _array(given))
+    times = np.asarray(given[0])
+    check_time_base(times, f"'{name}'")
+    return Measured(times.astype(float, copy=False), _array(given[1]))
+
+
+def _is_vector(given: Any) -> bool:
+    return getattr(_array(given), "ndim", 0) == 1
+
+
+def _array(given: Any) -> Any:
+    """An array; what cannot be one stays as it is, and is refused with the other samples."""
+    if given is None or isinstance(given, str | dict) or hasattr(given, "dtype"):
+        return given
+    try:
+        return np.asarray(given)
+    except ValueError:  # rows of different lengths
+        return given
+
+
+def _check_times(ts: object, measured: Mapping[str, Measured]) -> None:
+    """Refuse signals without times, and times without signals."""
+    without = [name for name, given in measured.items() if given.times is None]
+    if ts is None and (without or not measured):
+        which = f": {listing(without)} have none" if without else ""
+        raise DataError(
+            f"A record needs times{which}; give ac.Data(time, signals), or a pair (times, samples) for a signal."
+        )
+    if ts is not None and measured and not without:
+        raise DataError("All signals have times of their own; leave out those of the record.")
+
+
+def _masks(given: object, measured: Mapping[str, Measured]) -> Mapping[str, np.ndarray]:
+    """Which samples count, by the name of a signal.
+
+    Raises:
+        DataError: for what is not an array of truth values of the signal's length.
+    """
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise DataError(f"mask={shown(given)} has no names; give {{'mass.s': samples_that_count}}.")
+    masks: dict[str, np.ndarray] = {}
+    for name in names_in(given, "mask"):
+        if name not in measured:
+            raise DataError(
+                f"There is a mask for '{name}' but no such signal: {nearest(name, measured)}"
+            )
+        mask, shape = _array(given[name]), np.shape(measured[name].samples)
+        if getattr(mask, "dtype", None) != np.dtype(bool):
+            raise DataError(
+                f"mask: '{name}' has {shown(given[name])}; give True for a sample that counts, else False."
+            )
+        if mask.shape != shape:
+            raise DataError(f"mask: '{name}' has shape {mask.shape} for samples of {shape}.")
+        masks[name] = np.asarray(mask)
+    return masks
+
+
+def _present(name: str, samples: Any, mask: np.ndarray | None) -> Any:
+    """Samples with NaN for those that do not count."""
+    if isinstance(samples, np.ma.MaskedArray):
+        raise DataError(
+            f"'{name}' is a masked array; give its data, and mask={{'{name}': ~samples.mask}}."
+        )
+    return samples if mask is None else np.where(mask, samples, np.nan)
+
+
+def _check(name: str, samples: Any, ts: np.ndarray, place: Place, missing: Missing) -> None:
+    check_samples(
+        samples,
+        ts.shape,
+        f"'{name}'",
+        missing=missing == "nan",
+        place=place,
+        mend="if such samples are missing, say missing='nan'",
+    )
+
+
+def _place(i: int, ts: np.ndarray, unit: str) -> str:
+    return f"{sample(i)} ({ts[i]:g} {unit})"
+
+
+def _described(thing: object) -> str:
+    shape = getattr(thing, "shape", None)
+    return shown(thing) if shape is None else f"an array of shape {shape}"

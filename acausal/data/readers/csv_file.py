@@ -1,0 +1,170 @@
+"""CSV files, read in blocks of lines, so that a large one needs no Python object for each of its numbers."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import TextIO
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.data.readers.csv_dialect import Dialect, dialect_of
+from acausal.data.readers.table import Selection, Table, headers, need_time
+from acausal.errors import DataError, reason
+
+LINES = 50_000
+"""Lines of a block."""
+
+GUESS = 100
+"""Lines after the header from which the decimal mark is guessed."""
+
+MISSING = ("", "nan", "na", "n/a", "null")
+"""Cells of a missing sample, in lower case."""
+
+
+def read_csv(
+    path: Path,
+    selection: Selection,
+    *,
+    separator: str | None = None,
+    decimal: str | None = None,
+    encoding: str = "utf-8-sig",
+) -> Table:
+    """A table from a file whose first line that is not blank names the columns.
+
+    Raises:
+        DataError: for a file that cannot be read, with the line's number.
+    """
+    try:
+        with path.open(encoding=encoding) as file:
+            return _read(file, path, selection, separator, decimal)
+    except LookupError:
+        raise DataError(
+            f"encoding={encoding!r} is not known; give one such as 'latin-1'."
+        ) from None
+    except UnicodeDecodeError as e:
+        raise DataError(
+            f"{path} cannot be read: it is not {e.encoding}; say encoding='latin-1' or another."
+        ) from None
+    except csv.Error as e:
+        raise DataError(f"{path} cannot be read: {e}.") from None
+    except OSError as e:
+        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
+
+
+def _read(
+    file: TextIO, path: Path, selection: Selection, separator: str | None, decimal: str | None
+) -> Table:
+    lines = enumerate(file, 1)
+    number, header = next(((n, line) for n, line in lines if line.strip()), (0, ""))
+    if not number:
+        raise DataError(f"{path} is empty; its first line must name the columns.")
+    head = list(islice(lines, GUESS))
+    rows = [line for _, line in head if line.strip()]
+    dialect = dialect_of(header, rows, separator, decimal)
+    names, units = headers(dialect.header(header), f"{path}, line {number}")
+    need_time(selection, names, str(path))
+    chosen = [selection.time, *selection.names(names, str(path))]
+    blocks = [
+        _numbers(block, [names.index(n) for n in chosen], names, dialect, path)
+        for block in _blocks(head, lines)
+    ]
+    columns = {
+        name: np.concatenate([block[:, i] for block in blocks]) for i, name in enumerate(chosen)
+    }
+    unit_of_time = {"time": units[selection.time]} if selection.time in units else {}
+    units = {n: u for n, u in units.items() if n != selection.time} | unit_of_time
+    return selection.table(
+        columns.pop(selection.time),
+        columns,
+        units,
+        str(path),
+        lambda row: f"line {_line_of(path, row, file.encoding)}",
+    )
+
+
+def _blocks(
+    head: list[tuple[int, str]], lines: Iterator[tuple[int, str]]
+) -> Iterator[list[tuple[int, str]]]:
+    """Lines with their numbers, a block at a time; the first may be empty."""
+    yield head
+    while block := list(islice(lines, LINES)):
+        yield block
+
+
+def _numbers(
+    block: Sequence[tuple[int, str]],
+    chosen: list[int],
+    names: list[str],
+    dialect: Dialect,
+    path: Path,
+) -> Float[np.ndarray, "rows columns"]:
+    """The numbers of a block: all at once if it holds nothing but numbers, otherwise cell by cell."""
+    filled = [(number, line) for number, line in block if line.strip()]
+    found = _at_once([line for _, line in filled], chosen, len(names), dialect)
+    if found is not None:
+        return found
+    rows = [_row(line, chosen, names, dialect, f"{path}, line {n}") for n, line in filled]
+    return np.array(rows).reshape(len(rows), len(chosen))
+
+
+def _at_once(
+    lines: list[str], chosen: list[int], width: int, dialect: Dialect
+) -> Float[np.ndarray, "rows columns"] | None:
+    """The numbers of lines that hold nothing but numbers; None for others."""
+    if not _have_width(lines, width, dialect.separator):
+        return None
+    if dialect.decimal == ",":
+        if dialect.separator == "," or any("." in line for line in lines):
+            return None
+        lines = [line.replace(",", ".") for line in lines]
+    try:
+        return np.loadtxt(
+            lines,
+            comments=None,
+            delimiter=None if dialect.separator == " " else dialect.separator,
+            usecols=chosen,
+            ndmin=2,
+        )
+    except ValueError:
+        return None
+
+
+def _have_width(lines: Iterable[str], width: int, separator: str) -> bool:
+    """Whether there are lines, and each has so many cells."""
+    if separator == " ":
+        widths = {len(line.split()) for line in lines}
+    else:
+        widths = {line.count(separator) + 1 for line in lines}
+    return widths == {width}
+
+
+def _row(
+    line: str, chosen: list[int], names: list[str], dialect: Dialect, where: str
+) -> list[float]:
+    cells = dialect.cells(line)
+    if len(cells) != len(names):
+        raise DataError(f"{where}: {len(cells)} values for {len(names)} columns ({dialect}).")
+    return [_number(cells[i], names[i], dialect, where) for i in chosen]
+
+
+def _number(cell: str, name: str, dialect: Dialect, where: str) -> float:
+    if cell.strip().lower() in MISSING:
+        return np.nan
+    is_foreign = "_" in cell or (dialect.decimal == "," and "." in cell)
+    try:
+        if not is_foreign:
+            return float(cell.replace(",", ".") if dialect.decimal == "," else cell)
+    except ValueError:
+        pass
+    raise DataError(f"{where}: '{cell.strip()}' in column '{name}' is not a number ({dialect}).")
+
+
+def _line_of(path: Path, row: int, encoding: str) -> int:
+    """The number of the line that holds a row; the file is read again, as only an error needs it."""
+    with path.open(encoding=encoding) as file:
+        filled = (number for number, line in enumerate(file, 1) if line.strip())
+        return next(islice(filled, row + 1, None))

@@ -1,0 +1,111 @@
+"""pandas data frames, and Parquet files by them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeGuard
+
+import numpy as np
+
+from acausal.data.readers.table import Selection, Table, headers, library, need_time, seconds
+from acausal.errors import DataError, reason, shown
+
+if TYPE_CHECKING:
+    from pandas import DataFrame, Index
+
+
+def is_data_frame(thing: object) -> TypeGuard[DataFrame]:
+    """Whether something is a pandas DataFrame; pandas is not imported for that."""
+    pandas = sys.modules.get("pandas")
+    return pandas is not None and isinstance(thing, pandas.DataFrame)
+
+
+def read_data_frame(frame: object, selection: Selection, source: str = "") -> Table:
+    """A table from a data frame with the times in a column, or as its index.
+
+    Raises:
+        DataError: for anything else, for a frame without times, and for two columns of one name.
+    """
+    if not is_data_frame(frame):
+        raise DataError(f"from_dataframe needs a pandas DataFrame, not {shown(frame)}.")
+    what = source or "The data frame"
+    if not frame.columns.is_unique:
+        doubled = frame.columns[frame.columns.duplicated()][0]
+        raise DataError(f"{what} has two columns '{doubled}'.")
+    texts = [name for name in frame.columns if isinstance(name, str)]
+    if len(texts) < len(frame.columns):
+        odd = next(name for name in frame.columns if not isinstance(name, str))
+        raise DataError(f"{what} has a column {shown(odd)}; give it a name such as 'mass.s'.")
+    names, in_headers = headers(texts, what)
+    column_of = dict(zip(names, texts, strict=True))
+    if selection.time in column_of:
+        time = _array(frame[column_of[selection.time]])
+    else:
+        time = _array(_time_index(frame, selection, names, what))
+    signals = {n: _array(frame[column_of[n]]) for n in selection.names(names, what)}
+    units = {**in_headers, **_units(frame, column_of)}
+    unit_of_time = units.pop(selection.time, units.pop("time", None))
+    units |= {"time": unit_of_time} if unit_of_time is not None else {}
+    return selection.table(seconds(time), signals, units, source)
+
+
+def read_parquet(path: Path, selection: Selection) -> Table:
+    """A table from a Parquet file; the units are those that its data frame had."""
+    pandas = library("pandas", "parquet", "A Parquet file")
+    library("pyarrow", "parquet", "A Parquet file")
+    try:
+        frame = pandas.read_parquet(path, engine="pyarrow")
+    except OSError as e:
+        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
+    except Exception as e:  # pyarrow has errors of its own for each way in which a file is broken
+        raise DataError(f"{path} is not a Parquet file: {shown(str(e))}.") from None
+    return read_data_frame(frame, selection, str(path))
+
+
+def data_frame(
+    time: np.ndarray, signals: Mapping[str, np.ndarray], units: Mapping[str, str] | None
+) -> DataFrame:
+    """A data frame with the times as its index, and the units in ``attrs["units"]``."""
+    pandas = library("pandas", "dataframe", "A data frame")
+    frame = pandas.DataFrame(dict(signals), index=pandas.Index(time, name="time"))
+    if units is not None:
+        frame.attrs["units"] = {"time": "s", **units}
+    return frame
+
+
+def _time_index(frame: DataFrame, selection: Selection, names: list[str], what: str) -> Index:
+    """The index, if it holds the times."""
+    if selection.time not in ("time", frame.index.name):
+        need_time(selection, names, what)
+    if frame.index.name is None and type(frame.index).__name__ == "RangeIndex":
+        raise DataError(
+            f"{what} has no time: its index only counts the rows. Give it a column 'time' in seconds, "
+            "or times as its index."
+        )
+    return frame.index
+
+
+def _array(column: Any) -> np.ndarray:
+    """Of a series or an index: numbers, with NaN where pandas lacks a value, dates, durations, or what else it has."""
+    dtype: Any = column.dtype
+    if isinstance(dtype, np.dtype):
+        return column.to_numpy()
+    if dtype.kind in "iufb":
+        return column.to_numpy(float, na_value=np.nan)
+    if dtype.kind in "mM":
+        return column.to_numpy(f"{dtype.kind}8[ns]")
+    return column.to_numpy()
+
+
+def _units(frame: DataFrame, column_of: Mapping[str, str]) -> dict[str, str]:
+    """Units in the attributes of the frame, or of its columns."""
+    of_frame: Any = frame.attrs.get("units", {})
+    of_frame = of_frame if isinstance(of_frame, Mapping) else {}
+    of_columns = {n: frame[column].attrs.get("units") for n, column in column_of.items()}
+    found = {
+        n: of_frame.get(n, of_frame.get(column_of.get(n, n), of_columns.get(n)))
+        for n in (*column_of, "time")
+    }
+    return {n: unit for n, unit in found.items() if isinstance(unit, str)}

@@ -1,0 +1,80 @@
+"""MDF and MF4 files, the car industry's format, by asammdf: channels in groups, each group with its own times."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal.data.readers.table import Selection, Table, library
+from acausal.errors import DataError, listing, reason, shown
+
+STARTS = (b"MDF     ", b"UnFinMF ")
+"""What a finished file begins with, and one whose writing was broken off."""
+
+
+def read_mdf(path: Path, selection: Selection) -> Table:
+    """A table of channels with their own times.
+
+    A channel whose name occurs in several groups is called ``name@group``. Without a choice of columns the table has
+    all channels of numbers with two samples or more. Samples that the file marks as invalid are left out.
+
+    Raises:
+        DataError: for a file that cannot be read, or a chosen channel that does not hold numbers.
+    """
+    asammdf = library("asammdf", "mdf", "An MDF file")
+    try:
+        with path.open("rb") as raw:
+            start = raw.read(len(STARTS[0]))
+    except OSError as e:
+        raise DataError(f"{path} cannot be read: {reason(e)}.") from None
+    if start not in STARTS:
+        raise DataError(f"{path} is not an MDF file: it does not begin with 'MDF'.")
+    try:
+        file = asammdf.MDF(path)
+    except Exception as e:  # asammdf raises whatever a wrong byte leads to
+        raise DataError(f"{path} is not an MDF file: {shown(str(e))}.") from None
+    with file:
+        places = _places(file)
+        chosen = selection.names(places, str(path))
+        try:
+            channels = _channels(file, places, chosen)
+        except Exception as e:
+            raise DataError(f"{path} cannot be read: {shown(str(e))}.") from None
+    usable = {n: c for n, c in channels.items() if _is_usable(c)}
+    asked = [*(selection.columns or ()), *(selection.rename or ())]
+    odd = [n for n in asked if n not in usable and n in channels]
+    if odd:
+        raise DataError(
+            f"{path}: {listing(odd)} are not numbers at two times or more; leave them out."
+        )
+    units = {n: str(c.unit or "") for n, c in usable.items()}
+    units = units if any(units.values()) else {}
+    signals = {n: (np.asarray(c.timestamps), np.asarray(c.samples)) for n, c in usable.items()}
+    return selection.table(None, signals, units | ({"time": "s"} if units else {}), str(path))
+
+
+def _places(file: Any) -> dict[str, tuple[int, int]]:
+    """Group and index of every channel but the times, by a name that occurs once."""
+    masters = set(file.masters_db.items())
+    places: dict[str, tuple[int, int]] = {}
+    for name, found in file.channels_db.items():
+        of_name = [tuple(place) for place in found if tuple(place) not in masters]
+        for group, index in dict.fromkeys(of_name):
+            places[name if len(of_name) == 1 else f"{name}@{group}"] = (group, index)
+    return places
+
+
+def _channels(
+    file: Any, places: dict[str, tuple[int, int]], names: Sequence[str]
+) -> dict[str, Any]:
+    """The channels without invalid samples."""
+    found = file.select([(None, *places[name]) for name in names])
+    return {name: channel.validate() for name, channel in zip(names, found, strict=True)}
+
+
+def _is_usable(channel: Any) -> bool:
+    samples = np.asarray(channel.samples)
+    return samples.ndim == 1 and samples.dtype.kind in "biuf" and len(samples) >= 2

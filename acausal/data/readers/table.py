@@ -1,0 +1,164 @@
+"""What every reader returns, and how a user picks from it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+
+from acausal.by_name import names_in
+from acausal.data.samples import Place, sample
+from acausal.errors import DataError, nearest, shown
+
+HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
+"""A column's header: ``name`` or ``name [unit]``."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Signals as read.
+
+    Arguments:
+        time: sample times; None if every signal has its own.
+        signals: by name, samples or a pair (times, samples).
+        units: by name, with that of ``"time"``; of all, or of none.
+        source: names the file in errors; empty for an object in memory.
+        place: names a sample in errors.
+    """
+
+    time: np.ndarray | None
+    signals: Mapping[str, Any]
+    units: Mapping[str, str]
+    source: str = ""
+    place: Place = sample
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What is read of a source, and under which names.
+
+    Arguments:
+        time: name of the column with the times.
+        columns: the columns to read, besides the times; by default all.
+        rename: names in the source, and what they are called in the record.
+        units: units by name in the record; these count, not those of the source.
+    """
+
+    time: str = "time"
+    columns: Sequence[str] | None = None
+    rename: Mapping[str, str] | None = None
+    units: Mapping[str, str] | None = None
+
+    def names(self, known: Collection[str], source: str) -> list[str]:
+        """The columns to read, without that of the times.
+
+        Raises:
+            DataError: for a choice of a column that the source does not have.
+        """
+        if not isinstance(self.rename, Mapping | None):
+            raise DataError(
+                f"rename={shown(self.rename)} has no names; give {{'column': 'mass.s'}}."
+            )
+        columns = None if self.columns is None else names_in(self.columns, "columns")
+        for name in (*(columns or ()), *names_in(self.rename or (), "rename")):
+            if name not in known:
+                raise DataError(f"{source} has no column '{name}': {nearest(name, known)}")
+        return [n for n in (known if columns is None else columns) if n != self.time]
+
+    def table(
+        self,
+        time: np.ndarray | None,
+        signals: Mapping[str, Any],
+        units: Mapping[str, str],
+        source: str = "",
+        place: Place = sample,
+    ) -> Table:
+        """The chosen signals under the names that they have in the record.
+
+        Arguments are those of `Table`, by the names of the source; only ``"time"`` is called so already.
+
+        Raises:
+            DataError: if two signals get one name.
+        """
+        called = {n: self._name(n) for n in signals}
+        renamed: dict[str, Any] = {}
+        for name, samples in signals.items():
+            if called[name] in renamed or called[name] == "time":
+                raise DataError(
+                    f"rename: two columns{f' of {source}' if source else ''} are called '{called[name]}'."
+                )
+            renamed[called[name]] = samples
+        found = {called.get(n, n): u for n, u in units.items() if n in signals or n == "time"}
+        given = self.units if isinstance(self.units, Mapping) else {}
+        if not isinstance(self.units, Mapping | None):
+            raise DataError(
+                f"units={shown(self.units)} has no names; give a unit by name: {{'mass.s': 'm'}}."
+            )
+        return Table(time, renamed, {**found, **given}, source, place)
+
+    def _name(self, column: str) -> str:
+        name = (self.rename or {}).get(column, column)
+        return names_in([name], "rename")[0]
+
+
+def headers(cells: Sequence[str], where: str) -> tuple[list[str], dict[str, str]]:
+    """Names and units of columns from ``name`` or ``name [unit]``.
+
+    Raises:
+        DataError: for a header of another form, and for two of one name.
+    """
+    names: list[str] = []
+    units: dict[str, str] = {}
+    for cell in cells:
+        match = HEADER.fullmatch(cell)
+        if match is None or not match["name"]:
+            raise DataError(
+                f"{where}: '{cell}' is not a column header; write 'name' or 'name [unit]'."
+            )
+        name = match["name"]
+        if name in names:
+            raise DataError(f"{where}: two columns are called '{name}'.")
+        names.append(name)
+        if match["unit"] is not None:
+            units[name] = match["unit"]
+    return names, units
+
+
+def need_time(selection: Selection, known: Collection[str], source: str) -> None:
+    """Refuse a source without the column of times."""
+    if not isinstance(selection.time, str):
+        raise DataError(
+            f"time={shown(selection.time)} is not a column; give its name, such as 'time'."
+        )
+    if selection.time not in known:
+        raise DataError(
+            f"{source} has no column '{selection.time}': {nearest(selection.time, known)}"
+            " Say time='...' if the times are called otherwise."
+        )
+
+
+def seconds(times: np.ndarray) -> np.ndarray:
+    """Durations and dates as seconds, dates from the first one; other times as they are."""
+    if times.dtype.kind == "M":
+        times = times - times[:1]
+    if times.dtype.kind != "m":
+        return times
+    found = times / np.timedelta64(1, "s")
+    return np.asarray(found, float)
+
+
+def library(name: str, extra: str, what: str) -> Any:
+    """An optional library.
+
+    Raises:
+        DataError: if it is not installed.
+    """
+    try:
+        return import_module(name)
+    except ImportError:
+        needed = name.partition(".")[0]
+        raise DataError(f"{what} needs {needed}: pip install 'acausal[{extra}]'.") from None
