@@ -16,7 +16,7 @@ from acausal.errors import DataError, TrainingError, listing, nearest
 from acausal.networks import networks
 from acausal.simulation import announce_derivatives, for_fixed_steps, solver_named
 from acausal.training.objective.context import context, states_before_training
-from acausal.training.objective.initial_state import first_states
+from acausal.training.objective.initial_state import by_record, first_states
 from acausal.training.objective.lay_out import check_step, lay_out
 from acausal.training.objective.losses import named
 from acausal.training.objective.modifiers import modifiers
@@ -73,7 +73,7 @@ def build_problem(
         check_resolution(record.time, dtype, where)
         announce_derivatives(system.inputs, record)
     check_step(data, options.dt)
-    starts, shooting = first_states(system, data, options.x0)
+    shooting = "fit" in by_record(data, options.x0)
     records, substeps = lay_out(data, system.inputs, targets, system.states, options.dt)
     weights = np.ones(records.count)
     sequences = cut(
@@ -97,7 +97,7 @@ def build_problem(
         targets=targets,
         records=records,
         sequences=sequences,
-        first_states=starts,
+        first_states=first_states(system, data, options.x0),
         shooting=None,
         loss=named(options.loss),
         regularizers=_labelled(options.penalties),

@@ -26,6 +26,7 @@ from acausal.training.fingerprint import fingerprint
 from acausal.training.loop import SHORTER_STEPS, Trained, train
 from acausal.training.member import Best
 from acausal.training.objective.held_out import hold_out, split
+from acausal.training.objective.initial_state import check_records
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.options import FitOptions
@@ -70,6 +71,7 @@ def train_from_starts(
     given = {n: record.for_system(system) for n, record in records_of(data).items()}
     kept = split(given, options.validation)
     names = names_in(targets, "targets")
+    check_records(options.x0, (*given, *(kept.held or {})))
     problem = build_problem(system, kept.training, names, dict(params[0]), options)
     held = hold_out(problem, kept, options.x0)
     plan = legs(problem, options, DIVERGED if options.loss == "nrmse" else np.inf)

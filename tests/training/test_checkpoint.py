@@ -23,6 +23,7 @@ from acausal.data import tensors
 from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import digest, program
 from acausal.training.history import Log
+from acausal.training.objective.records import Places
 from tests.support.interrupted import EPOCHS, train
 from tests.support.oscillator import learned, plain, record
 from tests.support.paths import ROOT
@@ -307,7 +308,7 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr(
         "acausal.training.checkpoint.write_arrays", lambda *arguments: written.append(now[0])
     )
-    log = Log(np.zeros(1), (), ())
+    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
     snapshot = checkpoints.Snapshot(0, 0, None, (), 0, 0.0, 0.0, 0.0)
     with checkpoints.keeping(tmp_path / NAME, 60.0, {}) as keep:
         for now[0] in np.arange(0.0, 200.0, 25.0):

@@ -14,6 +14,7 @@ import pytest
 import acausal as ac
 from acausal.training.build_problem import build_problem
 from acausal.training.history import Log
+from acausal.training.objective.records import Places
 from acausal.training.objective.sequences import Batch
 from acausal.training.objective.smoothing import smoothed
 from acausal.training.objective.whole_record import over_whole_record
@@ -105,7 +106,7 @@ def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, expected: s
     trainer = Trainer(ac.lbfgs(), 1e3, lambda objective, x: {})
     state = begin(trainer, jnp.asarray(0.95), jax.random.key(0))
     state, rows = advance(Bowl(1.02, value), trainer, state, jnp.asarray(20))
-    log = Log(np.zeros(1), (), ())
+    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
     assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [expected]
     assert int(state.rejected) == 0
     assert float(state.optimizer.point[0]) == pytest.approx(1.0, abs=1e-9)

@@ -25,9 +25,9 @@ def files(given: object, function: str) -> Path | dict[str, Path]:
         DataError: for what is no path, and where there are no files.
     """
     if isinstance(given, list | tuple):
-        paths = [need_path(path, function) for path in given]
+        paths = [_path(path, function) for path in given]
     else:
-        path = need_path(given, function)
+        path = _path(given, function)
         if not glob.has_magic(str(path)) or path.exists():
             return path
         found = glob.glob(str(path), recursive=True)  # noqa: PTH207 (a pattern may be absolute)
@@ -35,6 +35,13 @@ def files(given: object, function: str) -> Path | dict[str, Path]:
     if not paths:
         raise DataError(f"{function}: no files at {shown(str(given))}; give at least one.")
     return dict(zip(_names(paths, function), paths, strict=True))
+
+
+def _path(given: object, function: str) -> Path:
+    path = need_path(given, function)
+    if "\0" in str(path):
+        raise DataError(f"{function}: {shown(str(path))} is no path; it has a null character.")
+    return path
 
 
 def _names(paths: list[Path], function: str) -> list[str]:

@@ -123,13 +123,13 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None
 
 
 def untrained(x0: InitialState, records: Mapping[str, Data]) -> InitialState:
-    """The choice for records on which nothing is trained."""
+    """The choice for records on which nothing is trained; as measured where nothing else is said."""
     if isinstance(x0, str):
         return "data" if x0 == "fit" else x0
     if not any(isinstance(v, str | Mapping) for v in x0.values()):
         return x0
     chosen: Mapping[str, Any] = x0
-    return {n: "data" if chosen.get(n, "data") == "fit" else chosen.get(n, "data") for n in records}
+    return {n: "data" if chosen.get(n, "fit") == "fit" else chosen[n] for n in records}
 
 
 def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Problem:
@@ -141,7 +141,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         x0: the states at their starts.
     """
     system = problem.system
-    starts, _ = first_states(system, data, x0)
+    starts = first_states(system, data, x0)
     records, substeps = lay_out(data, system.inputs, problem.targets, None, problem.longest_step)
     return replace(
         problem,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, cast
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeGuard, cast
 
 import equinox as eqx
 import jax
@@ -90,10 +90,8 @@ class FirstStates(eqx.Module):
         return states
 
 
-def first_states(
-    system: System, data: Mapping[str, Data], x0: InitialState
-) -> tuple[FirstStates, bool]:
-    """The states at which records start as ``x0`` says, and whether some of them are trained.
+def first_states(system: System, data: Mapping[str, Data], x0: InitialState) -> FirstStates:
+    """The states at which records start as ``x0`` says.
 
     Raises:
         DataError: for another word, a name that is neither a state nor a record, a value that is not a number, or a
@@ -103,26 +101,43 @@ def first_states(
         _start(system, d, of) for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
     kinds = tuple(sorted({s.kind for s in starts}))
-    states = FirstStates(
+    return FirstStates(
         jnp.asarray([s.kind for s in starts]), jnp.asarray([s.state for s in starts]), kinds
     )
-    return states, FIT in kinds
+
+
+def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:
+    """Whether a choice is one by record."""
+    if isinstance(x0, str):
+        return False
+    return any(isinstance(v, Mapping) for v in x0.values()) or any(n in x0 for n in records)
+
+
+def check_records(x0: InitialState, known: Iterable[str]) -> None:
+    """Check the names of records.
+
+    Raises:
+        DataError: for a name that is no record.
+    """
+    known = list(known)
+    if differs(known, x0):
+        for name in x0:
+            if name not in known:
+                raise DataError(f"x0: there is no record '{name}': {nearest(name, known)}")
 
 
 def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
     """The choice for each record.
 
     Raises:
-        DataError: for a record that has none, or a name that is no record.
+        DataError: for a record that has none.
     """
-    if isinstance(x0, str) or not any(isinstance(v, str | Mapping) for v in x0.values()):
+    if not differs(records, x0):
         return [cast(OfRecord, x0)] * len(records)
-    for name in x0:
-        if name not in records:
-            raise DataError(f"x0: there is no record '{name}': {nearest(name, records)}")
-    if missing := [n for n in records if n not in x0]:
+    own = cast(Mapping[str, OfRecord], x0)
+    if missing := [n for n in records if n not in own]:
         raise DataError(f"x0 says nothing about the records {listing(missing)}.")
-    return [cast(OfRecord, x0[n]) for n in records]
+    return [own[n] for n in records]
 
 
 def _start(system: System, data: Data, x0: OfRecord) -> Start:

@@ -205,7 +205,7 @@ def _startable(records: Records, n: int, lacking: Sequence[str]) -> Int[np.ndarr
             "(sequence_length=None) with x0='model' or x0={...}."
         )
     first, last = np.asarray(records.first), np.asarray(records.last)
-    known: Bool[np.ndarray, " N"] = np.isfinite(np.asarray(records.x)).all(axis=1)
+    known = np.all(np.isfinite(np.asarray(records.x)), axis=1)
     found = []
     for a, b in zip(first, last, strict=True):
         rows = a + np.flatnonzero(known[a : b + 1])

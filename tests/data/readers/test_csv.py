@@ -1,4 +1,5 @@
 import io
+import random
 
 import numpy as np
 import pytest
@@ -220,6 +221,37 @@ def test_what_is_no_text(write, tmp_path):
     assert ac.Data.from_csv(path, encoding="latin-1").units == {"T": "°C"}
     for other in (tmp_path / "none.csv", tmp_path):
         assert "cannot be read" in refused(lambda other=other: ac.Data.from_csv(other))
+
+
+def test_whatever_a_file_holds_it_is_read_or_refused_in_one_sentence(write):
+    chance = random.Random(0)
+    pieces = [*'time,x[m];\t "\n015._-e#\0é', "nan", "inf", "1e999", "\r\n", "0,5", ",,", "\n\n"]
+    read, told = 0, ""
+    for _ in range(500):
+        separator = chance.choice(",;\t ")
+        text = "\n".join(separator.join(row) for row in (["time", "x"], "01", "12", "23")) + "\n"
+        for _ in range(chance.randint(0, 4)):
+            at = chance.randrange(len(text))
+            text = text[:at] + chance.choice(pieces) + text[at + chance.randint(0, 2) :]
+        path = write(text)
+        try:
+            ac.Data.from_csv(path, missing=chance.choice(["refuse", "nan"]))
+            read += 1
+        except ac.DataError as error:
+            told += str(error)
+    assert "\n" not in told
+    assert read > 100
+
+
+@pytest.mark.parametrize("path", ["a\0b", ["a\0b"], "\0*", 3, None, b"x", {"a": "b"}])
+def test_what_is_no_path(path):
+    for read in (
+        ac.Data.from_csv,
+        ac.Data.from_mat,
+        ac.Data.from_parquet,
+        ac.Data.from_mdf,
+    ):
+        assert " is no path; " in refused(lambda read=read: read(path))
 
 
 numbers = st.floats(allow_nan=True, allow_infinity=False, width=64)
