@@ -77,6 +77,7 @@ from .training import (
     Ensemble as Ensemble,
     Fit as Fit,
     FrequencyRange as FrequencyRange,
+    RecordFit as RecordFit,
     Shift as Shift,
     SmallCorrection as SmallCorrection,
     Stability as Stability,

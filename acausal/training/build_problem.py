@@ -59,7 +59,7 @@ def build_problem(
     system.pack(params)  # refuses what does not fit
     chosen = _networks(options.train, params)
     changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
-    if not chosen and not changed.names:
+    if not chosen and not changed.names and not options.per_record:
         raise TrainingError(
             "There is nothing to train: no network is in the model or chosen by train=[...]. "
             "Give modifiers=[...] to train parameters."
