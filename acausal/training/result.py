@@ -28,6 +28,7 @@ from acausal.reporting import (
 )
 from acausal.training.history import History
 from acausal.training.loop import Trained
+from acausal.training.objective.arguments import labels
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
@@ -267,6 +268,7 @@ class Fit:
             add_laws(page, self.with_bands(sure.laws))
             header = ("parameter", "value", "change", "one sigma")
             add_parameters(page, header, self._parameters(sure), sure.summary())
+            self._add_own(page, sure)
             add_residuals(page, self.residuals())
         else:
             page.text(
@@ -274,6 +276,19 @@ class Fit:
             )
         add_divergences(page, self.history.divergences)
         return page.write(need_path(folder, "report") / "index.html")
+
+    def _add_own(self, page: Page, sure: Confidence) -> None:
+        """The parameters that differ between records, in a table."""
+        names = self.problem.per_record.names
+        if not names:
+            return
+        page.section("Parameters of records")
+        header = ("record", *(f"{n} [{self.system.unit(n)}]" for n in names))
+        rows = [
+            (name, *(f"{r.parameters[n]:.5g} ± {sure.per_record[n][k]:.2g}" for n in names))
+            for k, (name, r) in enumerate(self.records.items())
+        ]
+        page.table(header, rows)
 
     def _losses(self) -> list[tuple[str, str, str]]:
         """Losses before and after, in rows."""
@@ -296,7 +311,13 @@ class Fit:
 
     def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
         """Learned laws as reports show them: bands over their networks' arguments in training."""
-        return {n: LearnedLaw(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
+
+        def law(name: str, band: Band) -> LearnedLaw:
+            found = labels(self.system, name)
+            argument = found.arguments[0] if found.arguments else "argument"
+            return LearnedLaw(band, self.seen[name], self.samples(name), argument, found.result)
+
+        return {name: law(name, band) for name, band in bands.items()}
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
