@@ -168,7 +168,7 @@ class FitOptions:
             multiple of their number. By default JAX's default device alone.
         validation: what to hold out, which chooses the best: the last part of every record, such as 0.2 (predicted
             in one simulation from the record's start), names of records, or other records (which start as ``x0`` says;
-            with ``"fit"`` from their own measured states).
+            with ``"fit"`` from their own measured states, and as the model starts where these are not measured).
         evaluate_every: updates between two evaluations over the whole record and what is held out, among which the
             best is returned; by default a tenth of the epochs.
         patience: evaluations without a better one after which a part of the strategy ends.
