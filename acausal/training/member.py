@@ -48,9 +48,14 @@ class Member:
         problem: what is evaluated over the whole record.
         held: what is held out, if anything is.
         key: source of all batches.
+
+    Attributes:
+        best: its best state.
+        before: its updates before the present part of the strategy.
     """
 
     best: Best
+    before: int = 0
 
     def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
@@ -67,9 +72,9 @@ class Member:
         if self.log.epochs == 0 or new.score < self.best.score or math.isinf(self.best.score):
             self.best = new
 
-    def evaluations_without_improvement(self, since: int) -> int:
-        """How many evaluations there were since the best one, or since some update if that is later."""
-        begin = max(since, self.best.epoch)
+    def evaluations_without_improvement(self) -> int:
+        """How many evaluations there were in this part of the strategy since the best one."""
+        begin = max(self.before, self.best.epoch)
         return sum(evaluation.epoch > begin for evaluation in self.log.evaluations)
 
 

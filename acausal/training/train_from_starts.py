@@ -23,6 +23,7 @@ from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
+from acausal.training.halving import halving
 from acausal.training.loop import SHORTER_STEPS, Trained, train
 from acausal.training.member import Best
 from acausal.training.objective.held_out import hold_out, split
@@ -32,6 +33,7 @@ from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.options import FitOptions
 from acausal.training.progress import display
 from acausal.training.result import Fit, result
+from acausal.training.starts import spread_starts, starts_of
 from acausal.training.strategy import legs
 
 if TYPE_CHECKING:
@@ -78,6 +80,10 @@ def train_from_starts(
     problems = [_from(problem, own) for own in params]
     starts = [p.start() for p in problems]
     keys = [jax.random.key(seed) for seed in seeds]
+    if options.starts > 1:
+        starts = spread_starts(problem, options.starts, int(seeds[0]))
+        problems, keys = problems * options.starts, keys * options.starts
+    chosen = halving(options.starts, sum(leg.epochs for leg in plan))
     identity = (
         {}
         if options.checkpoint is None
@@ -90,11 +96,16 @@ def train_from_starts(
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
         observers = (show, *options.all_observers)
-        trained = train(problem, starts, plan, keys, observers, keep, stored, held)
+        trained = train(problem, starts, plan, keys, observers, keep, stored, held, chosen)
+    spread = None
+    if options.starts > 1:
+        spread = starts_of(problem, starts, trained)
+        best = min(range(len(trained)), key=lambda k: trained[k].best.score)
+        problems, starts, trained = problems[:1], starts[best : best + 1], trained[best : best + 1]
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in _warnings(own, start, one):
             warnings.warn(sentence, stacklevel=user_level())
-    return tuple(result(own, one, held) for own, one in zip(problems, trained, strict=True))
+    return tuple(result(own, one, held, spread) for own, one in zip(problems, trained, strict=True))
 
 
 def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
