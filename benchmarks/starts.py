@@ -41,17 +41,20 @@ class Coulomb(tl.PartialCompliantWithRelativeStates):
 
 
 class TwoMasses(ac.Component):
-    """A mass that rubs on the ground is pushed, and pulls another one by a spring."""
+    """A mass on a spring that rubs on the ground is pushed, and pulls another one by a spring."""
 
     def __init__(self) -> None:
         super().__init__()
         at_rest = {"s": ac.Start(0.0, fixed=True), "v": ac.Start(0.0, fixed=True)}
         self.ground, self.push = tl.Fixed(), tl.Force()
         self.friction = Coulomb(Fc=TRUE["friction.Fc"])
+        self.mount = tl.Spring(c=100.0)
         self.first = tl.Mass(m=TRUE["first.m"], **at_rest)
         self.spring = tl.SpringDamper(c=TRUE["spring.c"], d=TRUE["spring.d"])
         self.second = tl.Mass(m=TRUE["second.m"], **at_rest)
         self.connect(self.ground.flange, self.friction.flange_a)
+        self.connect(self.ground.flange, self.mount.flange_a)
+        self.connect(self.mount.flange_b, self.first.flange_a)
         self.connect(self.friction.flange_b, self.first.flange_a, self.push.flange)
         self.connect(self.first.flange_b, self.spring.flange_a)
         self.connect(self.spring.flange_b, self.second.flange_a)
@@ -77,11 +80,11 @@ def oscillator() -> tuple[ac.System, ac.Data]:
 
 
 def two_masses() -> tuple[ac.System, ac.Data]:
-    """A record of 5 s: steps of the push and a chirp, both positions with noise."""
-    system, ts = ac.compile(TwoMasses()), np.arange(1001) * 0.005
-    push = 8 * np.sign(np.sin(2 * ts)) + 6 * np.sin(4 * ts + 2.5 * ts**2)
+    """A record of 10 s: steps of the push and a chirp, both positions with noise."""
+    system, ts = ac.compile(TwoMasses()), np.arange(2001) * 0.005
+    push = 8 * np.sign(np.sin(2 * ts)) + 6 * np.sin(4 * ts + 2 * ts**2)
     inputs = {"push.f": push}
-    solution = ac.simulate(system, (0, 5), dt=0.005, inputs=inputs, solver="rk4")
+    solution = ac.simulate(system, (0, 10), dt=0.005, inputs=inputs, solver="rk4")
     rng = np.random.default_rng(0)
     signals = {"push.f": push}
     for name in ("first.s", "second.s"):
