@@ -155,7 +155,8 @@ def main() -> None:
                 f"{starts} starts: loss {fit.loss:.4f} {'found' if found(fit, TRUE) else 'missed'} in "
                 f"{time.perf_counter() - began:.1f} s (compiling {fit.compile_seconds:.1f} s)"
             )
-        print(f"trial {trial:2}  {'; '.join(line)}. {fit.starts.summary()}", flush=True)
+            counted = "" if fit.starts is None else fit.starts.summary()
+        print(f"trial {trial:2}  {'; '.join(line)}. {counted}", flush=True)
     for starts, count in hits.items():
         print(f"two masses, {starts} starts: {count} of {trials} find the true minimum")
 

@@ -6,20 +6,17 @@ import itertools
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from statistics import fmean as mean
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Int, PRNGKeyArray
 
-from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
-from acausal.training.halving import Halving
-from acausal.training.history import Divergence, History, Log
-from acausal.training.member import Best, Member, stacked, unstacked
+from acausal.training.halving import ALL, Halving
+from acausal.training.history import Divergence
+from acausal.training.member import Best, Member, Trained, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import of_first_process, on_default_device, replicate
@@ -32,45 +29,16 @@ from acausal.training.optimizers.trainer import (
     State,
     advance,
     begin,
+    best_known,
     converged,
+    epochs_of,
 )
 from acausal.training.progress import Observer, Progress
+from acausal.training.rejections import check_rejections
 from acausal.training.strategy import Leg
 
 REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
-
-SHORTER_STEPS = (
-    "Its steps are too long for the solver to be stable: "
-    "take a smaller dt, an implicit solver (solver='kvaerno3'), or shorter sequences."
-)
-"""What helps where gradients explode."""
-
-REJECTIONS = 50
-"""A training ends after this many rejected updates in a row."""
-
-
-@dataclass(frozen=True, eq=False)
-class Trained:
-    """The end of a training.
-
-    Attributes:
-        best: its best state.
-        last: what was trained, after the last update or evaluation.
-        history: the training, update by update.
-        seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
-        interrupted: whether the user ended it.
-        finished: whether it has converged in the last part, or has made all of its updates.
-    """
-
-    best: Best
-    last: Trainable
-    history: History
-    seconds: float
-    compiling: float
-    updating: float
-    interrupted: bool
-    finished: bool
 
 
 def train(
@@ -82,7 +50,7 @@ def train(
     keep: Keep = lambda snapshot, rows: None,
     stored: Stored | None = None,
     held: HeldOut | None = None,
-    halving: Halving = Halving(),
+    halving: Halving = ALL,
 ) -> tuple[Trained, ...]:
     """Train leg by leg, each from the best state of the one before, until the last one ends or the user interrupts.
 
@@ -281,7 +249,7 @@ class _Run:
             log = self.members[k].log
             if counts[k]:
                 new += log.add(entry, counts[k], started, ended)
-                _check_rejections(log, rejected[k])
+                check_rejections(log, rejected[k])
         self.done += max(counts)
         self.last = state.trainable
         return new
@@ -312,7 +280,7 @@ class _Run:
             return
         self.evaluate(state.trainable)
         if self.halving.rungs and isinstance(state.optimizer, Descent):
-            self._evaluate(jax.vmap(_best_known)(state))
+            self._evaluate(jax.vmap(best_known)(state))
 
     def _evaluate(self, trainable: Trainable) -> None:
         rows = unstacked(trainable, len(self.members))
@@ -339,34 +307,3 @@ def _advance(
     on_accelerator = jax.default_backend() != "cpu"
     trainer = leg.trainer
     return advance(objective, trainer, state, until, active=active, side_by_side=on_accelerator)
-
-
-def epochs_of(state: State) -> list[int]:
-    """The updates that every training has made in its leg."""
-    return np.atleast_1d(np.asarray(state.epoch)).tolist()
-
-
-def _best_known(state: State) -> Trainable:
-    """Of a descent the best point up to now, before the first update its start."""
-    point, unravel = ravel_pytree(state.trainable)
-    known = jnp.isfinite(state.optimizer.value)
-    return unravel(jnp.where(known, state.optimizer.point, point))
-
-
-def _check_rejections(log: Log, rejected: int) -> None:
-    if rejected < REJECTIONS:
-        return
-    first = log.epochs - rejected
-    sequences = [d for d in log.divergences if d.epoch >= first and d.count]
-    if sequences:
-        what = f"the sequence from {sequences[0].place} diverges"
-        mend = "Start from smaller networks or better parameters, take shorter sequences, or a smaller dt."
-        if sequences[0].exploded:
-            what = f"the gradient of the sequence from {sequences[0].place} explodes"
-            mend = SHORTER_STEPS
-    else:
-        what = "the gradient is not finite"
-        mend = "Lower the optimizer's rate, or clip the gradient."
-    raise TrainingError(
-        f"{rejected} updates in a row were rejected from epoch {first} on: {what}. {mend}"
-    )

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 
-from acausal.training.history import Log
+from acausal.training.history import History, Log
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -39,6 +40,29 @@ class Best(NamedTuple):
     def score(self) -> float:
         """The loss that decides which is best."""
         return self.loss if self.validation is None else self.validation
+
+
+@dataclass(frozen=True, eq=False)
+class Trained:
+    """The end of a training.
+
+    Attributes:
+        best: its best state.
+        last: what was trained, after the last update or evaluation.
+        history: the training, update by update.
+        seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
+        interrupted: whether the user ended it.
+        finished: whether it has converged in the last part, or has made all of its updates.
+    """
+
+    best: Best
+    last: Trainable
+    history: History
+    seconds: float
+    compiling: float
+    updating: float
+    interrupted: bool
+    finished: bool
 
 
 class Member:

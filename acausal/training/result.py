@@ -27,14 +27,14 @@ from acausal.reporting import (
     add_residuals,
 )
 from acausal.training.history import History
-from acausal.training.loop import Trained
+from acausal.training.member import Trained
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable, changes_of
-from acausal.training.starts import Starts
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
+from acausal.training.starts import Starts
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
 from acausal.training.uncertainty.conformal import Conformal, conformal
 from acausal.training.uncertainty.residuals import Residuals

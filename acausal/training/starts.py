@@ -13,7 +13,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.stats import qmc
 
 from acausal.errors import TrainingError
-from acausal.training.loop import Trained
+from acausal.training.member import Trained
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 

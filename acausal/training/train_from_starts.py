@@ -24,14 +24,15 @@ from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
-from acausal.training.loop import SHORTER_STEPS, Trained, train
-from acausal.training.member import Best
+from acausal.training.loop import train
+from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import hold_out, split
 from acausal.training.objective.initial_state import check_records
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.options import FitOptions
 from acausal.training.progress import display
+from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
 from acausal.training.starts import spread_starts, starts_of
 from acausal.training.strategy import legs

@@ -13,7 +13,9 @@ from typing import NamedTuple, TypeVar
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 import optax
+from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
 from acausal.training.optimizers.descent import Descent
@@ -97,6 +99,18 @@ def converged(state: State) -> Bool[Array, "*trainings"]:
     if isinstance(state.optimizer, Descent):
         return state.optimizer.converged
     return jnp.zeros_like(state.epoch, bool)
+
+
+def epochs_of(state: State) -> list[int]:
+    """The updates that every training has made in its leg."""
+    return np.atleast_1d(np.asarray(state.epoch)).tolist()
+
+
+def best_known(state: State) -> PyTree:
+    """Of a descent the best point up to now, before the first update its start."""
+    point, unravel = ravel_pytree(state.trainable)
+    known = jnp.isfinite(state.optimizer.value)
+    return unravel(jnp.where(known, state.optimizer.point, point))
 
 
 @eqx.filter_jit
