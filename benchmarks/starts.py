@@ -138,7 +138,7 @@ def main() -> None:
         # not quite at the bounds, where the logistic curve is flat
         shares = rng.uniform(0.02, 0.98, len(TRUE))
         given = {n: v * 10 ** (u - 0.5) for (n, v), u in zip(TRUE.items(), shares, strict=True)}
-        line = []
+        line, counted = [], ""
         for starts in hits:
             began = time.perf_counter()
             fit = ac.fit(

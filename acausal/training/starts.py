@@ -154,6 +154,8 @@ def spread_starts(problem: Problem, count: int, seed: int) -> list[Trainable]:
         TrainingError: if no parameter is trained.
     """
     given, changed = problem.start(), problem.modifiers
+    if count == 1:
+        return [given]
     if not changed.names:
         raise TrainingError(
             f"starts={count} spreads trained parameters, and there are none: name them by modifiers=..., "
@@ -173,12 +175,8 @@ def spread_starts(problem: Problem, count: int, seed: int) -> list[Trainable]:
     return [given, *map(at, shares[: count - 1])]
 
 
-def starts_of(
-    problem: Problem, starts: Sequence[Trainable], trained: Sequence[Trained]
-) -> Starts | None:
-    """What became of several starts; ``None`` for a single one."""
-    if len(starts) == 1:
-        return None
+def starts_of(problem: Problem, starts: Sequence[Trainable], trained: Sequence[Trained]) -> Starts:
+    """What became of several starts."""
     names = problem.modifiers.names
 
     def values(of: Trainable) -> list[float]:

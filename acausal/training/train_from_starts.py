@@ -77,13 +77,10 @@ def train_from_starts(
     check_records(options.x0, (*given, *(kept.held or {})))
     problem = build_problem(system, kept.training, names, dict(params[0]), options)
     held = hold_out(problem, kept, options.x0)
-    plan = legs(problem, options, DIVERGED if options.loss == "nrmse" else np.inf)
+    plan = legs(problem, options, limit_of(options))
     problems = [_from(problem, own) for own in params]
-    starts = [p.start() for p in problems]
-    keys = [jax.random.key(seed) for seed in seeds]
-    if options.starts > 1:
-        starts = spread_starts(problem, options.starts, int(seeds[0]))
-        problems, keys = problems * options.starts, keys * options.starts
+    starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
+    keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
     chosen = halving(options.starts, sum(leg.epochs for leg in plan))
     identity = (
         {}
@@ -101,12 +98,16 @@ def train_from_starts(
     spread = None
     if options.starts > 1:
         spread = starts_of(problem, starts, trained)
-        best = min(range(len(trained)), key=lambda k: trained[k].best.score)
-        problems, starts, trained = problems[:1], starts[best : best + 1], trained[best : best + 1]
+        starts, trained = [starts[spread.best]], (trained[spread.best],)
     for own, start, one in zip(problems, starts, trained, strict=True):
-        for sentence in _warnings(own, start, one):
+        for sentence in concerns(own, start, one):
             warnings.warn(sentence, stacklevel=user_level())
     return tuple(result(own, one, held, spread) for own, one in zip(problems, trained, strict=True))
+
+
+def limit_of(options: FitOptions) -> float:
+    """The loss above which a sequence has diverged; of a user's loss nothing is known."""
+    return DIVERGED if options.loss == "nrmse" else np.inf
 
 
 def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
@@ -148,7 +149,7 @@ def _checkpoint(
     return file, checkpoints.read(file, identity)
 
 
-def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
+def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
     """Warnings about a training, one sentence each."""
     diverged, epochs = trained.history.divergences, trained.history.epochs
     if diverged:
