@@ -72,6 +72,7 @@ from .simulation import Solution as Solution, simulate as simulate
 from .system import System as System, compile as compile
 from .training import (
     Bounded as Bounded,
+    CrossValidation as CrossValidation,
     CsvLog as CsvLog,
     DampingRatio as DampingRatio,
     Ensemble as Ensemble,
@@ -83,6 +84,7 @@ from .training import (
     Stability as Stability,
     TensorBoardLog as TensorBoardLog,
     ZeroCrossing as ZeroCrossing,
+    cross_validate as cross_validate,
     ensemble as ensemble,
     fit as fit,
     lbfgs as lbfgs,

@@ -1,10 +1,12 @@
 """Train: the networks and parameters of a model learn from records.
 
-In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit` or an `Ensemble`, which answer further questions.
-It may import every room below; none of them imports it. Inside, `objective` defines what to minimise, `optimizers` how,
-and `uncertainty` computes how certain the result is; only `objective` lays records out.
+In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit`, an `Ensemble` or a `CrossValidation`, which answer
+further questions. It may import every room below; none of them imports it. Inside, `objective` defines what to
+minimise, `optimizers` how, and `uncertainty` computes how certain the result is; only `objective` lays records out.
 """
 
+from acausal.training.cross_validate import cross_validate as cross_validate
+from acausal.training.cross_validation import CrossValidation as CrossValidation, Fold as Fold
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
 from acausal.training.history import Divergence as Divergence, History as History
@@ -23,4 +25,5 @@ from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
 from acausal.training.record_fit import RecordFit as RecordFit
 from acausal.training.result import Fit as Fit, Seen as Seen
+from acausal.training.starts import Minimum as Minimum, Starts as Starts
 from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

@@ -171,6 +171,11 @@ def ensemble(
     chosen = FitOptions.of("ensemble", options)
     if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
+    if chosen.starts > 1:
+        raise TrainingError(
+            "The members of an ensemble differ in their seeds alone: leave out starts=, or pass the params of an "
+            "ac.fit(..., starts=...)."
+        )
     seeds = tuple(range(seed, seed + members))
     starts = _starts(system, params, seeds)
     return Ensemble(train_from_starts(system, data, targets, chosen, seeds=seeds, params=starts))

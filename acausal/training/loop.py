@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
 from statistics import fmean as mean
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Int, PRNGKeyArray
+from jaxtyping import Array, Bool, Int, PRNGKeyArray
 
-from acausal.errors import TrainingError
 from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
-from acausal.training.history import Divergence, History, Log
-from acausal.training.member import Best, Member, stacked, unstacked
+from acausal.training.halving import ALL, Halving
+from acausal.training.history import Divergence
+from acausal.training.member import Best, Member, Trained, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import of_first_process, on_default_device, replicate
 from acausal.training.objective.trainable import Trainable
+from acausal.training.optimizers.descent import Descent
 from acausal.training.optimizers.gradients import Objective
 from acausal.training.optimizers.trainer import (
     UPDATES_PER_CALL,
@@ -28,43 +29,16 @@ from acausal.training.optimizers.trainer import (
     State,
     advance,
     begin,
+    best_known,
     converged,
+    epochs_of,
 )
 from acausal.training.progress import Observer, Progress
+from acausal.training.rejections import check_rejections
 from acausal.training.strategy import Leg
 
 REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
-
-SHORTER_STEPS = (
-    "Its steps are too long for the solver to be stable: "
-    "take a smaller dt, an implicit solver (solver='kvaerno3'), or shorter sequences."
-)
-"""What helps where gradients explode."""
-
-REJECTIONS = 50
-"""A training ends after this many rejected updates in a row."""
-
-
-@dataclass(frozen=True, eq=False)
-class Trained:
-    """The end of a training.
-
-    Attributes:
-        best: its best state.
-        last: what was trained, after the last update or evaluation.
-        history: the training, update by update.
-        seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
-        interrupted: whether the user ended it.
-    """
-
-    best: Best
-    last: Trainable
-    history: History
-    seconds: float
-    compiling: float
-    updating: float
-    interrupted: bool
 
 
 def train(
@@ -76,6 +50,7 @@ def train(
     keep: Keep = lambda snapshot, rows: None,
     stored: Stored | None = None,
     held: HeldOut | None = None,
+    halving: Halving = ALL,
 ) -> tuple[Trained, ...]:
     """Train leg by leg, each from the best state of the one before, until the last one ends or the user interrupts.
 
@@ -90,12 +65,13 @@ def train(
         keep: called with all that is needed to continue, before the first update and after every few.
         stored: the checkpoint to continue from; by default, training starts anew.
         held: what is held out; the best is the one with the lowest loss over it.
+        halving: which trainings go on to the end.
 
     Raises:
         TrainingError: if `REJECTIONS` updates in a row had to be rejected.
         DataError: if the checkpoint belongs to another training.
     """
-    run = _Run(problem, legs, keys, observers, keep, held)
+    run = _Run(problem, legs, keys, observers, keep, held, halving)
     interrupted = False
     if stored is None:
         run.evaluate(replicate(stacked(starts), problem.mesh))
@@ -110,10 +86,19 @@ def train(
         interrupted = True
         run.evaluate(run.last)
     seconds = time.perf_counter() - run.began
-    last = unstacked(run.last, len(run.members))
+    rows = zip(run.members, unstacked(run.last, len(run.members)), run.finished, strict=True)
     return tuple(
-        Trained(m.best, end, m.log.history(), seconds, run.compiling, run.updating, interrupted)
-        for m, end in zip(run.members, last, strict=True)
+        Trained(
+            m.best,
+            end,
+            m.log.history(),
+            seconds,
+            run.compiling,
+            run.updating,
+            interrupted,
+            finished and not interrupted,
+        )
+        for m, end, finished in rows
     )
 
 
@@ -130,21 +115,26 @@ class _Run:
         observers: Sequence[Observer],
         keep: Keep,
         held: HeldOut | None,
+        halving: Halving,
     ) -> None:
         self.began = time.perf_counter()
         self.mesh = problem.mesh
         on_devices = replicate((problem, held), self.mesh)
         self.members = [Member(*on_devices, key) for key in keys]
         self.legs, self.observers, self.keep = legs, observers, keep
-        self.epochs = sum(leg.epochs for leg in legs)
+        self.halving = halving
+        self.planned = [0, *itertools.accumulate(leg.epochs for leg in legs)]
+        self.epochs = self.planned[-1]
         self.compiling = self.updating = 0.0
         self.evaluated = -1
-        self.before = 0
+        self.before = self.done = 0
+        self.going = list(range(len(keys)))
+        self.converged = [False] * len(keys)
 
     @property
-    def done(self) -> int:
-        """Updates done in all legs."""
-        return self.members[0].log.epochs
+    def finished(self) -> list[bool]:
+        """Which trainings have converged in the last leg, or go on to its end."""
+        return [k in self.going or c for k, c in enumerate(self.converged)]
 
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
         """Restore a training; returns its leg and the trainer's state."""
@@ -158,6 +148,11 @@ class _Run:
             member.best = Best(*best, member.problem.simulate(best.trainable))
         self.last = snapshot.state.trainable
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
+        epochs = epochs_of(snapshot.state)
+        self.done = self.before + max(epochs)
+        self._note_converged(stored.leg, snapshot.state)
+        for member, count in zip(self.members, epochs, strict=True):
+            member.before = member.log.epochs - count
         self.began -= snapshot.seconds
         self.compiling, self.updating = snapshot.compiling, snapshot.updating
         return stored.leg, snapshot.state
@@ -165,6 +160,8 @@ class _Run:
     def enter(self, i: int) -> State:
         """The trainer's state at the start of a leg."""
         self.before = self.done
+        for member in self.members:
+            member.before = member.log.epochs
         return replicate(self._begin(i, [m.best.trainable for m in self.members]), self.mesh)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
@@ -180,52 +177,80 @@ class _Run:
         """Do the remaining updates of a leg."""
         leg = self.legs[i]
         objective = replicate(leg.objective, self.mesh)
+        self._choose(i)
         self._keep(i, state)
         if self.done - self.before < leg.epochs:
             clock = time.perf_counter()
             # This compiles, and makes no update.
-            jax.block_until_ready(_advance(objective, leg, state, jnp.max(state.epoch)))
+            until = jnp.max(state.epoch)
+            jax.block_until_ready(_advance(objective, leg, state, until, self._active()))
             self.compiling += time.perf_counter() - clock
         size = 1
         while (done := self.done - self.before) < leg.epochs and not self._is_over(leg, state):
             due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
-            count = min(size, due - done, UPDATES_PER_CALL)
+            due = min(due, done + self.halving.until_next(self.planned[i] + done))
+            count = min(size, int(due) - done, UPDATES_PER_CALL)
             clock = time.perf_counter()
             until = replicate(jnp.asarray(done + count, int), self.mesh)
-            state, entries = jax.block_until_ready(_advance(objective, leg, state, until))
+            before = state
+            state, entries = jax.block_until_ready(
+                _advance(objective, leg, state, until, self._active())
+            )
             ended = time.perf_counter()
-            count = int(jnp.max(state.epoch)) - done
-            new = self._log(state, entries, count, clock - self.began, ended - self.began)
+            count = max(epochs_of(state)) - done
+            new = self._log(before, state, entries, clock - self.began, ended - self.began)
+            self._note_converged(i, state)
             per_epoch = of_first_process((ended - clock) / count, self.mesh)
             self.updating += ended - clock
             size = max(1, min(UPDATES_PER_CALL, int(REPORT_EVERY / per_epoch)))
             if done + count == due:
-                self.evaluate(state.trainable)
+                self._evaluate_all(state)
+            self._choose(i)
             self._keep(i, state)
             progress = Progress(
                 self.done,
                 self.epochs,
-                mean(m.log.loss for m in self.members),
-                mean(m.best.score for m in self.members),
+                mean(self.members[k].log.loss for k in self.going),
+                mean(self.members[k].best.score for k in self.going),
                 ended - self.began,
                 per_epoch,
                 tuple(new),
             )
             for observe in self.observers:
                 observe(progress)
-        self.evaluate(state.trainable)
+        self._evaluate_all(state)
         self._keep(i, state)
 
+    def _choose(self, i: int) -> None:
+        """Choose the trainings that go on; their number depends on the updates that were planned up to now."""
+        done = self.planned[i] + self.done - self.before
+        self.going = self.halving.survivors([m.best.score for m in self.members], done)
+
+    def _note_converged(self, i: int, state: State) -> None:
+        ended = unstacked(converged(state), len(self.members))
+        self.converged = [bool(c) and i == len(self.legs) - 1 for c in ended]
+
+    def _active(self) -> Bool[Array, " trainings"] | None:
+        """Which trainings go on; ``None`` where there is only one."""
+        if len(self.members) == 1:
+            return None
+        return jnp.zeros(len(self.members), bool).at[np.asarray(self.going)].set(True)
+
     def _log(
-        self, state: State, entries: Entry, count: int, started: float, ended: float
+        self, before: State, state: State, entries: Entry, started: float, ended: float
     ) -> list[Divergence]:
         """Log some updates; returns what diverged."""
         size, new = len(self.members), []
-        rejected = unstacked(state.rejected, size)
+        rejected = [int(r) for r in unstacked(state.rejected, size)]
+        if self.halving.rungs:  # one that diverges ends no other
+            rejected = [min(rejected[k] for k in self.going)] * size
+        counts = [b - a for a, b in zip(epochs_of(before), epochs_of(state), strict=True)]
         for k, entry in enumerate(unstacked(jax.tree.map(np.asarray, entries), size, axis=1)):
             log = self.members[k].log
-            new += log.add(entry, count, started, ended)
-            _check_rejections(log, int(rejected[k]))
+            if counts[k]:
+                new += log.add(entry, counts[k], started, ended)
+                check_rejections(log, rejected[k])
+        self.done += max(counts)
         self.last = state.trainable
         return new
 
@@ -243,41 +268,42 @@ class _Run:
         if self.evaluated == self.done:
             return
         self.evaluated = self.done
-        for member, own in zip(self.members, unstacked(trainable, len(self.members)), strict=True):
-            member.evaluate(own)
+        self._evaluate(trainable)
         self.last = trainable
+
+    def _evaluate_all(self, state: State) -> None:
+        """Evaluate the trainable of every training, and where some of them end the best point known, too.
+
+        A trial after which a training ends may be worse than the point from which it was tried.
+        """
+        if self.evaluated == self.done:
+            return
+        self.evaluate(state.trainable)
+        if self.halving.rungs and isinstance(state.optimizer, Descent):
+            self._evaluate(jax.vmap(best_known)(state))
+
+    def _evaluate(self, trainable: Trainable) -> None:
+        rows = unstacked(trainable, len(self.members))
+        for k in self.going:
+            self.members[k].evaluate(rows[k])
 
     def _is_over(self, leg: Leg, state: State) -> bool:
         """Whether a leg has converged, or has not improved for too long, for all members."""
         ended = unstacked(converged(state), len(self.members))
         patience = math.inf if leg.patience is None else leg.patience
         return all(
-            bool(e) or m.evaluations_without_improvement(self.before) >= patience
-            for e, m in zip(ended, self.members, strict=True)
+            bool(ended[k]) or self.members[k].evaluations_without_improvement() >= patience
+            for k in self.going
         )
 
 
 def _advance(
-    objective: Objective, leg: Leg, state: State, until: Int[Array, ""]
+    objective: Objective,
+    leg: Leg,
+    state: State,
+    until: Int[Array, ""],
+    active: Bool[Array, " trainings"] | None,
 ) -> tuple[State, Entry]:
     on_accelerator = jax.default_backend() != "cpu"
-    return advance(objective, leg.trainer, state, until, side_by_side=on_accelerator)
-
-
-def _check_rejections(log: Log, rejected: int) -> None:
-    if rejected < REJECTIONS:
-        return
-    first = log.epochs - rejected
-    sequences = [d for d in log.divergences if d.epoch >= first and d.count]
-    if sequences:
-        what = f"the sequence from {sequences[0].place} diverges"
-        mend = "Start from smaller networks or better parameters, take shorter sequences, or a smaller dt."
-        if sequences[0].exploded:
-            what = f"the gradient of the sequence from {sequences[0].place} explodes"
-            mend = SHORTER_STEPS
-    else:
-        what = "the gradient is not finite"
-        mend = "Lower the optimizer's rate, or clip the gradient."
-    raise TrainingError(
-        f"{rejected} updates in a row were rejected from epoch {first} on: {what}. {mend}"
-    )
+    trainer = leg.trainer
+    return advance(objective, trainer, state, until, active=active, side_by_side=on_accelerator)

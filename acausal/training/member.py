@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple, TypeVar
 
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 
-from acausal.training.history import Log
+from acausal.training.history import History, Log
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -41,6 +42,29 @@ class Best(NamedTuple):
         return self.loss if self.validation is None else self.validation
 
 
+@dataclass(frozen=True, eq=False)
+class Trained:
+    """The end of a training.
+
+    Attributes:
+        best: its best state.
+        last: what was trained, after the last update or evaluation.
+        history: the training, update by update.
+        seconds: total time; ``compiling``: the part in XLA's compiler; ``updating``: the part in updates.
+        interrupted: whether the user ended it.
+        finished: whether it has converged in the last part, or has made all of its updates.
+    """
+
+    best: Best
+    last: Trainable
+    history: History
+    seconds: float
+    compiling: float
+    updating: float
+    interrupted: bool
+    finished: bool
+
+
 class Member:
     """One training while it runs: its log, and its best state.
 
@@ -48,9 +72,14 @@ class Member:
         problem: what is evaluated over the whole record.
         held: what is held out, if anything is.
         key: source of all batches.
+
+    Attributes:
+        best: its best state.
+        before: its updates before the present part of the strategy.
     """
 
     best: Best
+    before: int = 0
 
     def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
@@ -67,9 +96,9 @@ class Member:
         if self.log.epochs == 0 or new.score < self.best.score or math.isinf(self.best.score):
             self.best = new
 
-    def evaluations_without_improvement(self, since: int) -> int:
-        """How many evaluations there were since the best one, or since some update if that is later."""
-        begin = max(since, self.best.epoch)
+    def evaluations_without_improvement(self) -> int:
+        """How many evaluations there were in this part of the strategy since the best one."""
+        begin = max(self.before, self.best.epoch)
         return sum(evaluation.epoch > begin for evaluation in self.log.evaluations)
 
 

@@ -72,6 +72,7 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "sequence_length": (_is_number, "a number of seconds"),
     "batch_size": (_is_count, "a whole number"),
     "subsample": (_is_number, "a fraction"),
+    "starts": (_is_count, "a whole number"),
     "strategy": (_are_texts, "a strategy, nor several: give their names"),
     "epochs": (lambda v: _is_number(v) or _are(_is_number, v), "a number of updates, nor several"),
     "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
@@ -105,6 +106,7 @@ class FitKeywords(TypedDict, total=False):
     sequence_length: float | None
     batch_size: int
     subsample: float | None
+    starts: int
     strategy: str | Sequence[str]
     epochs: int | Sequence[int] | None
     optimizer: optax.GradientTransformation | None
@@ -146,6 +148,10 @@ class FitOptions:
         sequence_length: in seconds; ``None`` takes all of every record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
+        starts: starting points of the trained parameters: the given one, and others spread over their modifiers'
+            ranges (evenly between bounds, and over decades where these are a decade apart). After 0.3 of the updates
+            the best quarter goes on, after 0.6 a quarter of these; the best is returned, and ``fit.starts`` tells how
+            many reached it. Networks start the same each time.
         strategy: what to do, or several parts one after the other, each from where the one before was best:
             ``"sequences"`` as the options above say; ``"equation_error"``: targets computed from measured
             states without simulation, in a second or so, biased by noise; ``"whole_record"``: L-BFGS on the
@@ -191,6 +197,7 @@ class FitOptions:
     sequence_length: float | None = None
     batch_size: int = 1
     subsample: float | None = None
+    starts: int = 1
     strategy: str | Sequence[str] = "sequences"
     epochs: int | Sequence[int] | None = None
     optimizer: optax.GradientTransformation | None = None
@@ -252,6 +259,10 @@ class FitOptions:
         for name in self.parts:
             if name not in UPDATES:
                 raise TrainingError(f"No strategy '{name}': {nearest(name, UPDATES)}")
+        if self.starts < 1:
+            raise TrainingError(f"starts={self.starts}; at least one is needed.")
+        if self.starts > 1 and self.devices is not None:
+            raise TrainingError("Several starts are trained on one device: leave out devices=.")
         if self.patience is not None and self.patience < 1:
             raise TrainingError(f"patience={self.patience}; at least one evaluation is needed.")
         if self.evaluate_every is not None and self.evaluate_every < 1:

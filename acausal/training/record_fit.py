@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,10 +47,7 @@ class RecordFit:
     @property
     def rms(self) -> dict[str, float]:
         """By target, the root mean square error in the target's unit; NaN for one that is not measured."""
-        squares = self.errors**2
-        counts = (~np.isnan(squares)).sum(axis=0)
-        means = np.nansum(squares, axis=0) / np.where(counts > 0, counts, np.nan)
-        return dict(zip(self.targets, np.sqrt(means).tolist(), strict=True))
+        return rms_of([self])
 
     def residuals(self) -> tuple[Residuals, ...]:
         """The residuals of every target that is measured."""
@@ -59,6 +56,15 @@ class RecordFit:
     def __repr__(self) -> str:
         errors = ", ".join(f"{n} {value:.4g}" for n, value in self.rms.items())
         return f"RecordFit('{self.name}', {len(self.time)} samples, RMS error: {errors})"
+
+
+def rms_of(records: Iterable[RecordFit]) -> dict[str, float]:
+    """By target, the root mean square error over records in the target's unit; NaN for one that is not measured."""
+    every = list(records)
+    squares = np.concatenate([record.errors for record in every]) ** 2
+    counts = (~np.isnan(squares)).sum(axis=0)
+    means = np.nansum(squares, axis=0) / np.where(counts > 0, counts, np.nan)
+    return dict(zip(every[0].targets, np.sqrt(means).tolist(), strict=True))
 
 
 def residuals_of(records: Sequence[RecordFit]) -> tuple[Residuals, ...]:

@@ -27,7 +27,7 @@ from acausal.reporting import (
     add_residuals,
 )
 from acausal.training.history import History
-from acausal.training.loop import Trained
+from acausal.training.member import Trained
 from acausal.training.objective.arguments import labels
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
@@ -35,6 +35,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
+from acausal.training.starts import Starts
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
 from acausal.training.uncertainty.conformal import Conformal, conformal
 from acausal.training.uncertainty.residuals import Residuals
@@ -84,6 +85,7 @@ class Fit:
         seconds: total time; ``compile_seconds``: the part in XLA's compiler.
         seconds_per_epoch: average time of an update.
         interrupted: whether the user ended it early.
+        starts: what several starts of the parameters reached; ``None`` for one.
         problem, trained: the training problem and what was trained, for further questions.
     """
 
@@ -105,6 +107,7 @@ class Fit:
     interrupted: bool
     problem: Problem
     trained: Trainable
+    starts: Starts | None = None
 
     @property
     def x0(self) -> dict[str, float]:
@@ -259,6 +262,9 @@ class Fit:
         )
         page.table(("figure", "before", "after"), self._losses())
         add_losses(page, {"whole record": self.history})
+        if self.starts is not None:
+            page.text(self.starts.summary())
+            page.table(self.starts.header, self.starts.rows())
         units = {name: self.system.unit(name) for name in self.problem.targets}
         add_records(page, "Measured and simulated", self.before, self.records, units)
         if self.held_out:
@@ -334,6 +340,7 @@ class Fit:
         if self.validation_loss is not None:
             lines.insert(2, f"  held out  {self.validation_loss:.4g}")
         lines += [f"  modifiers {changes}"] if changes else []
+        lines += [] if self.starts is None else [f"  starts    {self.starts.summary()}"]
         diverged = self.history.divergences
         lines += (
             [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
@@ -354,7 +361,12 @@ def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]
     return of_records(problem, problem.simulate(known), own_parameters(problem, known))
 
 
-def result(problem: Problem, trained: Trained, held: HeldOut | None = None) -> Fit:
+def result(
+    problem: Problem,
+    trained: Trained,
+    held: HeldOut | None = None,
+    starts: Starts | None = None,
+) -> Fit:
     """The result of a training."""
     best, history = on_default_device(trained.best, problem.mesh), trained.history
     problem = replace(problem, mesh=None)
@@ -379,4 +391,5 @@ def result(problem: Problem, trained: Trained, held: HeldOut | None = None) -> F
         interrupted=trained.interrupted,
         problem=problem,
         trained=best.trainable,
+        starts=starts,
     )

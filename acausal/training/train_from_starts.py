@@ -23,15 +23,18 @@ from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
-from acausal.training.loop import SHORTER_STEPS, Trained, train
-from acausal.training.member import Best
+from acausal.training.halving import halving
+from acausal.training.loop import train
+from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import hold_out, split
 from acausal.training.objective.initial_state import check_records
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.options import FitOptions
 from acausal.training.progress import display
+from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
+from acausal.training.starts import spread_starts, starts_of
 from acausal.training.strategy import legs
 
 if TYPE_CHECKING:
@@ -74,10 +77,11 @@ def train_from_starts(
     check_records(options.x0, (*given, *(kept.held or {})))
     problem = build_problem(system, kept.training, names, dict(params[0]), options)
     held = hold_out(problem, kept, options.x0)
-    plan = legs(problem, options, DIVERGED if options.loss == "nrmse" else np.inf)
+    plan = legs(problem, options, limit_of(options))
     problems = [_from(problem, own) for own in params]
-    starts = [p.start() for p in problems]
-    keys = [jax.random.key(seed) for seed in seeds]
+    starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
+    keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
+    chosen = halving(options.starts, sum(leg.epochs for leg in plan))
     identity = (
         {}
         if options.checkpoint is None
@@ -90,11 +94,20 @@ def train_from_starts(
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
         observers = (show, *options.all_observers)
-        trained = train(problem, starts, plan, keys, observers, keep, stored, held)
+        trained = train(problem, starts, plan, keys, observers, keep, stored, held, chosen)
+    spread = None
+    if options.starts > 1:
+        spread = starts_of(problem, starts, trained)
+        starts, trained = [starts[spread.best]], (trained[spread.best],)
     for own, start, one in zip(problems, starts, trained, strict=True):
-        for sentence in _warnings(own, start, one):
+        for sentence in concerns(own, start, one):
             warnings.warn(sentence, stacklevel=user_level())
-    return tuple(result(own, one, held) for own, one in zip(problems, trained, strict=True))
+    return tuple(result(own, one, held, spread) for own, one in zip(problems, trained, strict=True))
+
+
+def limit_of(options: FitOptions) -> float:
+    """The loss above which a sequence has diverged; of a user's loss nothing is known."""
+    return DIVERGED if options.loss == "nrmse" else np.inf
 
 
 def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
@@ -136,7 +149,7 @@ def _checkpoint(
     return file, checkpoints.read(file, identity)
 
 
-def _warnings(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
+def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
     """Warnings about a training, one sentence each."""
     diverged, epochs = trained.history.divergences, trained.history.epochs
     if diverged:

@@ -12,12 +12,16 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
+from scipy.special import ndtri
 
 from acausal.by_name import names_in
 from acausal.errors import TrainingError, nearest, shown
 
 REACHED = 0.99
 """A parameter has reached a limit when it has gone this fraction of the way."""
+
+DECADE = 10 * (1 - 1e-9)
+"""Positive bounds with such a ratio, or a larger one, leave the magnitude of a parameter open."""
 
 Scalar = Float[Array, ""]
 Number = Any
@@ -42,6 +46,10 @@ class Modifier(Protocol):
 
     def prior_deviation(self, value: float) -> float:
         """The prior standard deviation of the change."""
+        ...
+
+    def free(self, value: float, share: float) -> float:
+        """The free variable below which a share of starting points lies, for a share in (0, 1)."""
         ...
 
     def limit(self, value: float, change: float) -> float | None:
@@ -89,6 +97,10 @@ class Factor(_Relative):
         """The whole parameter, whatever γ."""
         return 1.0
 
+    def free(self, value: float, share: float) -> float:
+        """Starting points are spread evenly over the range."""
+        return float(np.arctanh(2 * share - 1))
+
     def limit(self, value: float, change: float) -> float | None:
         """``±γ``."""
         return _reached(change, -self.gamma, self.gamma)
@@ -122,6 +134,10 @@ class Shift(_Absolute):
     def prior_deviation(self, value: float) -> float:
         """The scale."""
         return self.scale
+
+    def free(self, value: float, share: float) -> float:
+        """Starting points are normally distributed, with the scale as standard deviation."""
+        return float(ndtri(share))
 
     def limit(self, value: float, change: float) -> float | None:
         """There is none."""
@@ -167,6 +183,18 @@ class Bounded(_Absolute):
         way = self.high - self.low
         return min(value - self.low, self.high - value) if np.isinf(way) else way / 2
 
+    def free(self, value: float, share: float) -> float:
+        """Starting points are spread evenly between the bounds, or over decades where these are a decade apart.
+
+        With one bound, the logarithm of the distance to it is normally distributed; one sigma is a factor of e.
+        """
+        low, high = self.low, self.high
+        if np.isinf(high - low):
+            return float(ndtri(share))
+        decades = high >= DECADE * low > 0
+        point = low * (high / low) ** share if decades else low + (high - low) * share
+        return float(_logit(low, point, high) - _logit(low, value, high))
+
     def limit(self, value: float, change: float) -> float | None:
         """The way to a bound."""
         return _reached(change, self.low - value, self.high - value)
@@ -178,6 +206,10 @@ class Bounded(_Absolute):
         if self.low < value < self.high:
             return None
         return f"Parameter '{{}}' starts at {value:g}, not between its bounds {self.low:g} and {self.high:g}."
+
+
+def _logit(low: float, point: float, high: float) -> float:
+    return float(np.log((point - low) / (high - point)))
 
 
 def _reached(change: float, low: float, high: float) -> float | None:

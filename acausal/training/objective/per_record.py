@@ -28,12 +28,14 @@ class PerRecord(eqx.Module):
         scale: the deviation that one unit of what is trained means.
         tied: 1 where ``scale`` is the prior standard deviation of the deviations, 0 where they are free.
         places: where the parameters, and all that depend on them, lie in `Packed.values`.
+        trained: of every record whether the training has seen it; ``None`` where it has seen all.
     """
 
     names: tuple[str, ...] = eqx.field(static=True)
     scale: Float[Array, " n_own"]
     tied: Float[Array, " n_own"]
     places: tuple[int, ...] = eqx.field(static=True)
+    trained: Float[Array, " R"] | None = None
 
     def start(self, records: int) -> dict[str, Float[Array, " R"]]:
         """What is trained, where training starts."""
@@ -66,7 +68,7 @@ class PerRecord(eqx.Module):
     ) -> dict[str, Float[Array, " records"]]:
         """What to expect of other records: the common value, and the mean of those found where they are free."""
         return {
-            n: jnp.full(records, (1 - tied) * jnp.mean(moves[n]))
+            n: jnp.full(records, (1 - tied) * jnp.average(moves[n], weights=self.trained))
             for n, tied in zip(self.names, self.tied, strict=True)
         }
 

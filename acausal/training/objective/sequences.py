@@ -76,6 +76,19 @@ class Sequences(eqx.Module):
         complete = self.whole or (self.side_by_side and self.batch_size == len(self.starts))
         return complete and self.points is None
 
+    def among(self, counts: Bool[np.ndarray, " N"]) -> Sequences:
+        """Those in which some row counts; others take their places, so that programs stay the same."""
+        if self.whole:
+            return self
+        before = np.append(0, np.cumsum(counts))
+        first = np.asarray(self.starts)
+        some = before[np.minimum(first + self.length, len(counts))] > before[first]
+        chosen = np.resize(np.flatnonzero(some), len(first))
+        weight = np.asarray(self.weight)[chosen]
+        if self.side_by_side and self.batch_size == len(first):
+            weight[some.sum() :] = 0.0  # each once
+        return replace(self, starts=self.starts[chosen], weight=jnp.asarray(weight))
+
     def draw(self, key: PRNGKeyArray) -> Batch:
         """A batch; the same key gives the same batch."""
         for_start, for_points = jax.random.split(key)

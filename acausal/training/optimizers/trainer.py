@@ -13,7 +13,9 @@ from typing import NamedTuple, TypeVar
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 import optax
+from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 
 from acausal.training.optimizers.descent import Descent
@@ -99,6 +101,18 @@ def converged(state: State) -> Bool[Array, "*trainings"]:
     return jnp.zeros_like(state.epoch, bool)
 
 
+def epochs_of(state: State) -> list[int]:
+    """The updates that every training has made in its leg."""
+    return np.atleast_1d(np.asarray(state.epoch)).tolist()
+
+
+def best_known(state: State) -> PyTree:
+    """Of a descent the best point up to now, before the first update its start."""
+    point, unravel = ravel_pytree(state.trainable)
+    known = jnp.isfinite(state.optimizer.value)
+    return unravel(jnp.where(known, state.optimizer.point, point))
+
+
 @eqx.filter_jit
 def advance(
     objective: Objective,
@@ -106,6 +120,7 @@ def advance(
     state: State,
     until: Int[Array, ""],
     *,
+    active: Bool[Array, " trainings"] | None = None,
     side_by_side: bool = False,
 ) -> tuple[State, Entry]:
     """Do updates until ``until`` of them are done, at most `UPDATES_PER_CALL`, or until the optimizer has converged.
@@ -115,6 +130,7 @@ def advance(
         trainer: how.
         state: of one training, or of several with a leading axis.
         until: updates, the same for all of them.
+        active: of several trainings, those that go on; by default all. Those that have converged stay as they are.
         side_by_side: whether to map over several trainings, which is faster on an accelerator. A CPU is faster with
             one after the other, because networks with different weights are many small matrix products.
 
@@ -126,15 +142,23 @@ def advance(
     def alone(state: State) -> tuple[State, Entry]:
         return _update(objective, trainer, state)
 
-    def empty_alone(trainable: PyTree) -> Entry:
-        return _empty_entry(objective, trainer, trainable)
+    going = jnp.ones(state.epoch.shape, bool) if active is None else active
 
-    update, empty = alone, empty_alone
-    if state.epoch.ndim:
-        update = jax.vmap(alone) if side_by_side else partial(jax.lax.map, alone)
-        empty = jax.vmap(empty_alone)
+    def unless_over(row: tuple[State, Bool[Array, ""]]) -> tuple[State, Entry]:
+        state, goes_on = row
+        _, entry = jax.eval_shape(alone, state)
+        nothing = jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), entry)
+        return jax.lax.cond(
+            goes_on & ~converged(state), alone, lambda state: (state, nothing), state
+        )
+
+    def of_all(state: State) -> tuple[State, Entry]:
+        over_rows = jax.vmap(unless_over) if side_by_side else partial(jax.lax.map, unless_over)
+        return over_rows((state, going))
+
+    update = of_all if state.epoch.ndim else alone
     first = jnp.max(state.epoch)
-    shapes = jax.eval_shape(empty, state.trainable)
+    _, shapes = jax.eval_shape(update, state)
     log = jax.tree.map(lambda s: jnp.zeros((UPDATES_PER_CALL, *s.shape), s.dtype), shapes)
 
     def body(carry: tuple[State, Entry]) -> tuple[State, Entry]:
@@ -145,15 +169,9 @@ def advance(
 
     def is_on(carry: tuple[State, Entry]) -> Bool[Array, ""]:
         state, _ = carry
-        return (jnp.max(state.epoch) < until) & ~converged(state).all()
+        return (jnp.max(state.epoch) < until) & (going & ~converged(state)).any()
 
     return jax.lax.while_loop(is_on, body, (state, log))
-
-
-def _empty_entry(objective: Objective, trainer: Trainer, trainable: PyTree) -> Entry:
-    number, count = jnp.zeros(()), jnp.zeros((), int)
-    logged = objective.penalties(trainable), trainer.log(objective, trainable)
-    return Entry(number, *logged, count, count, count, jnp.zeros((), bool))
 
 
 def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:

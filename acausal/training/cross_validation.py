@@ -1,0 +1,199 @@
+"""The result of a cross-validation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from acausal.errors import need_path
+from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_records
+from acausal.training.ensemble import Ensemble
+from acausal.training.record_fit import RecordFit, rms_of
+from acausal.training.result import Fit
+
+
+class Spread(NamedTuple):
+    """A figure over the folds.
+
+    Attributes:
+        mean: of the folds that have it.
+        deviation: their standard deviation; NaN for a single one.
+    """
+
+    mean: float
+    deviation: float
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """A training without a part of the samples, judged on this part.
+
+    Attributes:
+        name: of the part: a record, or a block of time.
+        fit: the training; ``fit.held_out`` has what it predicts of the part, where only that counts as measured.
+        held_out_loss: over the part; infinite if the model diverges.
+    """
+
+    name: str
+    fit: Fit
+    held_out_loss: float
+
+    @property
+    def training_loss(self) -> float:
+        """The loss over the samples that it was trained on."""
+        return self.fit.loss
+
+    @property
+    def rms(self) -> dict[str, float]:
+        """By target, the root mean square error over the part, in the target's unit; NaN where it is not measured."""
+        return rms_of(self.fit.held_out.values())
+
+    def __repr__(self) -> str:
+        return f"Fold(without '{self.name}', loss {self.training_loss:.4g}, held out {self.held_out_loss:.4g})"
+
+
+@dataclass(frozen=True, eq=False)
+class CrossValidation:
+    """The result of `cross_validate`: how well the model predicts what it was not trained on.
+
+    Attributes:
+        folds: one for each part that was left out.
+    """
+
+    folds: tuple[Fold, ...]
+
+    @property
+    def fits(self) -> tuple[Fit, ...]:
+        """The trainings."""
+        return tuple(fold.fit for fold in self.folds)
+
+    @property
+    def training_loss(self) -> Spread:
+        """Of the samples that folds were trained on."""
+        return _spread(fold.training_loss for fold in self.folds)
+
+    @property
+    def held_out_loss(self) -> Spread:
+        """Of the samples that they were judged on."""
+        return _spread(fold.held_out_loss for fold in self.folds)
+
+    @property
+    def rms(self) -> dict[str, Spread]:
+        """By target, the root mean square error over what was left out, in the target's unit."""
+        return {n: _spread(fold.rms[n] for fold in self.folds) for n in self.targets}
+
+    @property
+    def training_rms(self) -> dict[str, Spread]:
+        """The same over what folds were trained on."""
+        return {n: _spread(fold.fit.rms[n] for fold in self.folds) for n in self.targets}
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """The variables that are compared."""
+        return self.fits[0].problem.targets
+
+    @property
+    def parameters(self) -> dict[str, Spread]:
+        """By trained parameter, its value."""
+        names = self.fits[0].modifiers
+        return {n: _spread(float(fit.params[n]) for fit in self.fits) for n in names}
+
+    @cached_property
+    def records(self) -> dict[str, RecordFit]:
+        """Every record, each sample as predicted by the fold that was trained without it."""
+        found: dict[str, RecordFit] = {}
+        for fold in self.folds:
+            for name, record in fold.fit.held_out.items():
+                found[name] = _joined(found[name], record) if name in found else record
+        return found
+
+    def summary(self) -> str:
+        """One sentence: the errors of what was left out, beside those of what was trained on."""
+        units = self._units
+        errors = [
+            f"{_written(spread)} {units[n]}".removesuffix(" 1")
+            + f" RMS of {n} ({self.training_rms[n].mean:.3g} where trained)"
+            for n, spread in self.rms.items()
+        ]
+        worst = max(self.folds, key=lambda fold: fold.held_out_loss)
+        return (
+            f"What {len(self.folds)} folds left out is predicted to {', '.join(errors)}; "
+            f"worst without '{worst.name}'."
+        )
+
+    @property
+    def _units(self) -> dict[str, str]:
+        system = self.fits[0].system
+        return {name: system.unit(name) for name in self.targets}
+
+    def report(self, folder: str | Path, title: str = "Cross-validation") -> Path:
+        """Write a self-contained page, ``index.html`` in a folder; returns its path."""
+        page = Page(title, self.summary())
+        page.table(self._header, self._rows())
+        add_losses(page, {f"without {f.name}": f.fit.history for f in self.folds})
+        add_records(page, "What was left out", {}, self.records, self._units)
+        laws = Ensemble(self.fits).laws
+        add_laws(page, self.fits[0].with_bands(laws))
+        names = list(self.parameters)
+        rows = [
+            (fold.name, *(f"{float(fold.fit.params[n]):.6g}" for n in names)) for fold in self.folds
+        ]
+        rows.append(("mean ± deviation", *(_written(s) for s in self.parameters.values())))
+        if names:
+            unit = self.fits[0].system.unit
+            header = ("without", *(f"{n} [{unit(n)}]" for n in names))
+            add_parameters(page, header, rows)
+        return page.write(need_path(folder, "report") / "index.html")
+
+    @property
+    def _header(self) -> tuple[str, ...]:
+        errors = (f"RMS error of {n} [{unit}]" for n, unit in self._units.items())
+        return ("without", "training loss", "held-out loss", *errors)
+
+    def _rows(self) -> list[tuple[str, ...]]:
+        rows = [
+            (
+                fold.name,
+                f"{fold.training_loss:.4g}",
+                f"{fold.held_out_loss:.4g}",
+                *(f"{fold.rms[n]:.4g}" for n in self.targets),
+            )
+            for fold in self.folds
+        ]
+        spreads = (self.training_loss, self.held_out_loss, *self.rms.values())
+        return [*rows, ("mean ± deviation", *map(_written, spreads))]
+
+    def __repr__(self) -> str:
+        table = [self._header, *self._rows()]
+        widths = [max(map(len, column)) for column in zip(*table, strict=True)]
+        lines = ["  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in table]
+        return "\n".join([self.summary(), *lines])
+
+
+def _spread(values: Iterable[float]) -> Spread:
+    known = [value for value in values if not np.isnan(value)]
+    if not known:
+        return Spread(float("nan"), float("nan"))
+    if not np.isfinite(known).all():
+        return Spread(float("inf"), float("nan"))
+    deviation = float(np.std(known, ddof=1)) if len(known) > 1 else float("nan")
+    return Spread(float(np.mean(known)), deviation)
+
+
+def _written(spread: Spread) -> str:
+    return f"{spread.mean:.4g} ± {spread.deviation:.2g}"
+
+
+def _joined(one: RecordFit, other: RecordFit) -> RecordFit:
+    """A record of which one fold left out a part, and another fold another one."""
+    theirs = ~np.isnan(other.measured)
+    return replace(
+        one,
+        measured=np.where(theirs, other.measured, one.measured),
+        predicted=np.where(theirs, other.predicted, one.predicted),
+    )
