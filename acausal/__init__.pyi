@@ -79,6 +79,7 @@ from .training import (
     Fit as Fit,
     FrequencyRange as FrequencyRange,
     Lag as Lag,
+    RecordFit as RecordFit,
     Shift as Shift,
     SmallCorrection as SmallCorrection,
     Stability as Stability,

@@ -1,8 +1,8 @@
-"""Train: the networks and parameters of a model learn from a record.
+"""Train: the networks and parameters of a model learn from records.
 
 In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit` or an `Ensemble`, which answer further questions.
 It may import every room below; none of them imports it. Inside, `objective` defines what to minimise, `optimizers` how,
-and `uncertainty` computes how certain the result is; only `objective` depends on the layout of records.
+and `uncertainty` computes how certain the result is; only `objective` lays records out.
 """
 
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
@@ -22,5 +22,6 @@ from acausal.training.objective.regularizers import (
 from acausal.training.objective.timing import Delay as Delay, Lag as Lag
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
+from acausal.training.record_fit import RecordFit as RecordFit
 from acausal.training.result import Fit as Fit, Seen as Seen
 from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

@@ -62,7 +62,7 @@ def build_problem(
     changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
     changed = changed.joined(moving)
-    if not chosen and not changed.names:
+    if not chosen and not changed.names and not options.per_record:
         raise TrainingError(
             "There is nothing to train: no network is in the model or chosen by train=[...]. "
             "Give modifiers=[...] to train parameters."

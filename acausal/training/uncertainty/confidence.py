@@ -77,7 +77,8 @@ class Confidence:
         correlation: between the parameters, in their order.
         with_laws: by parameter and law, the multiple correlation of what the parameter changes with what the weights
             of the law's network can change: 1 where the law can take any part of the parameter.
-        per_record: by parameter that differs between records, the standard deviation of each record's value.
+        per_record: by parameter that differs between records, the standard deviation of each record's deviation from
+            the common value.
         noise: standard deviation of the residuals, by target.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
         about: how well each parameter is known, one sentence each.

@@ -1,0 +1,1 @@
+"""Training on many, unequal and gappy records of the quarter vehicle."""
