@@ -9,8 +9,10 @@ from acausal.simulation.fixed_steps import (
     Runs as Runs,
     Steps as Steps,
     integrate as integrate,
+    looks_inside as looks_inside,
 )
 from acausal.simulation.inputs import (
+    TimeFunction as TimeFunction,
     announce_derivatives as announce_derivatives,
     functions_of_time as functions_of_time,
 )

@@ -213,6 +213,13 @@ def integrate(
     return Integrated(xs, ys, end)
 
 
+def looks_inside(solver: Solver, substeps: int) -> bool:
+    """Whether steps of a scheme look at inputs between their ends."""
+    if substeps > 1 or not isinstance(solver, EXPLICIT):
+        return True
+    return any(0 < fraction < 1 for fraction in _tableau(solver).fractions)
+
+
 class Tableau(NamedTuple):
     """The coefficients of an explicit Runge–Kutta scheme.
 

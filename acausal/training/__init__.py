@@ -21,6 +21,7 @@ from acausal.training.objective.regularizers import (
     SmallCorrection as SmallCorrection,
     ZeroCrossing as ZeroCrossing,
 )
+from acausal.training.objective.timing import Delay as Delay, Lag as Lag
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
 from acausal.training.record_fit import RecordFit as RecordFit

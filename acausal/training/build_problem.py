@@ -27,6 +27,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
+from acausal.training.objective.timing import timing
 from acausal.training.options import FitOptions
 
 if TYPE_CHECKING:
@@ -59,6 +60,8 @@ def build_problem(
     system.pack(params)  # refuses what does not fit
     chosen = _networks(options.train, params)
     changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
+    times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
+    changed = changed.joined(moving)
     if not chosen and not changed.names and not options.per_record:
         raise TrainingError(
             "There is nothing to train: no network is in the model or chosen by train=[...]. "
@@ -74,7 +77,10 @@ def build_problem(
         announce_derivatives(system.inputs, record)
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
-    records, substeps = lay_out(data, system.inputs, targets, system.states, options.dt)
+    solver = for_fixed_steps(solver_named(options.solver), dtype)
+    records, substeps = lay_out(
+        data, system.inputs, targets, system.states, options.dt, solver=solver, timing=times
+    )
     weights = np.ones(records.count)
     sequences = cut(
         records,
@@ -94,6 +100,7 @@ def build_problem(
         modifiers=changed,
         parameter_spread=parameter_spread(options.parameter_spread, params),
         per_record=per_record(system, options.per_record, params),
+        timing=times,
         targets=targets,
         records=records,
         sequences=sequences,
@@ -102,7 +109,7 @@ def build_problem(
         loss=named(options.loss),
         regularizers=_labelled(options.penalties),
         context=Context((), {}),
-        solver=for_fixed_steps(solver_named(options.solver), dtype),
+        solver=solver,
         substeps=substeps,
         dtype=dtype,
         mesh=device_mesh(options.devices, sequences.batch_size),

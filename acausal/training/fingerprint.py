@@ -36,7 +36,8 @@ DERIVED = ("context", "shooting", "mesh", "first_states")
 """Fields of a problem that follow from the others, or only choose the devices."""
 
 ARGUMENTS = {
-    "networks": "train", "records": "data", "substeps": "dt", "sequences": "sequence_length, batch_size or subsample",
+    "networks": "train", "records": "data", "substeps": "dt", "timing": "delays or lags",
+    "sequences": "sequence_length, batch_size or subsample",
 }  # fmt: skip
 """Arguments of `acausal.fit` by the fields of a problem, where their names differ."""
 

@@ -27,6 +27,7 @@ from acausal.training.objective.losses import Loss
 from acausal.training.objective.modifiers import Modifier
 from acausal.training.objective.regularizers import Regularizer
 from acausal.training.objective.sharding import Device
+from acausal.training.objective.timing import Delay, Lag
 from acausal.training.progress import Observer
 
 UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
@@ -66,6 +67,8 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "modifiers": (_are_texts, "names of parameters, nor modifiers by name"),
     "gamma": (_is_number, "a number"),
     "per_record": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
+    "delays": (lambda v: isinstance(v, Mapping), "delays by name"),
+    "lags": (lambda v: isinstance(v, Mapping), "time constants by name"),
     "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
     "loss": (lambda v: isinstance(v, str) or callable(v), "a loss, by name or as a function"),
     "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
@@ -101,6 +104,8 @@ class FitKeywords(TypedDict, total=False):
     gamma: float
     parameter_spread: Mapping[str, float] | None
     per_record: Mapping[str, float | None] | None
+    delays: Mapping[str, float | Delay] | None
+    lags: Mapping[str, float | Lag] | None
     loss: str | Loss
     regularizers: Regularizer | Iterable[Regularizer]
     sequence_length: float | None
@@ -141,6 +146,12 @@ class FitOptions:
             day: by name the standard deviation from record to record, which ties the values to the common one, or
             ``None`` for free values. Unlike a `parameter_spread`, which makes the model follow runs that nobody has
             measured, it finds the values of the runs that are measured.
+        delays: by input or target, how late it is: an `acausal.Delay`, which is trained, or seconds. The model sees an
+            input ``u(t - τ)`` as the record interpolates it (before its start, the first value); of a target
+            ``y(t - τ)`` of the prediction is compared. `Fit.delays` has the result. An input with the interpolation
+            "previous" jumps, so that its delay can only be given.
+        lags: by target, the time constant of its sensor's first-order lag: an `acausal.Lag`, which is trained, or
+            seconds. A record starts at rest. The lag comes before a delay. `Fit.lags` has the result.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) or (predicted, measured, sigma,
             weight) -> scalar of shapes (M, k), (M, k), (k,), (M, k); averaged over a batch's sequences. The weight is
             zero where nothing is measured.
@@ -192,6 +203,8 @@ class FitOptions:
     gamma: float = 0.2
     parameter_spread: Mapping[str, float] | None = None
     per_record: Mapping[str, float | None] | None = None
+    delays: Mapping[str, float | Delay] | None = None
+    lags: Mapping[str, float | Lag] | None = None
     loss: str | Loss = "nrmse"
     regularizers: Regularizer | Iterable[Regularizer] = ()
     sequence_length: float | None = None

@@ -156,6 +156,20 @@ class Fit:
         return dict(zip(self.problem.targets, squares.tolist(), strict=True))
 
     @property
+    def delays(self) -> dict[str, float]:
+        """The delays of inputs and targets in seconds, trained or given."""
+        return self._seconds(self.problem.timing.delays)
+
+    @property
+    def lags(self) -> dict[str, float]:
+        """The time constants of targets' sensors in seconds, trained or given."""
+        return self._seconds(self.problem.timing.lags)
+
+    def _seconds(self, names: Mapping[str, str]) -> dict[str, float]:
+        found = self.problem.assemble(self.trained)
+        return {measured: float(found[name]) for measured, name in names.items()}
+
+    @property
     def score(self) -> float:
         """The loss by which the best was chosen: over the held-out samples, else over the whole record."""
         return self.loss if self.validation_loss is None else self.validation_loss
@@ -308,9 +322,10 @@ class Fit:
     def _parameters(self, sure: Confidence) -> list[tuple[str, str, str, str]]:
         """Value, change and standard deviation of every trained parameter, in rows."""
         written, rows = self.problem.modifiers.written, []
+        params = self.problem.assemble(self.trained)
         for name, change in self.modifiers.items():
-            unit = self.system.unit(name)
-            value = f"{float(self.params[name]):.6g} {unit}".removesuffix(" 1")
+            unit = self.problem.unit(name)
+            value = f"{float(params[name]):.6g} {unit}".removesuffix(" 1")
             sigma = written(name, sure.parameters[name], ".2g", unit)
             rows.append((name, value, written(name, change, "+.3g", unit), sigma))
         return rows
@@ -330,7 +345,15 @@ class Fit:
         return remove_offset(self.params, tuple(self.seen))
 
     def __repr__(self) -> str:
-        changes = ", ".join(f"{n} {value:+.3f}" for n, value in self.modifiers.items())
+        times = self.problem.timing
+        changes = ", ".join(
+            f"{n} {value:+.3f}" for n, value in self.modifiers.items() if n not in times.values
+        )
+        late = [
+            f"{kind}({n}) {value:.4g} s"
+            for kind, found in (("delay", self.delays), ("lag", self.lags))
+            for n, value in found.items()
+        ]
         end = " (interrupted)" if self.interrupted else ""
         lines = [
             f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",
@@ -341,6 +364,7 @@ class Fit:
             lines.insert(2, f"  held out  {self.validation_loss:.4g}")
         lines += [f"  modifiers {changes}"] if changes else []
         lines += [] if self.starts is None else [f"  starts    {self.starts.summary()}"]
+        lines += [f"  times     {', '.join(late)}"] if late else []
         diverged = self.history.divergences
         lines += (
             [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
@@ -374,7 +398,7 @@ def result(
     arguments = {n: np.asarray(seen[n]) for n in problem.networks}
     return Fit(
         system=problem.system,
-        params=problem.assemble(best.trainable),
+        params=problem.model_params(best.trainable),
         loss=best.loss,
         loss_before=float(history.full_loss[0, 1]),
         validation_loss=best.validation,

@@ -170,14 +170,14 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
             f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
         )
     changes = changes_of(problem, trained.best.trainable)
-    yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
+    yield from problem.modifiers.at_limit(changes, problem.unit).values()
 
 
 def _long_steps(problem: Problem, best: Best) -> str | None:
     """A sentence on steps that are too long for gradients, or None."""
     if not isinstance(problem.solver, EXPLICIT):
         return None
-    packed = problem.system.pack(problem.assemble(best.trainable))
+    packed = problem.system.pack(problem.model_params(best.trainable))
     values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
     return long_steps(problem.system, values, problem.longest_step)
 

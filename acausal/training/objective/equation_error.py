@@ -61,7 +61,14 @@ class EquationError(eqx.Module):
         packed = p.pack(p.assemble(trainable), trainable)
         records = p.records
         t, u, y, weight, of = (
-            a[self.rows] for a in (records.steps.t, p.inputs, records.y, records.weight, records.of)
+            a[self.rows]
+            for a in (
+                records.steps.t,
+                p.steps(packed).inputs.start,
+                records.y,
+                records.weight,
+                records.of,
+            )
         )
 
         def at(t: Array, x: Array, u: Array, record: Array) -> Float[Array, " n_targets"]:
@@ -92,6 +99,12 @@ def equation_error(problem: Problem) -> EquationError:
         raise TrainingError(
             "The equation error needs all states in the data: "
             "leave 'equation_error' out of the strategy, or measure them."
+        )
+    if slow := [
+        n for n in problem.targets if n in {**problem.timing.delays, **problem.timing.lags}
+    ]:
+        raise TrainingError(
+            f"The equation error knows no delay or lag of a target, here {listing(slow)}: leave 'equation_error' out."
         )
     states = _smoothed(problem.records, np.asarray(problem.records.x))
     known = np.flatnonzero(np.isfinite(states).all(axis=1) & np.asarray(problem.records.sampled))

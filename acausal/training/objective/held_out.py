@@ -140,7 +140,15 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
     """
     system = problem.system
     starts = first_states(system, data, x0, trained=False)
-    records, substeps = lay_out(data, system.inputs, problem.targets, None, problem.longest_step)
+    records, substeps = lay_out(
+        data,
+        system.inputs,
+        problem.targets,
+        None,
+        problem.longest_step,
+        solver=problem.solver,
+        timing=problem.timing,
+    )
     return replace(
         problem,
         records=replace(records, sigma=problem.records.sigma, known=False),

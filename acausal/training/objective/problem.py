@@ -24,8 +24,10 @@ from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.per_record import PerRecord, for_records
 from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer
+from acausal.training.objective.sensors import Sensors
 from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
+from acausal.training.objective.timing import Timing
 from acausal.training.objective.trainable import Simulated, Trainable
 
 if TYPE_CHECKING:
@@ -38,10 +40,12 @@ class PackedRecords(NamedTuple):
     Attributes:
         common: those of all records.
         own: of every record, the numbers in `PerRecord.places`; ``None`` where records do not differ.
+        times: delays and lags, by name.
     """
 
     common: Packed
     own: Float[Array, "R n_places"] | None
+    times: dict[str, Float[Array, ""]]
 
 
 class Problem(eqx.Module):
@@ -55,6 +59,7 @@ class Problem(eqx.Module):
         parameter_spread: the parameters that differ from run to run.
         targets: the variables that are compared.
         per_record: the parameters that have a value for each record.
+        timing: delays and lags; those that are trained are among ``modifiers``.
         records: the data.
         sequences: how batches are drawn from them.
         first_states: the states at which records start, where they are not trained.
@@ -74,6 +79,7 @@ class Problem(eqx.Module):
     parameter_spread: ParameterSpread
     targets: tuple[str, ...] = eqx.field(static=True)
     per_record: PerRecord
+    timing: Timing
     records: Records
     sequences: Sequences
     first_states: FirstStates
@@ -95,8 +101,13 @@ class Problem(eqx.Module):
 
     @property
     def inputs(self) -> Float[Array, "N n_inputs"]:
-        """The model's inputs at every row."""
+        """The model's inputs at every row, as they are measured."""
         return self.records.steps.inputs.start
+
+    def steps(self, packed: PackedRecords) -> Steps:
+        """The steps of all records, with inputs delayed."""
+        records = self.records
+        return records.delayed(records.steps, records.of, packed.times)
 
     def residuals(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, "N n_targets"]:
         """The residuals of predictions of all records: measured less predicted; zero where nothing is measured."""
@@ -117,6 +128,11 @@ class Problem(eqx.Module):
         """The loss of predictions of some samples."""
         return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
 
+    @property
+    def sensors(self) -> Sensors:
+        """What the targets' sensors do."""
+        return Sensors.of(self.timing, self.targets)
+
     # -- what is trained -----------------------------------------------------------------------------
 
     def start(self) -> Trainable:
@@ -127,16 +143,26 @@ class Problem(eqx.Module):
         return Trainable(networks, self.modifiers.start(), own, states)
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
-        """The model's parameters, with physical values, for some state of the training: those common to all records."""
+        """Physical values, networks, delays and lags for some state of the training: those common to all records."""
         networks = {
             n: eqx.combine(arrays, self.params[n]) for n, arrays in trainable.networks.items()
         }
-        return self.modifiers.apply({**self.params, **networks}, trainable.modifiers)
+        start = {**self.params, **networks, **self.timing.values}
+        return self.modifiers.apply(start, trainable.modifiers)
+
+    def model_params(self, trainable: Trainable) -> dict[str, Any]:
+        """The same without delays and lags: the parameters of the model."""
+        return self.timing.split(self.assemble(trainable))[0]
+
+    def unit(self, name: str) -> str:
+        """The unit of something that is trained."""
+        return "s" if name in self.timing.values else self.system.unit(name)
 
     def pack(self, params: dict[str, Any], trainable: Trainable) -> PackedRecords:
         """Parameters as the model's program reads them."""
+        params, times = self.timing.split(params)
         own = self.per_record.packed(self.system, params, trainable.per_record)
-        return PackedRecords(self.system.pack(params), own)
+        return PackedRecords(self.system.pack(params), own, times)
 
     def entry(self, best: Trainable) -> Trainable:
         """What another problem of this training has found, as a start of this one."""
@@ -208,7 +234,7 @@ class Problem(eqx.Module):
         if self.sequences.whole:
             first = jax.tree.map(lambda a: a[0], (points, nudges))
             return self._loss_of_all(packed, trainable, *first)[None]
-        records, shooting = self.records, self.shooting
+        records, shooting, sensors = self.records, self.shooting, self.sensors
         parts = None if shooting is None else self._part_states(trainable, packed)
 
         def one(
@@ -224,9 +250,11 @@ class Problem(eqx.Module):
                 x0 = parts[shooting.part(start)]
             x0 = x0 if nudge is None else x0 + nudge
             own = self.packed_of(packed, records.of[start])
-            found = self._integrate(own, x0, window.steps)
+            steps = records.delayed(window.steps, records.of[start], packed.times)
+            found = self._integrate(own, x0, steps)
             assert found.y is not None
-            compared = found.y, window.y, window.weight
+            seen, weight = sensors.over_window(found.y, window, records, start, packed.times)
+            compared = seen, window.y, weight
             if points is not None:
                 compared = jax.tree.map(lambda a: a[points], compared)
             loss = self.compare_some(*compared)
@@ -256,7 +284,7 @@ class Problem(eqx.Module):
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
-        params = self.assemble(trainable)
+        params = self.model_params(trainable)
         return {
             name: number(f"The regularizer '{name}'", r, params, self.context)
             for name, r in self.regularizers.items()
@@ -300,7 +328,7 @@ class Problem(eqx.Module):
         The calls of a network with several places in the model follow each other row by row.
         """
         packed = self.pack(self.assemble(trainable), trainable)
-        points = (self.records.steps.t, x, self.inputs, self.records.of)
+        points = (self.records.steps.t, x, self.steps(packed).inputs.start, self.records.of)
         if rows is not None:
             points = jax.tree.map(lambda a: a[rows], points)
 
@@ -337,7 +365,7 @@ class Problem(eqx.Module):
     ) -> Float[Array, "R n_states"]:
         """The states at which records start."""
         records = self.records
-        t, u = records.steps.t[records.first], self.inputs[records.first]
+        t, u = records.steps.t[records.first], self.steps(packed).inputs.start[records.first]
         all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
         states = self.first_states(self.system, all_packed, t, u)
         if self.shooting is None:
@@ -371,17 +399,22 @@ class Problem(eqx.Module):
         records = self.records
         x0 = self.start_states(trainable, packed)
         x0 = x0 if nudge is None else x0 + nudge
-        own = packed.own
+        own, steps = packed.own, self.steps(packed)
         if records.count == 1:
-            return self._integrate(
-                self.packed_of(packed, jnp.asarray(0)), x0[0], records.steps, direct=direct
-            )
+            one = self.packed_of(packed, jnp.asarray(0))
+            return self._measured(self._integrate(one, x0[0], steps, direct=direct), packed)
         runs = Runs(
             Restarts(records.begins, records.spread_at_starts(x0)),
             None if own is None else own[records.of],
             self.per_record.places,
         )
-        return self._integrate(packed.common, x0[0], records.steps, runs=runs, direct=direct)
+        found = self._integrate(packed.common, x0[0], steps, runs=runs, direct=direct)
+        return self._measured(found, packed)
+
+    def _measured(self, found: Integrated, packed: PackedRecords) -> Integrated:
+        """The same with targets as their sensors show them."""
+        assert found.y is not None
+        return found._replace(y=self.sensors.over_records(found.y, self.records, packed.times))
 
     def _integrate(
         self,

@@ -17,6 +17,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.simulation import Steps
+from acausal.training.objective.input_delays import NOTHING_DELAYED, DelayedInputs
 
 
 class Places(NamedTuple):
@@ -65,6 +66,7 @@ class Records(eqx.Module):
         sampled: the rows that hold samples; the others only shorten steps.
         names: of the records.
         known: whether these are the records of the training.
+        delayed: the inputs that come later than ``steps`` says.
     """
 
     steps: Steps
@@ -78,6 +80,7 @@ class Records(eqx.Module):
     sampled: Bool[Array, " N"]
     names: tuple[str, ...] = eqx.field(static=True)
     known: bool = eqx.field(static=True, default=True)
+    delayed: DelayedInputs = NOTHING_DELAYED
 
     def __len__(self) -> int:
         """How many rows there are."""

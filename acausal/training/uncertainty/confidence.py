@@ -241,14 +241,14 @@ def _about(
     taken: Bool[np.ndarray, " n_parameters"],
 ) -> tuple[str, ...]:
     """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
-    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.system.unit)
+    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.unit)
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
             return f"{at_limit[name]} Its standard deviation cannot be given."
         if sigma > UNKNOWN * prior:
             return f"The data say nothing about '{name}'; leave it as it was, or measure what depends on it."
-        deviation = problem.modifiers.written(name, sigma, ".2g", problem.system.unit(name))
+        deviation = problem.modifiers.written(name, sigma, ".2g", problem.unit(name))
         return f"'{name}' is known to ±{deviation} (one sigma)."
 
     rows = zip(problem.modifiers.names, sigma.tolist(), prior.tolist(), strict=True)
