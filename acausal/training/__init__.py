@@ -9,6 +9,11 @@ from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
 from acausal.training.history import Divergence as Divergence, History as History
 from acausal.training.logs import CsvLog as CsvLog, TensorBoardLog as TensorBoardLog
+from acausal.training.objective.error_laws import (
+    Huber as Huber,
+    Likelihood as Likelihood,
+    Student as Student,
+)
 from acausal.training.objective.modal import (
     DampingRatio as DampingRatio,
     FrequencyRange as FrequencyRange,

@@ -24,9 +24,11 @@ from acausal.training.objective.multiple_shooting import ShootingStates, shootin
 from acausal.training.objective.parameter_spread import parameter_spread
 from acausal.training.objective.per_record import per_record
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
+from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
 
 if TYPE_CHECKING:
@@ -75,10 +77,12 @@ def build_problem(
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
     records, substeps = lay_out(data, system.inputs, targets, system.states, options.dt)
-    weights = np.ones(records.count)
+    loss = named(options.loss, targets)
+    weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
+    records = _weighted(records, weights, targets)
     sequences = cut(
         records,
-        weights,
+        np.ones(records.count),
         options.sequence_length,
         options.batch_size,
         options.subsample,
@@ -96,10 +100,11 @@ def build_problem(
         per_record=per_record(system, options.per_record, params),
         targets=targets,
         records=records,
-        sequences=sequences,
+        weighting=weights,
+        sequences=sequences if weights.alike else sequences.weighted(records),
         first_states=first_states(system, data, options.x0),
         shooting=None,
-        loss=named(options.loss),
+        loss=loss,
         regularizers=_labelled(options.penalties),
         context=Context((), {}),
         solver=for_fixed_steps(solver_named(options.solver), dtype),
@@ -133,6 +138,21 @@ def _check_targets(system: System, targets: tuple[str, ...]) -> None:
         raise TrainingError(
             f"{listing(driven)}: a target is what the model computes, not its input."
         )
+
+
+def _weighted(records: Records, weights: Weighting, targets: tuple[str, ...]) -> Records:
+    """The records with their weights.
+
+    Raises:
+        TrainingError: if nothing of a target counts.
+    """
+    weighted = weights.apply(records)
+    for name, total in zip(targets, jnp.sum(weighted.weight, axis=0), strict=True):
+        if not total > 0:
+            raise TrainingError(
+                f"sample_weights: all weights of '{name}' are 0; leave the target out."
+            )
+    return weighted
 
 
 def _refuse_constant(problem: Problem) -> None:

@@ -21,12 +21,14 @@ from jax.typing import DTypeLike
 
 from acausal.errors import TrainingError, nearest, shown
 from acausal.simulation import Solver
+from acausal.training.objective.error_laws import ErrorLaw
 from acausal.training.objective.held_out import Validation
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.losses import Loss
 from acausal.training.objective.modifiers import Modifier
 from acausal.training.objective.regularizers import Regularizer
 from acausal.training.objective.sharding import Device
+from acausal.training.objective.weighting import RecordWeights, Weight
 from acausal.training.progress import Observer
 
 UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
@@ -67,7 +69,12 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "gamma": (_is_number, "a number"),
     "per_record": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
     "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
-    "loss": (lambda v: isinstance(v, str) or callable(v), "a loss, by name or as a function"),
+    "loss": (
+        lambda v: isinstance(v, str | ErrorLaw) or callable(v),
+        "a loss, by name or as a function",
+    ),
+    "record_weights": (lambda v: isinstance(v, str | Mapping), "a text, nor factors by name"),
+    "sample_weights": (lambda v: isinstance(v, Mapping), "weights by target"),
     "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
     "sequence_length": (_is_number, "a number of seconds"),
     "batch_size": (_is_count, "a whole number"),
@@ -100,7 +107,9 @@ class FitKeywords(TypedDict, total=False):
     gamma: float
     parameter_spread: Mapping[str, float] | None
     per_record: Mapping[str, float | None] | None
-    loss: str | Loss
+    loss: str | Loss | ErrorLaw
+    record_weights: RecordWeights
+    sample_weights: Mapping[str, Weight] | None
     regularizers: Regularizer | Iterable[Regularizer]
     sequence_length: float | None
     batch_size: int
@@ -141,7 +150,14 @@ class FitOptions:
             measured, it finds the values of the runs that are measured.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) or (predicted, measured, sigma,
             weight) -> scalar of shapes (M, k), (M, k), (k,), (M, k); averaged over a batch's sequences. The weight is
-            zero where nothing is measured.
+            zero where nothing is measured. ``"likelihood"``: maximum likelihood of normal errors, in which each target
+            counts by its noise, as estimated or given by `acausal.Likelihood`; ``"huber"`` and ``"student"``, or
+            `acausal.Huber` and `acausal.Student`, bear outliers. Sequences estimate the noise each for itself, from
+            some dozens of samples or more.
+        record_weights: ``"samples"``: all samples count alike; ``"records"``: all records do, however long they are;
+            or factors of their samples' weights by name of a record, 1 where there is none.
+        sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then, 0 or more.
+            Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
         regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
         sequence_length: in seconds; ``None`` takes all of every record at once.
         batch_size: sequences in each update.
@@ -186,7 +202,9 @@ class FitOptions:
     gamma: float = 0.2
     parameter_spread: Mapping[str, float] | None = None
     per_record: Mapping[str, float | None] | None = None
-    loss: str | Loss = "nrmse"
+    loss: str | Loss | ErrorLaw = "nrmse"
+    record_weights: RecordWeights = "samples"
+    sample_weights: Mapping[str, Weight] | None = None
     regularizers: Regularizer | Iterable[Regularizer] = ()
     sequence_length: float | None = None
     batch_size: int = 1

@@ -28,6 +28,7 @@ from acausal.reporting import (
 )
 from acausal.training.history import History
 from acausal.training.loop import Trained
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
@@ -150,6 +151,19 @@ class Fit:
         errors = np.concatenate([record.errors for record in self.records.values()])
         squares = np.sqrt(np.nanmean(errors**2, axis=0))
         return dict(zip(self.problem.targets, squares.tolist(), strict=True))
+
+    @cached_property
+    def noise(self) -> dict[str, float]:
+        """By target, the level of its noise in its unit: as given to the loss, or as estimated from all records.
+
+        For losses that know of no noise it is the root mean square error.
+        """
+        problem, records = self.problem, self.problem.records
+        if not isinstance(problem.loss, LogLikelihood):
+            return self.rms
+        predicted = problem.simulate(self.trained).y
+        levels = problem.loss.levels(predicted, records.y, records.sigma, records.weight)
+        return dict(zip(problem.targets, levels.tolist(), strict=True))
 
     @property
     def score(self) -> float:

@@ -143,6 +143,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
     system = problem.system
     starts = first_states(system, data, x0)
     records, substeps = lay_out(data, system.inputs, problem.targets, None, problem.longest_step)
+    records = problem.weighting.apply(records)
     return replace(
         problem,
         records=replace(records, sigma=problem.records.sigma, known=False),

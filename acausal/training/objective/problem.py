@@ -16,6 +16,7 @@ from acausal._jax import Restarts, cast
 from acausal.codegen import Packed, Values
 from acausal.simulation import Integrated, Runs, Solver, Steps, integrate
 from acausal.training.objective.arguments import arguments
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
@@ -27,6 +28,7 @@ from acausal.training.objective.regularizers import Context, Regularizer
 from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
 from acausal.training.objective.trainable import Simulated, Trainable
+from acausal.training.objective.weighting import Weighting
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -56,6 +58,7 @@ class Problem(eqx.Module):
         targets: the variables that are compared.
         per_record: the parameters that have a value for each record.
         records: the data.
+        weighting: how much records, targets and times count.
         sequences: how batches are drawn from them.
         first_states: the states at which records start, where they are not trained.
         shooting: the states at which sequences begin, where they are trained, too.
@@ -75,6 +78,7 @@ class Problem(eqx.Module):
     targets: tuple[str, ...] = eqx.field(static=True)
     per_record: PerRecord
     records: Records
+    weighting: Weighting = eqx.field(static=True)
     sequences: Sequences
     first_states: FirstStates
     shooting: ShootingStates | None
@@ -117,6 +121,15 @@ class Problem(eqx.Module):
         """The loss of predictions of some samples."""
         return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
 
+    def curvature(
+        self, predicted: Float[Array, "N n_targets"]
+    ) -> Float[Array, "N n_targets"] | None:
+        """The second derivative of the loss by each prediction, where the loss gives it."""
+        if not isinstance(self.loss, LogLikelihood):
+            return None
+        records = self.records
+        return self.loss.curvature(predicted, records.y, records.sigma, records.weight)
+
     # -- what is trained -----------------------------------------------------------------------------
 
     def start(self) -> Trainable:
@@ -156,9 +169,14 @@ class Problem(eqx.Module):
         """The loss, and what is known without data: a loss ℓ of n samples counts as the likelihood ``ℓ^-n``.
 
         That is the likelihood of normal errors whose size is not known; its largest value is that of the root mean
-        square.
+        square. A loss that is a logarithm itself counts as ``e^-nℓ``.
         """
-        return loss * jnp.exp(self.log_prior(trainable)) if self.per_record.names else loss
+        if not self.per_record.names:
+            return loss
+        known = self.log_prior(trainable)
+        if isinstance(self.loss, LogLikelihood):
+            return loss + known
+        return loss * jnp.exp(known)
 
     def log_prior(self, trainable: Trainable) -> Float[Array, ""]:
         """Minus the logarithm of the prior density of what is trained, for each measured sample."""

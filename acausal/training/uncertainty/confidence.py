@@ -25,6 +25,7 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import law_of, output_scale
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -78,7 +79,7 @@ class Confidence:
         with_laws: by parameter and law, the multiple correlation of what the parameter changes with what the weights
             of the law's network can change: 1 where the law can take any part of the parameter.
         per_record: by parameter that differs between records, the standard deviation of each record's value.
-        noise: standard deviation of the residuals, by target.
+        noise: standard deviation of the residuals, by target; as given to the loss, or as estimated by it.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
         about: how well each parameter is known, one sentence each.
     """
@@ -185,10 +186,10 @@ def confidence(
         )
     counts = np.asarray(problem.records.weight) > 0
     n = np.maximum(counts.sum(axis=0), 1)
-    noise = np.sqrt(np.sum(left**2, axis=0) / n)
-    alike = _alike(problem.records, left, counts)
+    noise, factor = _noise(problem, left)
+    alike = _alike(problem.records, factor * left, counts)
     least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.records.sigma)) * np.sqrt(alike)
-    sensitivity = np.where(counts[:, :, None], jacobian / least[:, None], 0.0)
+    sensitivity = np.where(counts[:, :, None], jacobian * (factor / least)[:, :, None], 0.0)
     weighted = sensitivity[..., :count]
     along = sensitivity[..., count + alone :].reshape(left.size, bounds[-1])
     blocks = [
@@ -292,6 +293,18 @@ def _moved(problem: Problem, trainable: Trainable, own: Float[Array, " n_own"]) 
         first = jnp.arange(len(states)) if all_first else problem.shooting.first
         states = states.at[first].add(own[len(names) :])
     return replace(trainable, per_record=per_record, states=states)
+
+
+def _noise(
+    problem: Problem, left: Float[np.ndarray, "N n_targets"]
+) -> tuple[Float[np.ndarray, " n_targets"], Float[np.ndarray, "N n_targets"]]:
+    """The noise of every target, and the root of how much each residual counts: less for an outlier."""
+    records = problem.records
+    if not isinstance(problem.loss, LogLikelihood):
+        count = np.maximum(np.sum(np.asarray(records.weight) > 0, axis=0), 1)
+        return np.sqrt(np.sum(left**2, axis=0) / count), np.ones_like(left)
+    found = problem.loss.levels(records.y - left, records.y, records.sigma, records.weight)
+    return np.asarray(found), np.sqrt(problem.loss.law.weight(jnp.asarray(left) / found))
 
 
 def _alike(
