@@ -79,6 +79,7 @@ from .training import (
     FrequencyRange as FrequencyRange,
     Huber as Huber,
     Likelihood as Likelihood,
+    Profile as Profile,
     Shift as Shift,
     SmallCorrection as SmallCorrection,
     Stability as Stability,

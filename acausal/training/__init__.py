@@ -26,5 +26,6 @@ from acausal.training.objective.regularizers import (
 )
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
+from acausal.training.profile import Profile as Profile
 from acausal.training.result import Fit as Fit, Seen as Seen
 from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

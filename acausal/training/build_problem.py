@@ -23,6 +23,7 @@ from acausal.training.objective.modifiers import modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
 from acausal.training.objective.parameter_spread import parameter_spread
 from acausal.training.objective.per_record import per_record
+from acausal.training.objective.prior import prior_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
@@ -105,6 +106,7 @@ def build_problem(
         first_states=first_states(system, data, options.x0),
         shooting=None,
         loss=loss,
+        prior=prior_of(options.prior, params),
         regularizers=_labelled(options.penalties),
         context=Context((), {}),
         solver=for_fixed_steps(solver_named(options.solver), dtype),

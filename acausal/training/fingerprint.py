@@ -29,7 +29,6 @@ from acausal.data import Data, named_arrays
 from acausal.system import System
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Leg
 
@@ -69,7 +68,7 @@ def fingerprint(
         "regularizers": {n: _regularizer(problem, r) for n, r in problem.regularizers.items()},
         "record_weights or sample_weights": (problem.weighting, problem.records.weight),
         "data": (
-            _measured(problem.records),
+            problem.records.unweighted(),
             {n: dict(d.signals) for n, d in data.items()},
         ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
@@ -84,11 +83,6 @@ def fingerprint(
         "members": others,
     }
     return {name: digest(part) for name, part in {**named, **planned}.items()}
-
-
-def _measured(records: Records) -> Records:
-    """The records whatever their weights."""
-    return dataclasses.replace(records, weight=records.weight > 0)
 
 
 # -- functions ---------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@ from acausal.training.objective.held_out import Validation
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.losses import Loss
 from acausal.training.objective.modifiers import Modifier
+from acausal.training.objective.prior import Earlier
 from acausal.training.objective.regularizers import Regularizer
 from acausal.training.objective.sharding import Device
 from acausal.training.objective.weighting import RecordWeights, Weight
@@ -76,6 +77,10 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "record_weights": (lambda v: isinstance(v, str | Mapping), "a text, nor factors by name"),
     "sample_weights": (lambda v: isinstance(v, Mapping), "weights by target"),
     "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
+    "prior": (
+        lambda v: hasattr(v, "confidence") and hasattr(v, "params"),
+        "the result of a training",
+    ),
     "sequence_length": (_is_number, "a number of seconds"),
     "batch_size": (_is_count, "a whole number"),
     "subsample": (_is_number, "a fraction"),
@@ -111,6 +116,7 @@ class FitKeywords(TypedDict, total=False):
     record_weights: RecordWeights
     sample_weights: Mapping[str, Weight] | None
     regularizers: Regularizer | Iterable[Regularizer]
+    prior: Earlier | None
     sequence_length: float | None
     batch_size: int
     subsample: float | None
@@ -159,6 +165,9 @@ class FitOptions:
         sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then, 0 or more.
             Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
         regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
+        prior: an earlier fit, when new data come without the old ones: what it knew about laws and trained parameters
+            (its `Fit.confidence`) is the prior of this training, which starts from its parameters. Directions that the
+            new data leave open stay as they were. Train the same parameters again; those left out stay fixed.
         sequence_length: in seconds; ``None`` takes all of every record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
@@ -206,6 +215,7 @@ class FitOptions:
     record_weights: RecordWeights = "samples"
     sample_weights: Mapping[str, Weight] | None = None
     regularizers: Regularizer | Iterable[Regularizer] = ()
+    prior: Earlier | None = None
     sequence_length: float | None = None
     batch_size: int = 1
     subsample: float | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,6 +23,7 @@ from acausal.reporting import (
     add_laws,
     add_losses,
     add_parameters,
+    add_profiles,
     add_records,
     add_residuals,
 )
@@ -34,6 +35,7 @@ from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
 from acausal.training.uncertainty.conformal import Conformal, conformal
@@ -198,6 +200,29 @@ class Fit:
             self.problem, records=replace(known, weight=jnp.where(counts, known.weight, 0.0))
         )
 
+    def profile(
+        self, parameter: str, points: int = 21, width: float = 3.0, level: float = 0.95
+    ) -> Profile:
+        """The loss along a trained parameter, with everything else trained again where it is held.
+
+        Unlike `confidence`, which is local, this shows the whole way: an interval that need not be symmetric, and
+        whether there is one. Up to 60 trained numbers take Gauss-Newton steps; with more, such as the weights of
+        networks, all are trained by at most 120 updates of L-BFGS. All points are trained in one program.
+
+        Arguments:
+            parameter: its name, such as ``"mass.m"``.
+            points: where it is held, an odd number.
+            width: how far from the fit's value to either side, in standard deviations of `confidence`; less where it
+                would leave its bounds or change its sign.
+            level: of the interval.
+
+        Raises:
+            TrainingError: for a parameter that was not trained, numbers that do not fit, or if the model diverges.
+        """
+        return profile(
+            self.problem, self.trained, self.confidence(), parameter, points, width, level
+        )
+
     def conformal(
         self,
         data: RecordsLike,
@@ -261,8 +286,16 @@ class Fit:
             )
         return network
 
-    def report(self, folder: str | Path, title: str = "Training") -> Path:
-        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""
+    def report(
+        self, folder: str | Path, title: str = "Training", *, profiles: Sequence[Profile] = ()
+    ) -> Path:
+        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path.
+
+        Arguments:
+            folder: where.
+            title: of the page.
+            profiles: from `profile`, to show whether parameters are identifiable.
+        """
         trained = ", ".join((*self.seen, *self.modifiers))
         end = ", ended by the user" if self.interrupted else ""
         page = Page(
@@ -281,6 +314,7 @@ class Fit:
             add_laws(page, self.with_bands(sure.laws))
             header = ("parameter", "value", "change", "one sigma")
             add_parameters(page, header, self._parameters(sure), sure.summary())
+            add_profiles(page, profiles)
             add_residuals(page, self.residuals())
         else:
             page.text(

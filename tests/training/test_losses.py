@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import equinox as eqx
 import jax
@@ -169,12 +169,13 @@ def test_the_hessian_of_given_noise_is_the_jacobians_square():
     predict = jax.jit(lambda z: problem.predictions(unravel(z))[0])
     h = 1e-5
     steps = jnp.eye(len(start)) * h
-    J = jnp.stack([(predict(start + e) - predict(start - e)) / (2 * h) for e in steps])
-    J = J / jnp.asarray(list(NOISE.values()))
-    expected = jnp.einsum("ink,jnk->ij", J, J) / problem.records.y.size
+    columns = [(predict(start + e) - predict(start - e)) / (2 * h) for e in steps]
+    jacobian = jnp.stack(columns) / jnp.asarray(list(NOISE.values()))
+    expected = jnp.einsum("ink,jnk->ij", jacobian, jacobian) / problem.records.y.size
     found = eqx.filter_jit(with_gauss_newton_hessian)(
         problem, unravel(start), problem.draw(jax.random.key(0))
     )
+    assert found.hessian is not None
     np.testing.assert_allclose(found.hessian, expected, rtol=1e-5, atol=1e-6)
 
 
@@ -331,7 +332,7 @@ def test_another_weight_is_another_training(tmp_path: Any):
     ("make", "sentence"),
     [
         (lambda: ac.Likelihood(noise={"mass.a": -1.0}), "Likelihood: the noise of 'mass.a' is -1.0; give its positive"),
-        (lambda: ac.Likelihood(noise=0.1), "Likelihood: noise=0.1; give levels by target"),
+        (lambda: ac.Likelihood(noise=cast(Any, 0.1)), "Likelihood: noise=0.1; give levels by target"),
         (lambda: ac.Student(nu=0), "Student: nu=0; give positive degrees of freedom."),
         (lambda: ac.Huber(delta=-2), "Huber: delta=-2; give a positive number of levels."),
         (lambda: ac.Student(noise={"mass.v": 1}).of(TARGETS), "Student: noise of 'mass.v', which is no target"),

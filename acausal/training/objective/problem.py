@@ -23,6 +23,7 @@ from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.per_record import PerRecord, for_records
+from acausal.training.objective.prior import Prior
 from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer
 from acausal.training.objective.sequences import Batch, Sequences
@@ -63,6 +64,7 @@ class Problem(eqx.Module):
         first_states: the states at which records start, where they are not trained.
         shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
+        prior: what an earlier training knew.
         regularizers: penalties by name.
         context: the arguments of regularizers besides the parameters.
         solver, substeps: the scheme, and the number of its steps from sample to sample.
@@ -83,6 +85,7 @@ class Problem(eqx.Module):
     first_states: FirstStates
     shooting: ShootingStates | None
     loss: Loss = eqx.field(static=True)
+    prior: Prior | None
     regularizers: dict[str, Regularizer]
     context: Context
     solver: Solver = eqx.field(static=True)
@@ -120,6 +123,11 @@ class Problem(eqx.Module):
     ) -> Float[Array, ""]:
         """The loss of predictions of some samples."""
         return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
+
+    @property
+    def counts_as_logarithm(self) -> bool:
+        """Whether the loss is a logarithm of a likelihood; others are like a root mean square."""
+        return isinstance(self.loss, LogLikelihood)
 
     def curvature(
         self, predicted: Float[Array, "N n_targets"]
@@ -171,17 +179,20 @@ class Problem(eqx.Module):
         That is the likelihood of normal errors whose size is not known; its largest value is that of the root mean
         square. A loss that is a logarithm itself counts as ``e^-nℓ``.
         """
-        if not self.per_record.names:
+        if not self.per_record.names and self.prior is None:
             return loss
         known = self.log_prior(trainable)
-        if isinstance(self.loss, LogLikelihood):
+        if self.counts_as_logarithm:
             return loss + known
         return loss * jnp.exp(known)
 
     def log_prior(self, trainable: Trainable) -> Float[Array, ""]:
         """Minus the logarithm of the prior density of what is trained, for each measured sample."""
         samples = jnp.sum(self.records.weight > 0)
-        return self.per_record.log_prior(trainable.per_record) / samples
+        known = self.per_record.log_prior(trainable.per_record)
+        if self.prior is not None:
+            known += self.prior.log_prior(self.assemble(trainable))
+        return known / samples
 
     # -- losses of sequences -------------------------------------------------------------------------
 

@@ -26,6 +26,7 @@ from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import law_of, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
+from acausal.training.objective.prior import LawPrior, Prior, law_at
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -48,6 +49,9 @@ UNKNOWN = 0.9
 
 CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
+
+POINTS_EACH = 4
+"""Points for each bump at which a later training compares a law with what is known."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -82,6 +86,7 @@ class Confidence:
         noise: standard deviation of the residuals, by target; as given to the loss, or as estimated by it.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
         about: how well each parameter is known, one sentence each.
+        prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
 
     laws: dict[str, Band]
@@ -92,6 +97,7 @@ class Confidence:
     noise: dict[str, float]
     alike: dict[str, float]
     about: tuple[str, ...]
+    prior: Prior
 
     def words(self) -> list[str]:
         """The old name of `summary`."""
@@ -202,12 +208,14 @@ def confidence(
             strict=True,
         )
     ]
-    found = posterior_covariance(blocks, float(np.sum(n / alike)))
+    blocks += _earlier(problem, changed, len(scale), blocks[0])
+    samples = float(np.sum(n / alike)) + sum(len(b.common) for b in blocks[problem.records.count :])
+    found = posterior_covariance(blocks, samples)
     weighted = weighted.reshape(left.size, count)
     covariance = found.common * np.outer(deviations, deviations)
     between = covariance[ends[0] : ends[1], ends[0] : ends[1]]
     sigma = np.sqrt(np.diag(between))
-    each = np.sqrt([np.diag(c) for c in found.own]) * own
+    each = np.sqrt([np.diag(c) for c in found.own[: problem.records.count]]) * own
     with_laws = {
         name: {
             law: correlation_with(weighted[:, ends[0] + i], along[:, a:b])
@@ -230,7 +238,49 @@ def confidence(
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
         _about(problem, trainable, sigma, prior, taken),
+        _as_prior(
+            problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
+        ),
     )
+
+
+def _earlier(
+    problem: Problem,
+    changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
+    count: int,
+    like: Blocks,
+) -> list[Blocks]:
+    """What the training knew before, as one more record; none if that is nothing."""
+    if (prior := problem.prior) is None:
+        return []
+    jacobian = jax.jit(jax.jacfwd(lambda z: prior.misfit(changed(z)[1])))(jnp.zeros(count))
+    rows = np.asarray(jacobian)[:, : like.common.shape[1]]
+    return [Blocks(rows, np.zeros((len(rows), like.own.shape[1])))]
+
+
+def _as_prior(
+    problem: Problem,
+    params: dict[str, Any],
+    bumped: dict[str, Bumped],
+    seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
+    root: Float[np.ndarray, "n n"],
+    alike: float,
+) -> Prior:
+    """What is known now, as the prior of a later training; ``root`` as of `Prior`."""
+
+    def one(name: str) -> LawPrior:
+        centres = bumped[name].centres
+        points = jnp.linspace(centres[0], centres[-1], POINTS_EACH * BUMPS)
+        rest = jnp.asarray(seen[name][:, 1:].mean(axis=0))
+        heights = np.linalg.pinv(np.asarray(jax.vmap(bumped[name].bumps)(points)))
+        return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
+
+    moved = problem.modifiers
+    values = [float(params[n]) for n in moved.names]
+    scales = [v if kind.unit else 1.0 for v, kind in zip(values, moved.kinds, strict=True)]
+    laws = {n: one(n) for n in problem.networks}
+    numbers = (jnp.asarray(a, float) for a in (values, scales, root, alike))
+    return Prior(laws, moved.names, *numbers)
 
 
 def _about(
