@@ -141,6 +141,7 @@ def test_one_side_may_be_open():
     ],
 )  # fmt: skip
 def test_misuse_is_refused(fit: ac.Fit, chosen: dict[str, Any], sentence: str):
+    given: dict[str, Any] = {"parameter": "mass.m", **chosen}
     with pytest.raises(ac.TrainingError) as error:
-        fit.profile(**{"parameter": "mass.m", **chosen})
+        fit.profile(**given)
     assert str(error.value) == sentence
