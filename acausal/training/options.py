@@ -162,8 +162,8 @@ class FitOptions:
             some dozens of samples or more.
         record_weights: ``"samples"``: all samples count alike; ``"records"``: all records do, however long they are;
             or factors of their samples' weights by name of a record, 1 where there is none.
-        sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then, 0 or more.
-            Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
+        sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then; 0 leaves
+            it out. Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
         regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
         prior: an earlier fit, when new data come without the old ones: what it knew about laws and trained parameters
             (its `Fit.confidence`) is the prior of this training, which starts from its parameters. Directions that the

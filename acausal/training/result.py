@@ -197,7 +197,9 @@ class Fit:
             raise TrainingError(f"There is no record '{record}': {nearest(record, known.names)}")
         counts = (known.of == known.names.index(record))[:, None]
         return replace(
-            self.problem, records=replace(known, weight=jnp.where(counts, known.weight, 0.0))
+            self.problem,
+            records=replace(known, weight=jnp.where(counts, known.weight, 0.0)),
+            prior=None,
         )
 
     def profile(

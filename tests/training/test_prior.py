@@ -117,6 +117,22 @@ def test_another_prior_is_another_training(
         trained(records["b"], prior=second, epochs=1, resume=True, **chosen)
 
 
+def test_members_of_an_ensemble_start_from_what_is_known(
+    first: ac.Fit, records: dict[str, ac.Data]
+):
+    several = ac.ensemble(
+        plain(), records["b"], "mass.s", members=2, modifiers=NAMES, prior=first,
+        strategy="gauss_newton", epochs=1, **QUIET,
+    )  # fmt: skip
+    for fit in several.fits:
+        assert np.all(np.abs(values(fit) - values(first)) < 4 * deviations(first))
+
+
+def test_what_a_record_alone_determines_knows_no_prior(first: ac.Fit, second: ac.Fit):
+    alone, both = (second.confidence(r).parameters for r in ("record", None))
+    assert alone["mass.m"] > 5 * both["mass.m"]
+
+
 # -- laws --------------------------------------------------------------------------------------------
 
 
