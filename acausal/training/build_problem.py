@@ -23,11 +23,14 @@ from acausal.training.objective.modifiers import modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
 from acausal.training.objective.parameter_spread import parameter_spread
 from acausal.training.objective.per_record import per_record
+from acausal.training.objective.prior import prior_of
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
 from acausal.training.objective.timing import timing
+from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
 
 if TYPE_CHECKING:
@@ -81,10 +84,12 @@ def build_problem(
     records, substeps = lay_out(
         data, system.inputs, targets, system.states, options.dt, solver=solver, timing=times
     )
-    weights = np.ones(records.count)
+    loss = named(options.loss, targets)
+    weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
+    records = _weighted(records, weights, targets)
     sequences = cut(
         records,
-        weights,
+        np.ones(records.count),
         options.sequence_length,
         options.batch_size,
         options.subsample,
@@ -103,10 +108,12 @@ def build_problem(
         timing=times,
         targets=targets,
         records=records,
-        sequences=sequences,
+        weighting=weights,
+        sequences=sequences if weights.alike else sequences.weighted(records),
         first_states=first_states(system, data, options.x0),
         shooting=None,
-        loss=named(options.loss),
+        loss=loss,
+        prior=prior_of(options.prior, params),
         regularizers=_labelled(options.penalties),
         context=Context((), {}),
         solver=solver,
@@ -140,6 +147,21 @@ def _check_targets(system: System, targets: tuple[str, ...]) -> None:
         raise TrainingError(
             f"{listing(driven)}: a target is what the model computes, not its input."
         )
+
+
+def _weighted(records: Records, weights: Weighting, targets: tuple[str, ...]) -> Records:
+    """The records with their weights.
+
+    Raises:
+        TrainingError: if nothing of a target counts.
+    """
+    weighted = weights.apply(records)
+    for name, total in zip(targets, jnp.sum(weighted.weight, axis=0), strict=True):
+        if not total > 0:
+            raise TrainingError(
+                f"sample_weights: all weights of '{name}' are 0; leave the target out."
+            )
+    return weighted
 
 
 def _refuse_constant(problem: Problem) -> None:

@@ -21,13 +21,16 @@ from jax.typing import DTypeLike
 
 from acausal.errors import TrainingError, nearest, shown
 from acausal.simulation import Solver
+from acausal.training.objective.error_laws import ErrorLaw
 from acausal.training.objective.held_out import Validation
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.losses import Loss
 from acausal.training.objective.modifiers import Modifier
+from acausal.training.objective.prior import Earlier
 from acausal.training.objective.regularizers import Regularizer
 from acausal.training.objective.sharding import Device
 from acausal.training.objective.timing import Delay, Lag
+from acausal.training.objective.weighting import RecordWeights, Weight
 from acausal.training.progress import Observer
 
 UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
@@ -70,8 +73,17 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "delays": (lambda v: isinstance(v, Mapping), "delays by name"),
     "lags": (lambda v: isinstance(v, Mapping), "time constants by name"),
     "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
-    "loss": (lambda v: isinstance(v, str) or callable(v), "a loss, by name or as a function"),
+    "loss": (
+        lambda v: isinstance(v, str | ErrorLaw) or callable(v),
+        "a loss, by name or as a function",
+    ),
+    "record_weights": (lambda v: isinstance(v, str | Mapping), "a text, nor factors by name"),
+    "sample_weights": (lambda v: isinstance(v, Mapping), "weights by target"),
     "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
+    "prior": (
+        lambda v: hasattr(v, "confidence") and hasattr(v, "params"),
+        "the result of a training",
+    ),
     "sequence_length": (_is_number, "a number of seconds"),
     "batch_size": (_is_count, "a whole number"),
     "subsample": (_is_number, "a fraction"),
@@ -106,8 +118,11 @@ class FitKeywords(TypedDict, total=False):
     per_record: Mapping[str, float | None] | None
     delays: Mapping[str, float | Delay] | None
     lags: Mapping[str, float | Lag] | None
-    loss: str | Loss
+    loss: str | Loss | ErrorLaw
+    record_weights: RecordWeights
+    sample_weights: Mapping[str, Weight] | None
     regularizers: Regularizer | Iterable[Regularizer]
+    prior: Earlier | None
     sequence_length: float | None
     batch_size: int
     subsample: float | None
@@ -154,8 +169,18 @@ class FitOptions:
             seconds. A record starts at rest. The lag comes before a delay. `Fit.lags` has the result.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) or (predicted, measured, sigma,
             weight) -> scalar of shapes (M, k), (M, k), (k,), (M, k); averaged over a batch's sequences. The weight is
-            zero where nothing is measured.
+            zero where nothing is measured. ``"likelihood"``: maximum likelihood of normal errors, in which each target
+            counts by its noise, as estimated or given by `acausal.Likelihood`; ``"huber"`` and ``"student"``, or
+            `acausal.Huber` and `acausal.Student`, bear outliers. Sequences estimate the noise each for itself, from
+            some dozens of samples or more.
+        record_weights: ``"samples"``: all samples count alike; ``"records"``: all records do, however long they are;
+            or factors of their samples' weights by name of a record, 1 where there is none.
+        sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then; 0 leaves
+            it out. Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
         regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
+        prior: an earlier fit, when new data come without the old ones: what it knew about laws and trained parameters
+            (its `Fit.confidence`) is the prior of this training, which starts from its parameters. Directions that the
+            new data leave open stay as they were. Train the same parameters again; those left out stay fixed.
         sequence_length: in seconds; ``None`` takes all of every record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
@@ -205,8 +230,11 @@ class FitOptions:
     per_record: Mapping[str, float | None] | None = None
     delays: Mapping[str, float | Delay] | None = None
     lags: Mapping[str, float | Lag] | None = None
-    loss: str | Loss = "nrmse"
+    loss: str | Loss | ErrorLaw = "nrmse"
+    record_weights: RecordWeights = "samples"
+    sample_weights: Mapping[str, Weight] | None = None
     regularizers: Regularizer | Iterable[Regularizer] = ()
+    prior: Earlier | None = None
     sequence_length: float | None = None
     batch_size: int = 1
     subsample: float | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,17 +23,20 @@ from acausal.reporting import (
     add_laws,
     add_losses,
     add_parameters,
+    add_profiles,
     add_records,
     add_residuals,
 )
 from acausal.training.history import History
 from acausal.training.member import Trained
 from acausal.training.objective.arguments import labels
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.starts import Starts
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
@@ -155,6 +158,19 @@ class Fit:
         squares = np.sqrt(np.nanmean(errors**2, axis=0))
         return dict(zip(self.problem.targets, squares.tolist(), strict=True))
 
+    @cached_property
+    def noise(self) -> dict[str, float]:
+        """By target, the level of its noise in its unit: as given to the loss, or as estimated from all records.
+
+        For losses that know of no noise it is the root mean square error.
+        """
+        problem, records = self.problem, self.problem.records
+        if not isinstance(problem.loss, LogLikelihood):
+            return self.rms
+        predicted = problem.simulate(self.trained).y
+        levels = problem.loss.levels(predicted, records.y, records.sigma, records.weight)
+        return dict(zip(problem.targets, levels.tolist(), strict=True))
+
     @property
     def delays(self) -> dict[str, float]:
         """The delays of inputs and targets in seconds, trained or given."""
@@ -199,7 +215,32 @@ class Fit:
             raise TrainingError(f"There is no record '{record}': {nearest(record, known.names)}")
         counts = (known.of == known.names.index(record))[:, None]
         return replace(
-            self.problem, records=replace(known, weight=jnp.where(counts, known.weight, 0.0))
+            self.problem,
+            records=replace(known, weight=jnp.where(counts, known.weight, 0.0)),
+            prior=None,
+        )
+
+    def profile(
+        self, parameter: str, points: int = 21, width: float = 3.0, level: float = 0.95
+    ) -> Profile:
+        """The loss along a trained parameter, with everything else trained again where it is held.
+
+        Unlike `confidence`, which is local, this shows the whole way: an interval that need not be symmetric, and
+        whether there is one. Up to 60 trained numbers take Gauss-Newton steps; with more, such as the weights of
+        networks, all are trained by at most 120 updates of L-BFGS. All points are trained in one program.
+
+        Arguments:
+            parameter: its name, such as ``"mass.m"``.
+            points: where it is held, an odd number.
+            width: how far from the fit's value to either side, in standard deviations of `confidence`; less where it
+                would leave its bounds or change its sign.
+            level: of the interval.
+
+        Raises:
+            TrainingError: for a parameter that was not trained, numbers that do not fit, or if the model diverges.
+        """
+        return profile(
+            self.problem, self.trained, self.confidence(), parameter, points, width, level
         )
 
     def conformal(
@@ -265,8 +306,16 @@ class Fit:
             )
         return network
 
-    def report(self, folder: str | Path, title: str = "Training") -> Path:
-        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""
+    def report(
+        self, folder: str | Path, title: str = "Training", *, profiles: Sequence[Profile] = ()
+    ) -> Path:
+        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path.
+
+        Arguments:
+            folder: where.
+            title: of the page.
+            profiles: from `profile`, to show whether parameters are identifiable.
+        """
         trained = ", ".join((*self.seen, *self.modifiers))
         end = ", ended by the user" if self.interrupted else ""
         page = Page(
@@ -289,6 +338,7 @@ class Fit:
             header = ("parameter", "value", "change", "one sigma")
             add_parameters(page, header, self._parameters(sure), sure.summary())
             self._add_own(page, sure)
+            add_profiles(page, profiles)
             add_residuals(page, self.residuals())
         else:
             page.text(

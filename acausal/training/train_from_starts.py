@@ -163,7 +163,8 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
     elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
         yield f"Training found nothing better than its start. {sentence}"
     unmoved = _unmoved(start, trained.last)
-    if unmoved and len(diverged) < epochs and trained.history.full_loss[0, 1] > EXACT:
+    exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
+    if unmoved and len(diverged) < epochs and not exact:
         yield from _reasons(unmoved, in_switches(problem.system))
     if clause := _out_of_range(problem, trained.best.trainable):
         yield (

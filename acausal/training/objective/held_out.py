@@ -149,6 +149,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         solver=problem.solver,
         timing=problem.timing,
     )
+    records = problem.weighting.apply(records)
     return replace(
         problem,
         records=replace(records, sigma=problem.records.sigma, known=False),

@@ -16,12 +16,14 @@ from acausal._jax import Restarts, cast
 from acausal.codegen import Packed, Values
 from acausal.simulation import Integrated, Runs, Solver, Steps, integrate
 from acausal.training.objective.arguments import arguments
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.per_record import PerRecord, for_records
+from acausal.training.objective.prior import Prior
 from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer
 from acausal.training.objective.sensors import Sensors
@@ -29,6 +31,7 @@ from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
 from acausal.training.objective.timing import Timing
 from acausal.training.objective.trainable import Simulated, Trainable
+from acausal.training.objective.weighting import Weighting
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -61,10 +64,12 @@ class Problem(eqx.Module):
         per_record: the parameters that have a value for each record.
         timing: delays and lags; those that are trained are among ``modifiers``.
         records: the data.
+        weighting: how much records, targets and times count.
         sequences: how batches are drawn from them.
         first_states: the states at which records start, where they are not trained.
         shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
+        prior: what an earlier training knew.
         regularizers: penalties by name.
         context: the arguments of regularizers besides the parameters.
         solver, substeps: the scheme, and the number of its steps from sample to sample.
@@ -81,10 +86,12 @@ class Problem(eqx.Module):
     per_record: PerRecord
     timing: Timing
     records: Records
+    weighting: Weighting = eqx.field(static=True)
     sequences: Sequences
     first_states: FirstStates
     shooting: ShootingStates | None
     loss: Loss = eqx.field(static=True)
+    prior: Prior | None
     regularizers: dict[str, Regularizer]
     context: Context
     solver: Solver = eqx.field(static=True)
@@ -132,6 +139,20 @@ class Problem(eqx.Module):
     def sensors(self) -> Sensors:
         """What the targets' sensors do."""
         return Sensors.of(self.timing, self.targets)
+
+    @property
+    def counts_as_logarithm(self) -> bool:
+        """Whether the loss is a logarithm of a likelihood; others are like a root mean square."""
+        return isinstance(self.loss, LogLikelihood)
+
+    def curvature(
+        self, predicted: Float[Array, "N n_targets"]
+    ) -> Float[Array, "N n_targets"] | None:
+        """The second derivative of the loss by each prediction, where the loss gives it."""
+        if not isinstance(self.loss, LogLikelihood):
+            return None
+        records = self.records
+        return self.loss.curvature(predicted, records.y, records.sigma, records.weight)
 
     # -- what is trained -----------------------------------------------------------------------------
 
@@ -182,14 +203,22 @@ class Problem(eqx.Module):
         """The loss, and what is known without data: a loss ℓ of n samples counts as the likelihood ``ℓ^-n``.
 
         That is the likelihood of normal errors whose size is not known; its largest value is that of the root mean
-        square.
+        square. A loss that is a logarithm itself counts as ``e^-nℓ``.
         """
-        return loss * jnp.exp(self.log_prior(trainable)) if self.per_record.names else loss
+        if not self.per_record.names and self.prior is None:
+            return loss
+        known = self.log_prior(trainable)
+        if self.counts_as_logarithm:
+            return loss + known
+        return loss * jnp.exp(known)
 
     def log_prior(self, trainable: Trainable) -> Float[Array, ""]:
         """Minus the logarithm of the prior density of what is trained, for each measured sample."""
         samples = jnp.sum(self.records.weight > 0)
-        return self.per_record.log_prior(trainable.per_record) / samples
+        known = self.per_record.log_prior(trainable.per_record)
+        if self.prior is not None:
+            known += self.prior.log_prior(self.assemble(trainable))
+        return known / samples
 
     # -- losses of sequences -------------------------------------------------------------------------
 

@@ -7,6 +7,7 @@ program has the same size however many there are.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import equinox as eqx
@@ -104,6 +105,10 @@ class Records(eqx.Module):
     def spread_at_starts(self, x0: Float[Array, "R n_states"]) -> Float[Array, "N n_states"]:
         """Rows with a state for each record at its first row, zero elsewhere."""
         return jnp.zeros((len(self), x0.shape[1]), x0.dtype).at[self.first].set(x0)
+
+    def unweighted(self) -> Records:
+        """The same where all measured samples count alike."""
+        return replace(self, weight=jnp.where(self.weight > 0, 1.0, 0.0))
 
     def window(self, start: Int[Array, ""], length: int) -> Window:
         """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight."""
