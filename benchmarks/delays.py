@@ -1,0 +1,122 @@
+"""``python -m benchmarks.delays``: a delay of 3.7 samples, found beside four parameters and two networks.
+
+The quarter vehicle of `examples.qvm` with 2 % of noise, its four uncertain parameters ten percent off, and a road that
+arrives late, or an accelerometer that does. Prints how far the delays found are from the truth, in samples, and what an
+update costs with a delay and with a lag, over one without.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from typing import Any
+
+import jax
+import numpy as np
+import optax
+
+import acausal as ac
+from examples.qvm.experiments import AT_REST
+from examples.qvm.model import UNCERTAIN, truth, with_networks
+from examples.qvm.record import INPUT, OUTPUTS, SAMPLE_TIME, STATES, rough_road
+
+TRUE = 3.7 * SAMPLE_TIME
+"""The delay [s]."""
+
+NOISE = 0.02
+"""Relative to each signal's standard deviation."""
+
+TIMED = 30
+"""Updates from which the cost of one is taken."""
+
+
+def late_ride(seconds: float, *, road: float = 0.0, sensor: float = 0.0) -> ac.Data:
+    """A measured ride, on which the road arrives late, or what the wheel's accelerometer shows."""
+    ts, velocity = rough_road(1, scale=1.12)
+    rows = ts <= seconds
+    ts, velocity = ts[rows], velocity[rows]
+    solution = ac.simulate(
+        ac.compile(truth()),
+        (0.0, float(ts[-1])),
+        dt=SAMPLE_TIME / 2,
+        saveat=ts,
+        inputs={INPUT: ac.Signal(ts, velocity).delayed(road)},
+        solver="rk4",
+    )
+    signals = {n: np.asarray(solution[n]) for n in (*STATES, *OUTPUTS)}
+    shown = ac.Signal(ts, signals["wheel.a"], "cubic").delayed(sensor)
+    signals["wheel.a"] = np.asarray(jax.vmap(shown)(ts))
+    generator = np.random.default_rng(0)
+    noisy = {n: s + NOISE * s.std() * generator.standard_normal(len(s)) for n, s in signals.items()}
+    return ac.Data(ts, {INPUT: velocity, **noisy})
+
+
+def train(data: ac.Data, epochs: int, **options: Any) -> ac.Fit:
+    """Train networks and parameters on sequences of a second."""
+    return ac.fit(
+        ac.compile(with_networks(wrong=True)),
+        data,
+        OUTPUTS,
+        x0=AT_REST,
+        modifiers=tuple(UNCERTAIN),
+        gamma=0.2,
+        regularizers=[ac.ZeroCrossing(0.01)],
+        sequence_length=1.0,
+        batch_size=12,
+        optimizer=optax.adam(optax.cosine_decay_schedule(0.02, epochs, 1e-2)),
+        epochs=epochs,
+        evaluate_every=epochs // 10,
+        progress=False,
+        **options,
+    )
+
+
+def found(data: ac.Data, name: str, epochs: int) -> dict[str, float]:
+    """How a delay is found that starts at none."""
+    start = time.perf_counter()
+    fit = train(data, epochs, delays={name: ac.Delay()})
+    return {
+        "samples": fit.delays[name] / SAMPLE_TIME,
+        "error_samples": abs(fit.delays[name] - TRUE) / SAMPLE_TIME,
+        "loss_before": fit.loss_before,
+        "loss": fit.loss,
+        "largest_parameter_error": max(abs(fit.modifiers[n] - m) for n, m in UNCERTAIN.items()),
+        "seconds": time.perf_counter() - start,
+    }
+
+
+def costs(data: ac.Data) -> dict[str, float]:
+    """What an update costs over one without delays."""
+    wheel, road = "wheel.a", INPUT
+    kinds: dict[str, dict[str, Any]] = {
+        "nothing": {},
+        "input delay": {"delays": {road: ac.Delay()}},
+        "sensor delay": {"delays": {wheel: ac.Delay()}},
+        "sensor lag": {"lags": {wheel: ac.Lag(0.002)}},
+    }
+    seconds = {n: train(data, TIMED, **options).seconds_per_epoch for n, options in kinds.items()}
+    return {"update_ms": 1e3 * seconds["nothing"]} | {
+        f"{n}, over nothing": s / seconds["nothing"] for n, s in seconds.items() if n != "nothing"
+    }
+
+
+def main() -> None:
+    """Measure, and print JSON."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.delays", description=__doc__)
+    parser.add_argument("--seconds", type=float, default=42.0, help="length of the ride")
+    parser.add_argument("--epochs", type=int, default=600, help="updates of a training")
+    options = parser.parse_args()
+    late_road = late_ride(options.seconds, road=TRUE)
+    late_sensor = late_ride(options.seconds, sensor=TRUE)
+    report = {
+        "true_samples": TRUE / SAMPLE_TIME,
+        "cost": costs(late_road),
+        "input": found(late_road, INPUT, options.epochs),
+        "sensor": found(late_sensor, "wheel.a", options.epochs),
+    }
+    print(json.dumps(report, indent=1))
+
+
+if __name__ == "__main__":
+    main()
