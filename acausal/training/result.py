@@ -76,7 +76,8 @@ class Fit:
         records: by name of a record, how the trained model follows it: times, predictions, errors, initial state.
         held_out: the same for the records with held-out samples; there only these count as measured.
         modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
-            absolute, p̃ − p.
+            absolute, p̃ − p. Trained
+            delays and lags are among them, as ``delay(force)`` in seconds; see `delays` and `lags`.
         arguments: by network, what it was called with in one simulation of every record.
         seen: by network, the statistics of these arguments.
         history: the training, update by update.

@@ -56,6 +56,7 @@ def test_a_delayed_input_is_the_record_s_interpolation(kind: Any) -> None:
         t = np.asarray(steps.t)[rows]
         np.testing.assert_allclose(steps.inputs.start[rows, 0], signal(t), atol=1e-11)
         np.testing.assert_allclose(steps.inputs.end[rows, 0], signal(t + DT), atol=1e-11)
+        assert steps.inputs.coefficients is not None
         middle = deviation_from_line(steps.inputs.coefficients[rows].swapaxes(0, 1), 0.5)[:, 0]
         middle += (steps.inputs.start[rows, 0] + steps.inputs.end[rows, 0]) / 2
         np.testing.assert_allclose(middle, signal(t + DT / 2), atol=1e-11)
@@ -170,8 +171,9 @@ def test_a_signal_can_be_delayed() -> None:
     assert [float(later(t)) for t in (0.0, 0.5, 1.0, 2.5)] == [1.0, 1.0, 2.0, 2.0]
     assert later.before_start == "hold"
     assert float(jax.grad(lambda tau: signal.delayed(tau)(1.0))(0.25)) == -2.0
+    bad: Any = "x"
     with pytest.raises(ac.DataError, match="cannot be delayed by 'x'"):
-        signal.delayed("x")
+        signal.delayed(bad)
 
 
 @pytest.mark.parametrize(
