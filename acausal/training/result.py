@@ -32,6 +32,7 @@ from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
+from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
@@ -155,16 +156,14 @@ class Fit:
     @property
     def delays(self) -> dict[str, float]:
         """The delays of inputs and targets in seconds, trained or given."""
-        return self._seconds(self.problem.timing.delays)
+        found = self.problem.assemble(self.trained)
+        return {n: float(found[delay_of(n)]) for n in self.problem.timing.delays}
 
     @property
     def lags(self) -> dict[str, float]:
         """The time constants of targets' sensors in seconds, trained or given."""
-        return self._seconds(self.problem.timing.lags)
-
-    def _seconds(self, names: Mapping[str, str]) -> dict[str, float]:
         found = self.problem.assemble(self.trained)
-        return {measured: float(found[name]) for measured, name in names.items()}
+        return {n: float(found[lag_of(n)]) for n in self.problem.timing.lags}
 
     @property
     def score(self) -> float:
@@ -323,11 +322,8 @@ class Fit:
         changes = ", ".join(
             f"{n} {value:+.3f}" for n, value in self.modifiers.items() if n not in times.values
         )
-        late = [
-            f"{kind}({n}) {value:.4g} s"
-            for kind, found in (("delay", self.delays), ("lag", self.lags))
-            for n, value in found.items()
-        ]
+        late = [f"{delay_of(n)} {value:.4g} s" for n, value in self.delays.items()]
+        late += [f"{lag_of(n)} {value:.4g} s" for n, value in self.lags.items()]
         end = " (interrupted)" if self.interrupted else ""
         lines = [
             f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",

@@ -7,6 +7,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+import optax
 import pytest
 
 import acausal as ac
@@ -132,6 +133,7 @@ def test_a_late_sensor_is_found_in_sequences_and_held_out_data() -> None:
         delays={"mass.a": ac.Delay(0.02)},
         sequence_length=1.0,
         batch_size=4,
+        optimizer=optax.adam(0.05),
         epochs=150,
         evaluate_every=50,
         validation=0.2,

@@ -75,7 +75,7 @@ def test_a_lag_is_found_and_one_that_is_not_there_goes_away() -> None:
         strategy="gauss_newton",
         progress=False,
     )
-    assert fit.lags["mass.a"] == pytest.approx(0.03, abs=1e-4)
-    assert 0 <= fit.lags["mass.s"] < 2e-4
+    assert fit.lags["mass.a"] == pytest.approx(0.03, abs=5e-4)
+    assert 0 <= fit.lags["mass.s"] < 1e-3
     assert fit.loss < 0.01
     assert fit.delays == {}

@@ -18,7 +18,7 @@ from acausal.data import FRACTIONS, Signal, deviation_from_line
 from acausal.errors import TrainingError
 from acausal.simulation import Samples, Steps, TimeFunction, polynomials_over_steps
 from acausal.training.objective.intervals import interval
-from acausal.training.objective.timing import Timing
+from acausal.training.objective.timing import Timing, delay_of
 
 ASIDE = 1e-6
 """Part of a step by which a time is moved into it, so that of two polynomials the one within the step is taken."""
@@ -142,16 +142,15 @@ def delayed_inputs(
     Raises:
         TrainingError: if an input jumps, so that the loss has no gradient by its delay.
     """
-    delays = timing.delays
     found: dict[int, tuple[str, Pieces]] = {}
     for column, name in enumerate(inputs):
         source = name
-        while source not in delays and source.startswith("der("):
+        while source not in timing.delays and source.startswith("der("):
             source = source[4:-1]
-        if source not in delays:
+        if source not in timing.delays:
             continue
         signals = [row[column] for row in functions]
-        if delays[source] in timing.trained and any(
+        if delay_of(source) in timing.trained and any(
             isinstance(s, Signal) and s.jumps for s in signals
         ):
             better = "cubic" if source != name else "linear"
@@ -159,7 +158,7 @@ def delayed_inputs(
                 f"The delay of '{source}' cannot be trained: '{name}' jumps from sample to sample, and a jump has no "
                 f"slope; say interpolation='{better}' in ac.Data, or fix the delay by a number."
             )
-        found[column] = delays[source], _pieces(signals)
+        found[column] = delay_of(source), _pieces(signals)
     names, pieces = [n for n, _ in found.values()], [p for _, p in found.values()]
     if fractions is None or len(fractions) > len(FRACTIONS):
         fractions = tuple(FRACTIONS.tolist())
