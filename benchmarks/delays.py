@@ -20,6 +20,8 @@ import numpy as np
 import optax
 
 import acausal as ac
+from acausal.training import FitOptions
+from acausal.training.build_problem import build_problem
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.whole_record import over_whole_record
 from examples.qvm.experiments import AT_REST
@@ -34,6 +36,17 @@ NOISE = 0.02
 
 TIMED = 40
 """Updates of which the shortest counts."""
+
+
+SETTINGS: dict[str, Any] = {
+    "x0": AT_REST,
+    "modifiers": tuple(UNCERTAIN),
+    "gamma": 0.2,
+    "regularizers": [ac.ZeroCrossing(0.01)],
+    "sequence_length": 1.0,
+    "batch_size": 12,
+}
+"""Sequences of a second."""
 
 
 def late_ride(seconds: float, *, road: float = 0.0, sensor: float = 0.0) -> ac.Data:
@@ -63,12 +76,7 @@ def train(data: ac.Data, epochs: int, **options: Any) -> ac.Fit:
         ac.compile(with_networks(wrong=True)),
         data,
         OUTPUTS,
-        x0=AT_REST,
-        modifiers=tuple(UNCERTAIN),
-        gamma=0.2,
-        regularizers=[ac.ZeroCrossing(0.01)],
-        sequence_length=1.0,
-        batch_size=12,
+        **SETTINGS,
         optimizer=optax.adam(optax.cosine_decay_schedule(0.02, epochs, 1e-2)),
         epochs=epochs,
         evaluate_every=epochs // 10,
@@ -100,7 +108,14 @@ def costs(data: ac.Data) -> dict[str, dict[str, float]]:
         "sensor delay": {"delays": {wheel: ac.Delay()}},
         "sensor lag": {"lags": {wheel: ac.Lag(0.002)}},
     }
-    sequences = {n: train(data, 10, **options).problem for n, options in kinds.items()}
+    system = ac.compile(with_networks(wrong=True))
+    named = {"ride": data.for_system(system)}
+
+    def problem(**options: Any) -> Problem:
+        chosen = FitOptions(**{**SETTINGS, "regularizers": (), **options})
+        return build_problem(system, named, OUTPUTS, dict(system.parameters(0)), chosen)
+
+    sequences = {n: problem(**options) for n, options in kinds.items()}
     wholes = {n: over_whole_record(p) for n, p in sequences.items()}
     return {"sequences": _costs(sequences), "whole record": _costs(wholes)}
 
