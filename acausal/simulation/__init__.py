@@ -8,8 +8,8 @@ from acausal.simulation.fixed_steps import (
     Integrated as Integrated,
     Runs as Runs,
     Steps as Steps,
+    inner_fractions as inner_fractions,
     integrate as integrate,
-    looks_inside as looks_inside,
 )
 from acausal.simulation.inputs import (
     TimeFunction as TimeFunction,

@@ -35,6 +35,7 @@ from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
+from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
@@ -81,7 +82,8 @@ class Fit:
         records: by name of a record, how the trained model follows it: times, predictions, errors, initial state.
         held_out: the same for the records with held-out samples; there only these count as measured.
         modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
-            absolute, p̃ − p.
+            absolute, p̃ − p. Trained
+            delays and lags are among them, as ``delay(force)`` in seconds; see `delays` and `lags`.
         arguments: by network, what it was called with in one simulation of every record.
         seen: by network, the statistics of these arguments.
         history: the training, update by update.
@@ -174,16 +176,14 @@ class Fit:
     @property
     def delays(self) -> dict[str, float]:
         """The delays of inputs and targets in seconds, trained or given."""
-        return self._seconds(self.problem.timing.delays)
+        found = self.problem.assemble(self.trained)
+        return {n: float(found[delay_of(n)]) for n in self.problem.timing.delays}
 
     @property
     def lags(self) -> dict[str, float]:
         """The time constants of targets' sensors in seconds, trained or given."""
-        return self._seconds(self.problem.timing.lags)
-
-    def _seconds(self, names: Mapping[str, str]) -> dict[str, float]:
         found = self.problem.assemble(self.trained)
-        return {measured: float(found[name]) for measured, name in names.items()}
+        return {n: float(found[lag_of(n)]) for n in self.problem.timing.lags}
 
     @property
     def score(self) -> float:
@@ -399,11 +399,8 @@ class Fit:
         changes = ", ".join(
             f"{n} {value:+.3f}" for n, value in self.modifiers.items() if n not in times.values
         )
-        late = [
-            f"{kind}({n}) {value:.4g} s"
-            for kind, found in (("delay", self.delays), ("lag", self.lags))
-            for n, value in found.items()
-        ]
+        late = [f"{delay_of(n)} {value:.4g} s" for n, value in self.delays.items()]
+        late += [f"{lag_of(n)} {value:.4g} s" for n, value in self.lags.items()]
         end = " (interrupted)" if self.interrupted else ""
         lines = [
             f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",

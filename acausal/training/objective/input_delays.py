@@ -14,11 +14,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from acausal.data import FRACTIONS, Signal, deviation_from_line, polynomial_coefficients
+from acausal.data import FRACTIONS, Signal, deviation_from_line
 from acausal.errors import TrainingError
 from acausal.simulation import Samples, Steps, TimeFunction, polynomials_over_steps
 from acausal.training.objective.intervals import interval
-from acausal.training.objective.timing import Timing
+from acausal.training.objective.timing import Timing, delay_of
 
 ASIDE = 1e-6
 """Part of a step by which a time is moved into it, so that of two polynomials the one within the step is taken."""
@@ -66,13 +66,13 @@ class DelayedInputs(eqx.Module):
         columns: their places among the model's inputs.
         names: of their delays.
         pieces: their signals.
-        inner: whether a step's scheme looks at inputs between the ends of a step.
+        fractions: of a step, where its scheme looks at inputs, besides the ends. There a delayed input is exact.
     """
 
     columns: tuple[int, ...] = eqx.field(static=True)
     names: tuple[str, ...] = eqx.field(static=True)
     pieces: tuple[Pieces, ...]
-    inner: bool = eqx.field(static=True)
+    fractions: tuple[float, ...] = eqx.field(static=True)
 
     def __call__(
         self, steps: Steps, record: Int[Array, "*n"], times: Mapping[str, Float[Array, ""]]
@@ -88,7 +88,7 @@ class DelayedInputs(eqx.Module):
             return steps
         samples = steps.inputs
         start, end, coefficients = samples.start, samples.end, samples.coefficients
-        if self.inner and coefficients is None:
+        if self.fractions and coefficients is None:
             coefficients = jnp.zeros((len(start), len(FRACTIONS), start.shape[1]))
         for column, name, pieces in zip(self.columns, self.names, self.pieces, strict=True):
             begun, aside = steps.t - times[name], ASIDE * steps.h
@@ -97,16 +97,30 @@ class DelayedInputs(eqx.Module):
             start, end = start.at[:, column].set(ends[0]), end.at[:, column].set(ends[1])
             if coefficients is None:
                 continue
-            curve = jnp.zeros(())
-            if self.inner:
-                between = [begun + fraction * steps.h for fraction in FRACTIONS]
-                values = jnp.stack([pieces(t, t, record) for t in between], axis=1)
-                curve = polynomial_coefficients(*ends, values).T
-            coefficients = coefficients.at[:, :, column].set(curve)
+            between = [begun + fraction * steps.h for fraction in self.fractions]
+            values = [pieces(t, t, record) for t in between]
+            curve = _coefficients(self.fractions, *ends, values)
+            coefficients = coefficients.at[:, :, column].set(0.0)
+            coefficients = coefficients.at[:, : len(values), column].set(curve)
         return Steps(steps.t, steps.h, Samples(start, end, samples.functions, coefficients))
 
 
-NOTHING_DELAYED = DelayedInputs((), (), (), False)
+def _coefficients(
+    fractions: tuple[float, ...],
+    start: Float[Array, " n"],
+    end: Float[Array, " n"],
+    values: Sequence[Float[Array, " n"]],
+) -> Float[Array, "n n_fractions"]:
+    """Coefficients for `deviation_from_line` of the polynomial through both ends and some values in between."""
+    if not values:
+        return jnp.zeros((len(start), 0))
+    p = np.asarray(fractions)
+    inverse = np.linalg.inv((p * (1 - p))[:, None] * p[:, None] ** np.arange(len(p)))
+    line = start[:, None] + (end - start)[:, None] * p
+    return (jnp.stack(values, axis=1) - line) @ inverse.T
+
+
+NOTHING_DELAYED = DelayedInputs((), (), (), ())
 """No input is delayed."""
 
 
@@ -114,8 +128,7 @@ def delayed_inputs(
     inputs: Sequence[str],
     functions: Sequence[Sequence[TimeFunction]],
     timing: Timing,
-    *,
-    inner: bool,
+    fractions: tuple[float, ...] | None,
 ) -> DelayedInputs:
     """The inputs that are delayed; a derivative of an input comes as late as the input.
 
@@ -123,21 +136,21 @@ def delayed_inputs(
         inputs: names of the model's inputs.
         functions: these, for each record.
         timing: the delays.
-        inner: whether the steps' scheme looks at inputs between the ends of a step.
+        fractions: of a step, where its scheme looks at inputs, besides the ends, if it says; where these are too many,
+            a delayed input is the polynomial through as many points as others.
 
     Raises:
         TrainingError: if an input jumps, so that the loss has no gradient by its delay.
     """
-    delays = timing.delays
     found: dict[int, tuple[str, Pieces]] = {}
     for column, name in enumerate(inputs):
         source = name
-        while source not in delays and source.startswith("der("):
+        while source not in timing.delays and source.startswith("der("):
             source = source[4:-1]
-        if source not in delays:
+        if source not in timing.delays:
             continue
         signals = [row[column] for row in functions]
-        if delays[source] in timing.trained and any(
+        if delay_of(source) in timing.trained and any(
             isinstance(s, Signal) and s.jumps for s in signals
         ):
             better = "cubic" if source != name else "linear"
@@ -145,9 +158,11 @@ def delayed_inputs(
                 f"The delay of '{source}' cannot be trained: '{name}' jumps from sample to sample, and a jump has no "
                 f"slope; say interpolation='{better}' in ac.Data, or fix the delay by a number."
             )
-        found[column] = delays[source], _pieces(signals)
+        found[column] = delay_of(source), _pieces(signals)
     names, pieces = [n for n, _ in found.values()], [p for _, p in found.values()]
-    return DelayedInputs(tuple(found), tuple(names), tuple(pieces), inner)
+    if fractions is None or len(fractions) > len(FRACTIONS):
+        fractions = tuple(FRACTIONS.tolist())
+    return DelayedInputs(tuple(found), tuple(names), tuple(pieces), fractions)
 
 
 def _pieces(signals: Sequence[TimeFunction]) -> Pieces:

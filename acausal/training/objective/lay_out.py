@@ -19,7 +19,7 @@ from acausal.simulation import (
     Steps,
     TimeFunction,
     functions_of_time,
-    looks_inside,
+    inner_fractions,
     polynomials_over_steps,
 )
 from acausal.training.objective.input_delays import delayed_inputs
@@ -101,7 +101,7 @@ def lay_out(
             inputs,
             [r.functions for r in rows],
             timing,
-            inner=looks_inside(solver, substeps),
+            inner_fractions(solver, substeps),
         )
         records = replace(records, delayed=late)
     return records, substeps

@@ -111,10 +111,12 @@ class Problem(eqx.Module):
         """The model's inputs at every row, as they are measured."""
         return self.records.steps.inputs.start
 
-    def steps(self, packed: PackedRecords) -> Steps:
-        """The steps of all records, with inputs delayed."""
-        records = self.records
-        return records.delayed(records.steps, records.of, packed.times)
+    def steps(self, packed: PackedRecords, rows: Int[Array, " n"] | None = None) -> Steps:
+        """The steps of all records, or of some rows, with inputs delayed."""
+        steps, of = self.records.steps, self.records.of
+        if rows is not None:
+            steps, of = jax.tree.map(lambda a: a[rows] if a.ndim else a, (steps, of))
+        return self.records.delayed(steps, of, packed.times)
 
     def residuals(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, "N n_targets"]:
         """The residuals of predictions of all records: measured less predicted; zero where nothing is measured."""
@@ -357,9 +359,10 @@ class Problem(eqx.Module):
         The calls of a network with several places in the model follow each other row by row.
         """
         packed = self.pack(self.assemble(trainable), trainable)
-        points = (self.records.steps.t, x, self.steps(packed).inputs.start, self.records.of)
+        steps, of = self.steps(packed, rows), self.records.of
         if rows is not None:
-            points = jax.tree.map(lambda a: a[rows], points)
+            x, of = x[rows], of[rows]
+        points = (steps.t, x, steps.inputs.start, of)
 
         def at(name: str) -> Float[Array, "n_calls n_arguments"]:
             def one(t: Array, x: Array, u: Array, record: Array) -> Array:
@@ -394,9 +397,9 @@ class Problem(eqx.Module):
     ) -> Float[Array, "R n_states"]:
         """The states at which records start."""
         records = self.records
-        t, u = records.steps.t[records.first], self.steps(packed).inputs.start[records.first]
+        first = self.steps(packed, records.first)
         all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
-        states = self.first_states(self.system, all_packed, t, u)
+        states = self.first_states(self.system, all_packed, first.t, first.inputs.start)
         if self.shooting is None:
             return states
         trained = self.shooting.of_first(trainable.states)

@@ -17,7 +17,7 @@ from jaxtyping import Array, Float, Int
 
 from acausal.training.objective.intervals import interval
 from acausal.training.objective.records import Records, Window
-from acausal.training.objective.timing import Timing
+from acausal.training.objective.timing import Timing, delay_of, lag_of
 
 FASTEST = 1 / 700
 """A smaller time constant, relative to a row, leaves nothing of what a row begins with: ``exp(-700)``."""
@@ -54,11 +54,11 @@ class Sensors(eqx.Module):
     @staticmethod
     def of(timing: Timing, targets: Sequence[str]) -> Sensors:
         """Those of the targets."""
-        delays, lags = (
-            tuple((i, names[n]) for i, n in enumerate(targets) if n in names)
-            for names in (timing.delays, timing.lags)
+        columns = list(enumerate(targets))
+        return Sensors(
+            tuple((i, delay_of(n)) for i, n in columns if n in timing.delays),
+            tuple((i, lag_of(n)) for i, n in columns if n in timing.lags),
         )
-        return Sensors(delays, lags)
 
     def over_records(
         self, y: Float[Array, "N n_targets"], records: Records, times: Times

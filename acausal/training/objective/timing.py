@@ -74,19 +74,29 @@ class Time(Bounded):
         return None if found == -value else found
 
 
+def delay_of(name: str) -> str:
+    """What the delay of an input or target is called."""
+    return f"delay({name})"
+
+
+def lag_of(name: str) -> str:
+    """What the lag of a target is called."""
+    return f"lag({name})"
+
+
 class Timing(eqx.Module):
     """The delays and lags of a training.
 
     Attributes:
         values: where they start, in seconds, by name: ``delay(force)``, ``lag(mass.a)``.
-        delays: the names of the delays by input or target.
-        lags: the names of the lags by target.
+        delays: the inputs and targets with a delay.
+        lags: the targets with a lag.
         trained: the names of those that are trained.
     """
 
     values: dict[str, Scalar]
-    delays: dict[str, str] = eqx.field(static=True)
-    lags: dict[str, str] = eqx.field(static=True)
+    delays: tuple[str, ...] = eqx.field(static=True)
+    lags: tuple[str, ...] = eqx.field(static=True)
     trained: tuple[str, ...] = eqx.field(static=True)
 
     def split(self, params: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Scalar]]:
@@ -125,16 +135,11 @@ def timing(
             if name not in known:
                 kinds = "input or target" if what == "delays" else "target"
                 raise TrainingError(f"{what}: there is no {kinds} '{name}': {nearest(name, known)}")
-    named = {f"delay({n})": _delay(n, value, limit) for n, value in late.items()}
-    named |= {f"lag({n})": _lag(n, value, limit) for n, value in slow.items()}
+    named = {delay_of(n): _delay(n, value, limit) for n, value in late.items()}
+    named |= {lag_of(n): _lag(n, value, limit) for n, value in slow.items()}
     starts = {n: jnp.asarray(value, float) for n, (value, _) in named.items()}
     trained = {n: kind for n, (_, kind) in named.items() if kind is not None}
-    found = Timing(
-        starts,
-        {n: f"delay({n})" for n in late},
-        {n: f"lag({n})" for n in slow},
-        tuple(trained),
-    )
+    found = Timing(starts, tuple(late), tuple(slow), tuple(trained))
     return found, Modifiers(
         tuple(trained), tuple(trained.values()), tuple(starts[n] for n in trained)
     )
