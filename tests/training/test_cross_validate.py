@@ -204,6 +204,6 @@ def test_what_cannot_be_is_refused():
          "mass.s": np.where(np.arange(100) < 50, records()["a"].signals["mass.s"][:100], np.nan)},
         missing="nan",
     )  # fmt: skip
-    with pytest.raises(ac.DataError, match="block 1 of 2.*no samples to train on"):
+    with pytest.raises(ac.DataError, match=r"block 1 of 2.*no samples to train on"):
         validate(data=gappy, folds=2, x0="model")
     assert FitOptions().starts == 1
