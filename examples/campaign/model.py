@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from math import pi
 
 import acausal as ac
-from acausal.components import blocks, neural, rotational as rot
+from acausal.components import neural, rotational as rot
 
-INPUT, SPEED, GAUGE, OFFSET = "drive.tau", "motor.w", "gauge.y", "zero.k"
+INPUT, SPEED, GAUGE, OFFSET = "drive.tau", "motor.w", "gauge.y", "gauge.offset"
 TEETH = 6
 """Cogging repeats so often in a turn."""
 TRAINED = ("load.J", "shaft.c", "shaft.d")
@@ -46,6 +46,17 @@ class Cogging(rot.PartialCompliant):
         yield ac.Eq(self.tau, self.first * ac.sin(angle) + self.second * ac.sin(2 * angle + 0.5))
 
 
+class Gauge(ac.Component):
+    """What shows a torque: ``y = tau + offset``, and no two runs have the same offset."""
+
+    offset = ac.Parameter(0.0, unit="N.m")
+    tau = ac.Input(unit="N.m")
+    y = ac.Output(unit="N.m")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.y, self.tau + self.offset)
+
+
 class DriveTrain(ac.Component):
     """A motor turns a load through an elastic shaft; a gauge measures the shaft's torque, with an offset.
 
@@ -69,15 +80,14 @@ class DriveTrain(ac.Component):
         self.housing, self.drive = rot.Fixed(), rot.Torque()
         self.motor = rot.Inertia(J=2e-3, **at_rest)
         self.shaft = rot.SpringDamper(c=stiffness, d=damping)
-        self.torque, self.zero, self.gauge = rot.TorqueSensor(), blocks.Constant(k=0.0), blocks.Add()
+        self.torque, self.gauge = rot.TorqueSensor(), Gauge(offset=0.0)
         self.load = rot.Inertia(J=load, **at_rest)
         self.friction, self.cogging = friction, cogging
         self.connect(self.drive.flange, self.motor.flange_a)
         self.connect(self.motor.flange_b, self.shaft.flange_a)
         self.connect(self.shaft.flange_b, self.torque.flange_a)
         self.connect(self.torque.flange_b, self.load.flange_a)
-        self.connect(self.torque.tau, self.gauge.u1)
-        self.connect(self.zero.y, self.gauge.u2)
+        self.connect(self.torque.tau, self.gauge.tau)
         self.connect(self.housing.flange, friction.flange_a, cogging.flange_a)
         self.connect(friction.flange_b, self.load.flange_b)
         self.connect(cogging.flange_b, self.motor.flange_a)
@@ -104,6 +114,4 @@ def learning() -> ac.System:
     )
     net = ac.networks.Fourier(2 * pi / TEETH, harmonics=3, output_scale=0.1)
     cogging = neural.Compliance(rot.Flange, net=net)
-    return ac.compile(
-        DriveTrain(friction, cogging, load=6.5e-3, stiffness=36.0, damping=0.03)
-    )
+    return ac.compile(DriveTrain(friction, cogging, load=6.5e-3, stiffness=36.0, damping=0.03))

@@ -1,7 +1,8 @@
 """The campaign: five runs of the true drive train, measured as on a test bench.
 
-Each has a length and an excitation of its own and another offset of the torque gauge. The speed is sampled at 500 Hz, the
-gauge at 125 Hz; the gauge's cable fails for a while in one run, and one sample in fifty of the speed is lost in another.
+Each has a length and an excitation of its own and another offset of the torque gauge. Encoders at the motor and at the
+load are sampled at 500 Hz, the gauge at 125 Hz; the gauge's cable fails for a while in one run, and in another one
+sample in fifty of the motor's speed is lost.
 """
 
 from __future__ import annotations
@@ -13,12 +14,12 @@ from functools import cache
 import numpy as np
 
 import acausal as ac
-from examples.campaign.model import GAUGE, INPUT, SPEED, truth
+from examples.campaign.model import GAUGE, INPUT, OFFSET, SPEED, truth
 
 FAST, EVERY, FINE = 2e-3, 4, 4
 """Sample time of speed and drive [s]; every so many samples the gauge is read; steps of the truth in a sample."""
-NOISE = {SPEED: 0.05, GAUGE: 0.01}
-"""Standard deviation of the noise [rad/s, N.m]."""
+NOISE = {"motor.phi": 1e-3, SPEED: 0.05, "load.phi": 1e-3, "load.w": 0.05, GAUGE: 0.01}
+"""Standard deviations of the noise of both encoders and of the gauge [rad, rad/s, N.m]."""
 SPREAD = 0.05
 """Standard deviation of the gauge's offset from run to run [N.m]."""
 
@@ -92,18 +93,18 @@ def _measured(system: ac.System, run: Run, seed: int) -> ac.Data:
     rng = np.random.default_rng(seed)
     t = FAST * np.arange(run.ends())
     drive = ac.Signal(t, run.drive(t))
-    params = {**system.parameters(), "zero.k": run.offset}
+    params = {**system.parameters(), OFFSET: run.offset}
     solution = ac.simulate(
         system, (0, t[-1]), dt=FAST / FINE, inputs={INPUT: drive}, params=params, solver="rk4"
     )
-    speed, gauge = (
-        np.asarray(solution[n])[::FINE] + rng.normal(0, NOISE[n], len(t)) for n in (SPEED, GAUGE)
-    )
-    speed = np.where(rng.uniform(size=len(t)) < run.lost, np.nan, speed)
+    measured = {
+        n: np.asarray(solution[n])[::FINE] + rng.normal(0, sigma, len(t))
+        for n, sigma in NOISE.items()
+    }
+    measured[SPEED] = np.where(rng.uniform(size=len(t)) < run.lost, np.nan, measured[SPEED])
     slow = t[::EVERY]
-    gauge = gauge[::EVERY]
+    gauge = measured.pop(GAUGE)[::EVERY]
     if run.gap is not None:
         gauge = np.where((slow >= run.gap[0]) & (slow < run.gap[1]), np.nan, gauge)
-    return ac.Data(
-        signals={INPUT: (t, run.drive(t)), SPEED: (t, speed), GAUGE: (slow, gauge)}, missing="nan"
-    )
+    fast = {n: (t, y) for n, y in {INPUT: run.drive(t), **measured}.items()}
+    return ac.Data(signals={**fast, GAUGE: (slow, gauge)}, missing="nan")
