@@ -27,6 +27,10 @@ RECORDS_SHOWN = 8
 """The first so many records are drawn; all are in the table."""
 
 
+GAP = 10
+"""Samples that are further apart than so many of the usual steps are not connected."""
+
+
 class FollowedRecord(Protocol):
     """A record and a model's prediction of it, such as `RecordFit`."""
 
@@ -104,7 +108,11 @@ def _draw_record(
     room = 0.5 * (high - low) + 1e-12
     shown = known[rows]
     above.plot(
-        record.time[shown], measured[shown], color=MEASURED, lw=1.6, alpha=0.5, label="measured"
+        *_with_gaps(record.time[shown], measured[shown]),
+        color=MEASURED,
+        lw=1.6,
+        alpha=0.5,
+        label="measured",
     )
     for label, (values, color, width) in curves.items():
         near = np.clip(values[first:last], low - 2 * room, high + 2 * room)
@@ -113,9 +121,8 @@ def _draw_record(
     above.set_ylim(max(bottom, low - room), min(top, high + room))
     _label_trajectory(above, target, unit, columns=3)
     every = known[:: max(1, len(known) // ERRORS_SHOWN)]
-    below.plot(
-        record.time[every], measured[every] - record.predicted[every, i], color=AFTER, lw=0.8
-    )
+    errors = measured[every] - record.predicted[every, i]
+    below.plot(*_with_gaps(record.time[every], errors), color=AFTER, lw=0.8)
     below.set(xlabel="time [s]", ylabel=f"error [{unit}]")
     below.grid(alpha=0.25)
     return drawn
@@ -155,6 +162,17 @@ class _Part(NamedTuple):
     x: Float[np.ndarray, " points"]
     law: Float[np.ndarray, " points"]
     sigma: Float[np.ndarray, " points"]
+
+
+def _with_gaps(
+    t: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]
+) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
+    """A curve that is interrupted where nothing is measured for long."""
+    steps = np.diff(t)
+    if not len(steps):
+        return t, y
+    ends = np.flatnonzero(steps > GAP * np.median(steps)) + 1
+    return np.insert(t, ends, t[ends]), np.insert(y, ends, np.nan)
 
 
 def _middle(samples: int) -> slice:

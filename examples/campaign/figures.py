@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 import acausal as ac
 from acausal.reporting import LEARNED, TRUTH, Page
 from examples.campaign import study as laws
-from examples.campaign.model import GAUGE, OFFSET, SPEED, Cogging, DriveTrain, Friction
+from examples.campaign.model import GAUGE, OFFSET, SPEED, unknown
 from examples.campaign.runs import RUNS
 
 if TYPE_CHECKING:
@@ -34,9 +34,9 @@ def page(found: Study, out: Path) -> Path:
     )
     out.mkdir(parents=True, exist_ok=True)
     written.section("The drive train")
-    diagram = ac.diagram(DriveTrain(Friction(), Cogging())).figure
+    diagram = ac.diagram(unknown()).figure
     assert isinstance(diagram, Figure)
-    written.figure(diagram, "The connected components; friction and cogging are learned.")
+    written.figure(diagram, "The connected components; those that are tinted hold a network.")
     written.section("What was measured, and what is predicted of it")
     written.figure(
         runs(found), "Each run as predicted by the fold that was trained without it. The gauge of a run that is left "
@@ -50,7 +50,7 @@ def page(found: Study, out: Path) -> Path:
     written.table(header, rows)
     written.section("What was learned")
     written.figure(
-        learned(found), "Learned friction and cogging: from all runs, and from the folds.", out / "laws.png"
+        learned(found), "Learned friction and cogging, and how far they are off.", out / "laws.png"
     )  # fmt: skip
     written.table(("parameter", "start", "all runs", "folds", "truth"), laws.parameters(found))
     written.section("The gauge's offset")
@@ -85,20 +85,28 @@ def runs(found: Study) -> Figure:
 
 def learned(found: Study) -> Figure:
     """Both laws over their arguments, beside the truth."""
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4), layout="constrained")
+    figure, axes = plt.subplots(
+        2, 2, figsize=(11, 5.5), height_ratios=(2, 1), sharex="col", layout="constrained"
+    )
     parts = (
         ("friction.net", laws.SPEEDS, laws.true_friction, "speed [rad/s]", "friction [N.m]"),
         ("cogging.net", laws.ANGLES, laws.true_cogging, "angle of the motor [rad]", "cogging [N.m]"),
     )  # fmt: skip
-    for ax, (network, x, true, xlabel, ylabel) in zip(axes, parts, strict=True):
-        ax.plot(x, true(x), color=TRUTH, lw=2.5, alpha=0.6, label="truth")
+    for (ax, below), (network, x, true, xlabel, ylabel) in zip(axes.T, parts, strict=True):
+        exact = true(x)
+        law = laws.law(found.fit, network)(x)
+        ax.plot(x, exact, color=TRUTH, lw=5, alpha=0.35, label="truth")
+        ax.plot(x, law, color=PREDICTED, lw=1.3, label="learned from all runs")
         for k, fit in enumerate(found.crossed.fits):
-            law = laws.law(fit, network)(x)
-            ax.plot(x, law, color=PREDICTED, lw=0.7, alpha=0.4, label=None if k else "folds")
-        ax.plot(x, laws.law(found.fit, network)(x), color=PREDICTED, lw=1.5, label="all runs")
-        ax.set(xlabel=xlabel, ylabel=ylabel)
-        ax.grid(alpha=0.25)
-        ax.legend(frameon=False)
+            off = 1e3 * (laws.law(fit, network)(x) - exact)
+            label = None if k else "folds"
+            below.plot(x, off, color=PREDICTED, lw=0.7, alpha=0.4, label=label)
+        below.plot(x, 1e3 * (law - exact), color=PREDICTED, lw=1.3, label="all runs")
+        ax.set(ylabel=ylabel)
+        below.set(xlabel=xlabel, ylabel="error [mN.m]")
+        for each in (ax, below):
+            each.grid(alpha=0.25)
+            each.legend(frameon=False, fontsize=8)
     return figure
 
 

@@ -98,7 +98,7 @@ def truth() -> ac.System:
     return ac.compile(DriveTrain(Friction(), Cogging()))
 
 
-def learning() -> ac.System:
+def unknown() -> DriveTrain:
     """What is known before: a law of the speed that never drives, a periodic law of the angle, and rough parameters."""
     friction = neural.Resistance(
         rot.Flange,
@@ -114,4 +114,9 @@ def learning() -> ac.System:
     )
     net = ac.networks.Fourier(2 * pi / TEETH, harmonics=3, output_scale=0.1)
     cogging = neural.Compliance(rot.Flange, net=net)
-    return ac.compile(DriveTrain(friction, cogging, load=6.5e-3, stiffness=36.0, damping=0.03))
+    return DriveTrain(friction, cogging, load=6.5e-3, stiffness=36.0, damping=0.03)
+
+
+def learning() -> ac.System:
+    """The same, compiled."""
+    return ac.compile(unknown())
