@@ -104,7 +104,7 @@ def build_problem(
         networks=chosen,
         modifiers=changed,
         parameter_spread=parameter_spread(options.parameter_spread, params),
-        per_record=per_record(system, options.per_record, params),
+        per_record=per_record(system, options.per_record, params, records.count),
         timing=times,
         targets=targets,
         records=records,

@@ -28,14 +28,14 @@ class PerRecord(eqx.Module):
         scale: the deviation that one unit of what is trained means.
         tied: 1 where ``scale`` is the prior standard deviation of the deviations, 0 where they are free.
         places: where the parameters, and all that depend on them, lie in `Packed.values`.
-        trained: of every record whether the training has seen it; ``None`` where it has seen all.
+        trained: of every record 1 where the training sees it, else 0.
     """
 
     names: tuple[str, ...] = eqx.field(static=True)
     scale: Float[Array, " n_own"]
     tied: Float[Array, " n_own"]
     places: tuple[int, ...] = eqx.field(static=True)
-    trained: Float[Array, " R"] | None = None
+    trained: Float[Array, " R"]
 
     def start(self, records: int) -> dict[str, Float[Array, " R"]]:
         """What is trained, where training starts."""
@@ -94,9 +94,18 @@ def for_records(
 
 
 def per_record(
-    system: System, given: Mapping[str, float | None] | None, params: Mapping[str, Any]
+    system: System,
+    given: Mapping[str, float | None] | None,
+    params: Mapping[str, Any],
+    records: int,
 ) -> PerRecord:
     """Check a user's choice: by parameter the standard deviation between records, or ``None`` for free values.
+
+    Arguments:
+        system: the model.
+        given: the choice.
+        params: all parameters where training starts.
+        records: how many there are.
 
     Raises:
         TrainingError: for a name that is no numeric parameter, or what is no deviation.
@@ -126,4 +135,5 @@ def per_record(
         jnp.asarray(scale, float),
         1.0 - jnp.asarray(free, float),
         system.layout.depending(names),
+        jnp.ones(records),
     )

@@ -1,0 +1,1 @@
+"""A test campaign: five runs of a drive train, as they are measured, train one model."""
