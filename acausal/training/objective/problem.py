@@ -3,120 +3,62 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax.sharding import Mesh
 from jaxtyping import Array, Float, Int, PRNGKeyArray
 
-from acausal._jax import Restarts, cast
-from acausal.codegen import Packed, Values
-from acausal.simulation import Integrated, Runs, Solver, Steps, integrate
+from acausal.codegen import Values
 from acausal.training.objective.arguments import arguments
 from acausal.training.objective.error_laws import LogLikelihood
-from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
-from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.parameter_spread import ParameterSpread
-from acausal.training.objective.per_record import PerRecord, for_records
 from acausal.training.objective.prior import Prior
-from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer
-from acausal.training.objective.sensors import Sensors
 from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
-from acausal.training.objective.timing import Timing
+from acausal.training.objective.simulator import PackedRecords, Simulator
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.objective.weighting import Weighting
 
 if TYPE_CHECKING:
-    from acausal.system import System
+    pass
 
 
-class PackedRecords(NamedTuple):
-    """Parameters as the model's program reads them.
-
-    Attributes:
-        common: those of all records.
-        own: of every record, the numbers in `PerRecord.places`; ``None`` where records do not differ.
-        times: delays and lags, by name.
-    """
-
-    common: Packed
-    own: Float[Array, "R n_places"] | None
-    times: dict[str, Float[Array, ""]]
-
-
-class Problem(eqx.Module):
+class Problem(Simulator):
     """A training problem. It is a pytree, and all of its functions are pure.
 
-    Attributes:
-        system: the model.
+    Attributes, besides those of `Simulator`:
         params: all parameters where training starts.
         networks: names of the networks that are trained.
         modifiers: the parameters that are trained.
         parameter_spread: the parameters that differ from run to run.
-        targets: the variables that are compared.
-        per_record: the parameters that have a value for each record.
-        timing: delays and lags; those that are trained are among ``modifiers``.
-        records: the data.
         weighting: how much records, targets and times count.
         sequences: how batches are drawn from them.
-        first_states: the states at which records start, where they are not trained.
-        shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
         prior: what an earlier training knew.
         regularizers: penalties by name.
         context: the arguments of regularizers besides the parameters.
-        solver, substeps: the scheme, and the number of its steps from sample to sample.
-        dtype: the precision of steps; of weights and losses it is double.
         mesh: devices that share batches, if any.
     """
 
-    system: System = eqx.field(static=True)
     params: dict[str, Any]
     networks: tuple[str, ...] = eqx.field(static=True)
     modifiers: Modifiers
     parameter_spread: ParameterSpread
-    targets: tuple[str, ...] = eqx.field(static=True)
-    per_record: PerRecord
-    timing: Timing
-    records: Records
     weighting: Weighting = eqx.field(static=True)
     sequences: Sequences
-    first_states: FirstStates
-    shooting: ShootingStates | None
     loss: Loss = eqx.field(static=True)
     prior: Prior | None
     regularizers: dict[str, Regularizer]
     context: Context
-    solver: Solver = eqx.field(static=True)
-    substeps: int = eqx.field(static=True)
-    dtype: np.dtype = eqx.field(static=True)
     mesh: Mesh | None = eqx.field(static=True)
 
     # -- the data ------------------------------------------------------------------------------------
-
-    @property
-    def longest_step(self) -> float:
-        """The longest step of the integration, in seconds."""
-        return float(np.max(np.asarray(self.records.steps.h))) / self.substeps
-
-    @property
-    def inputs(self) -> Float[Array, "N n_inputs"]:
-        """The model's inputs at every row, as they are measured."""
-        return self.records.steps.inputs.start
-
-    def steps(self, packed: PackedRecords, rows: Int[Array, " n"] | None = None) -> Steps:
-        """The steps of all records, or of some rows, with inputs delayed."""
-        steps, of = self.records.steps, self.records.of
-        if rows is not None:
-            steps, of = jax.tree.map(lambda a: a[rows] if a.ndim else a, (steps, of))
-        return self.records.delayed(steps, of, packed.times)
 
     def residuals(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, "N n_targets"]:
         """The residuals of predictions of all records: measured less predicted; zero where nothing is measured."""
@@ -136,11 +78,6 @@ class Problem(eqx.Module):
     ) -> Float[Array, ""]:
         """The loss of predictions of some samples."""
         return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
-
-    @property
-    def sensors(self) -> Sensors:
-        """What the targets' sensors do."""
-        return Sensors.of(self.timing, self.targets)
 
     @property
     def counts_as_logarithm(self) -> bool:
@@ -180,12 +117,6 @@ class Problem(eqx.Module):
     def unit(self, name: str) -> str:
         """The unit of something that is trained."""
         return "s" if name in self.timing.values else self.system.unit(name)
-
-    def pack(self, params: dict[str, Any], trainable: Trainable) -> PackedRecords:
-        """Parameters as the model's program reads them."""
-        params, times = self.timing.split(params)
-        own = self.per_record.packed(self.system, params, trainable.per_record)
-        return PackedRecords(self.system.pack(params), own, times)
 
     def entry(self, best: Trainable) -> Trainable:
         """What another problem of this training has found, as a start of this one."""
@@ -266,7 +197,7 @@ class Problem(eqx.Module):
             first = jax.tree.map(lambda a: a[0], (points, nudges))
             return self._loss_of_all(packed, trainable, *first)[None]
         records, shooting, sensors = self.records, self.shooting, self.sensors
-        parts = None if shooting is None else self._part_states(trainable, packed)
+        parts = None if shooting is None else self.part_states(trainable, packed)
 
         def one(
             start: Int[Array, ""],
@@ -282,7 +213,7 @@ class Problem(eqx.Module):
             x0 = x0 if nudge is None else x0 + nudge
             own = self.packed_of(packed, records.of[start])
             steps = records.delayed(window.steps, records.of[start], packed.times)
-            found = self._integrate(own, x0, steps)
+            found = self.integrate_from(own, x0, steps)
             assert found.y is not None
             seen, weight = sensors.over_window(found.y, window, records, start, packed.times)
             compared = seen, window.y, weight
@@ -306,7 +237,7 @@ class Problem(eqx.Module):
         nudge: Float[Array, " n_states"] | None,
     ) -> Float[Array, ""]:
         records = self.records
-        found = self._integrate_all(packed, trainable, nudge)
+        found = self.integrate_all(packed, trainable, nudge)
         assert found.y is not None
         compared = found.y, records.y, records.weight
         if points is not None:
@@ -338,7 +269,7 @@ class Problem(eqx.Module):
         self, params: dict[str, Any], trainable: Trainable, *, direct: bool = False
     ) -> tuple[Float[Array, "N n_states"], Float[Array, "N n_targets"]]:
         """States and targets at every row."""
-        found = self._integrate_all(self.pack(params, trainable), trainable, direct=direct)
+        found = self.integrate_all(self.pack(params, trainable), trainable, direct=direct)
         assert found.y is not None
         return found.x, found.y
 
@@ -389,85 +320,3 @@ class Problem(eqx.Module):
         """The same of every model of the parameter spread."""
         params = self.assemble(trainable)
         return self.parameter_spread.over_models(lambda p: self.predict(trainable, p), params)
-
-    # -- simulation ------------------------------------------------------------------------------------
-
-    def start_states(
-        self, trainable: Trainable, packed: PackedRecords
-    ) -> Float[Array, "R n_states"]:
-        """The states at which records start."""
-        records = self.records
-        first = self.steps(packed, records.first)
-        all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
-        states = self.first_states(self.system, all_packed, first.t, first.inputs.start)
-        if self.shooting is None:
-            return states
-        trained = self.shooting.of_first(trainable.states)
-        return jnp.where((self.first_states.kind == FIT)[:, None], trained, states)
-
-    def _part_states(
-        self, trainable: Trainable, packed: PackedRecords
-    ) -> Float[Array, "n_parts n_states"]:
-        """The states at which the parts of records begin."""
-        assert self.shooting is not None
-        states = self.shooting.states(trainable.states)
-        return states.at[self.shooting.first].set(self.start_states(trainable, packed))
-
-    def packed_of(self, packed: PackedRecords, record: Int[Array, ""]) -> Packed:
-        """The parameters of a record."""
-        if packed.own is None:
-            return packed.common
-        return packed.common.replaced(self.per_record.places, packed.own[record])
-
-    def _integrate_all(
-        self,
-        packed: PackedRecords,
-        trainable: Trainable,
-        nudge: Float[Array, " n_states"] | None = None,
-        *,
-        direct: bool = False,
-    ) -> Integrated:
-        """States and targets at every row of all records, in one loop."""
-        records = self.records
-        x0 = self.start_states(trainable, packed)
-        x0 = x0 if nudge is None else x0 + nudge
-        own, steps = packed.own, self.steps(packed)
-        if records.count == 1:
-            one = self.packed_of(packed, jnp.asarray(0))
-            return self._measured(self._integrate(one, x0[0], steps, direct=direct), packed)
-        runs = Runs(
-            Restarts(records.begins, records.spread_at_starts(x0)),
-            None if own is None else own[records.of],
-            self.per_record.places,
-        )
-        found = self._integrate(packed.common, x0[0], steps, runs=runs, direct=direct)
-        return self._measured(found, packed)
-
-    def _measured(self, found: Integrated, packed: PackedRecords) -> Integrated:
-        """The same with targets as their sensors show them."""
-        assert found.y is not None
-        return found._replace(y=self.sensors.over_records(found.y, self.records, packed.times))
-
-    def _integrate(
-        self,
-        packed: Packed,
-        x0: Float[Array, " n_states"],
-        steps: Steps,
-        *,
-        runs: Runs | None = None,
-        direct: bool = False,
-    ) -> Integrated:
-        """States and targets at every step, and the state at the end."""
-        packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
-        first: Any = steps.t[0]
-        found = integrate(
-            self.system,
-            Values(first, x0, steps.inputs.start[0], packed),
-            steps,
-            self.solver,
-            outputs=self.targets,
-            substeps=self.substeps,
-            direct=direct,
-            runs=runs,
-        )
-        return cast(found, float)
