@@ -86,6 +86,12 @@ class ParameterLayout(LeavesCaches):
                     reason = f"the model has no parameter '{name}'; {hint}"
                 raise DataError(f"params: {reason}")
 
+    def range_of(self, name: str) -> tuple[float, float]:
+        """The least and the largest value of a free parameter that its declaration allows."""
+        i = self.names.index(name)
+        low, high = self._ranges
+        return float(low[i]), float(high[i])
+
     def out_of_range(self, values: np.ndarray) -> str | None:
         """A clause on values outside of the ranges that are declared, or None; the model's own count as inside.
 

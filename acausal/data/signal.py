@@ -138,10 +138,29 @@ class Signal(eqx.Module):
         order = self.derivative + times
         if order > DERIVATIVES[self.interpolation]:
             raise DataError(_no_derivative(name, self.interpolation, order))
+        return self._with(derivative=order)
+
+    def delayed(self, seconds: Scalar) -> Signal:
+        """The same signal, so many seconds later: ``u(t - seconds)``, exactly, such as with a delay from `Fit.delays`.
+
+        Where its samples then begin late or end early, and nothing else was said, the value there is held.
+
+        Raises:
+            DataError: for what is not a number.
+        """
+        if not (is_real(seconds) and np.shape(seconds) == ()):
+            raise DataError(f"A signal cannot be delayed by {shown(seconds)}; give seconds.")
+        return self._with(
+            ts=self.ts + jnp.asarray(seconds, self.ts.dtype),
+            before_start="hold" if self.before_start == "refuse" else self.before_start,
+            after_end="hold" if self.after_end == "refuse" else self.after_end,
+        )
+
+    def _with(self, **changed: object) -> Signal:
         found = object.__new__(Signal)
         for field in dataclasses.fields(self):
-            object.__setattr__(found, field.name, getattr(self, field.name))
-        object.__setattr__(found, "derivative", order)
+            value = changed.get(field.name, getattr(self, field.name))
+            object.__setattr__(found, field.name, value)
         return found
 
     def __call__(self, t: Scalar) -> Float[Array, ""]:

@@ -18,6 +18,7 @@ from acausal.reporting.plot import (
     plot_losses as plot_losses,
     plot_modifiers as plot_modifiers,
 )
+from acausal.reporting.profiles import add_profiles as add_profiles, plot_profile as plot_profile
 from acausal.reporting.records import (
     add_predictions as add_predictions,
     add_records as add_records,

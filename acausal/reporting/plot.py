@@ -155,12 +155,14 @@ def plot_losses(
         histories: by label.
         levels: horizontal lines by label, such as a published loss.
     """
+    if not any(np.any(h.loss <= 0) or np.any(h.full_loss[:, 1] <= 0) for h in histories.values()):
+        ax.set_yscale("log")  # a logarithm of a likelihood may be negative
     for (label, history), color in zip(histories.items(), cycle(LEARNED), strict=False):
-        ax.semilogy(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
-        ax.semilogy(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
+        ax.plot(np.arange(history.epochs), history.loss, color=color, lw=0.6, alpha=0.45)
+        ax.plot(*history.full_loss.T, "o-", color=color, lw=1.2, ms=3, label=label)
         if len(history.validation_loss):
             kept = f"{label}, held out"
-            ax.semilogy(*history.validation_loss.T, "s--", color=color, lw=1.2, ms=3, label=kept)
+            ax.plot(*history.validation_loss.T, "s--", color=color, lw=1.2, ms=3, label=kept)
     for label, level in (levels or {}).items():
         ax.axhline(level, color=GUIDE, lw=1, ls=":")
         place = (1.0, level)

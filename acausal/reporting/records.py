@@ -27,8 +27,8 @@ RECORDS_SHOWN = 8
 """The first so many records are drawn; all are in the table."""
 
 
-GAP = 10
-"""Samples that are further apart than so many of the usual steps are not connected."""
+GAP = 5.0
+"""A curve is broken where samples are farther apart than so many times their median distance."""
 
 
 class FollowedRecord(Protocol):
@@ -107,13 +107,8 @@ def _draw_record(
     low, high = float(measured[known[rows]].min()), float(measured[known[rows]].max())
     room = 0.5 * (high - low) + 1e-12
     shown = known[rows]
-    above.plot(
-        *_with_gaps(record.time[shown], measured[shown]),
-        color=MEASURED,
-        lw=1.6,
-        alpha=0.5,
-        label="measured",
-    )
+    samples = _broken(record.time[shown], measured[shown])
+    above.plot(*samples, color=MEASURED, lw=1.6, alpha=0.5, label="measured")
     for label, (values, color, width) in curves.items():
         near = np.clip(values[first:last], low - 2 * room, high + 2 * room)
         above.plot(record.time[first:last], near, color=color, lw=width, label=label)
@@ -122,10 +117,21 @@ def _draw_record(
     _label_trajectory(above, target, unit, columns=3)
     every = known[:: max(1, len(known) // ERRORS_SHOWN)]
     errors = measured[every] - record.predicted[every, i]
-    below.plot(*_with_gaps(record.time[every], errors), color=AFTER, lw=0.8)
+    below.plot(*_broken(record.time[every], errors), color=AFTER, lw=0.8)
     below.set(xlabel="time [s]", ylabel=f"error [{unit}]")
     below.grid(alpha=0.25)
     return drawn
+
+
+def _broken(
+    t: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]
+) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
+    """A curve that is broken where samples are missing for long."""
+    spaces = np.diff(t)
+    if not len(spaces):
+        return t, y
+    after = np.flatnonzero(spaces > GAP * np.median(spaces)) + 1
+    return np.insert(t, after, t[after]), np.insert(y, after, np.nan)
 
 
 def add_predictions(
@@ -162,17 +168,6 @@ class _Part(NamedTuple):
     x: Float[np.ndarray, " points"]
     law: Float[np.ndarray, " points"]
     sigma: Float[np.ndarray, " points"]
-
-
-def _with_gaps(
-    t: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]
-) -> tuple[Float[np.ndarray, " m"], Float[np.ndarray, " m"]]:
-    """A curve that is interrupted where nothing is measured for long."""
-    steps = np.diff(t)
-    if not len(steps):
-        return t, y
-    ends = np.flatnonzero(steps > GAP * np.median(steps)) + 1
-    return np.insert(t, ends, t[ends]), np.insert(y, ends, np.nan)
 
 
 def _middle(samples: int) -> slice:

@@ -40,11 +40,14 @@ class LearnedLaw(NamedTuple):
         band: the law with its standard deviation.
         seen: statistics of the network's arguments.
         samples: some of the values that its first argument had.
+        argument, result: names with units of the first argument and of the value.
     """
 
     band: UncertainCurve
     seen: InputStatistics
     samples: Float[np.ndarray, " n_samples"]
+    argument: str = "argument"
+    result: str = ""
 
 
 class Correlated(Protocol):
@@ -118,14 +121,14 @@ def add_laws(page: Page, laws: Mapping[str, LearnedLaw]) -> None:
     for name, law in laws.items():
 
         def draw(ax: Axes, name: str = name, law: LearnedLaw = law) -> None:
-            band, seen, samples = law
+            band, seen, samples = law[:3]
             plot_band(ax, band, color=AFTER)
             low, high = float(np.min(band.law)), float(np.max(band.law))
             room = 0.25 * (high - low) + 1e-12
             ax.set_ylim(low - room, high + room)
             plot_guides(ax, seen, band.x[0], band.x[-1])
             ax.plot(samples, np.full(len(samples), low - room), "|", color=MEASURED, alpha=0.25)
-            ax.set(xlabel="argument", ylabel=name)
+            ax.set(xlabel=law.argument, ylabel=law.result or name)
 
         page.figure(figure(NARROW, draw), f"The law of '{name}' and how sure it is.")
 

@@ -8,9 +8,11 @@ from acausal.simulation.fixed_steps import (
     Integrated as Integrated,
     Runs as Runs,
     Steps as Steps,
+    inner_fractions as inner_fractions,
     integrate as integrate,
 )
 from acausal.simulation.inputs import (
+    TimeFunction as TimeFunction,
     announce_derivatives as announce_derivatives,
     functions_of_time as functions_of_time,
 )

@@ -213,6 +213,15 @@ def integrate(
     return Integrated(xs, ys, end)
 
 
+def inner_fractions(solver: Solver, substeps: int) -> tuple[float, ...] | None:
+    """The fractions of a step, besides its ends, at which a scheme looks at inputs; ``None`` if it does not say."""
+    if not isinstance(solver, EXPLICIT):
+        return None
+    stages = [0.0, *_tableau(solver).fractions]
+    found = {(j + fraction) / substeps for j in range(substeps) for fraction in stages}
+    return tuple(sorted(fraction for fraction in found if 0 < fraction < 1))
+
+
 class Tableau(NamedTuple):
     """The coefficients of an explicit Runge–Kutta scheme.
 

@@ -11,6 +11,11 @@ from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
 from acausal.training.history import Divergence as Divergence, History as History
 from acausal.training.logs import CsvLog as CsvLog, TensorBoardLog as TensorBoardLog
+from acausal.training.objective.error_laws import (
+    Huber as Huber,
+    Likelihood as Likelihood,
+    Student as Student,
+)
 from acausal.training.objective.modal import (
     DampingRatio as DampingRatio,
     FrequencyRange as FrequencyRange,
@@ -21,8 +26,10 @@ from acausal.training.objective.regularizers import (
     SmallCorrection as SmallCorrection,
     ZeroCrossing as ZeroCrossing,
 )
+from acausal.training.objective.timing import Delay as Delay, Lag as Lag
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
+from acausal.training.profile import Profile as Profile
 from acausal.training.record_fit import RecordFit as RecordFit
 from acausal.training.result import Fit as Fit, Seen as Seen
 from acausal.training.starts import Minimum as Minimum, Starts as Starts

@@ -23,10 +23,14 @@ from acausal.training.objective.modifiers import modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates, shooting_states
 from acausal.training.objective.parameter_spread import parameter_spread
 from acausal.training.objective.per_record import per_record
+from acausal.training.objective.prior import prior_of
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
+from acausal.training.objective.timing import timing
+from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
 
 if TYPE_CHECKING:
@@ -59,6 +63,8 @@ def build_problem(
     system.pack(params)  # refuses what does not fit
     chosen = _networks(options.train, params)
     changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
+    times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
+    changed = changed.joined(moving)
     if not chosen and not changed.names and not options.per_record:
         raise TrainingError(
             "There is nothing to train: no network is in the model or chosen by train=[...]. "
@@ -74,11 +80,16 @@ def build_problem(
         announce_derivatives(system.inputs, record)
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
-    records, substeps = lay_out(data, system.inputs, targets, system.states, options.dt)
-    weights = np.ones(records.count)
+    solver = for_fixed_steps(solver_named(options.solver), dtype)
+    records, substeps = lay_out(
+        data, system.inputs, targets, system.states, options.dt, solver=solver, timing=times
+    )
+    loss = named(options.loss, targets)
+    weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
+    records = _weighted(records, weights, targets)
     sequences = cut(
         records,
-        weights,
+        np.ones(records.count),
         options.sequence_length,
         options.batch_size,
         options.subsample,
@@ -94,15 +105,18 @@ def build_problem(
         modifiers=changed,
         parameter_spread=parameter_spread(options.parameter_spread, params),
         per_record=per_record(system, options.per_record, params, records.count),
+        timing=times,
         targets=targets,
         records=records,
-        sequences=sequences,
+        weighting=weights,
+        sequences=sequences if weights.alike else sequences.weighted(records),
         first_states=first_states(system, data, options.x0),
         shooting=None,
-        loss=named(options.loss),
+        loss=loss,
+        prior=prior_of(options.prior, params),
         regularizers=_labelled(options.penalties),
         context=Context((), {}),
-        solver=for_fixed_steps(solver_named(options.solver), dtype),
+        solver=solver,
         substeps=substeps,
         dtype=dtype,
         mesh=device_mesh(options.devices, sequences.batch_size),
@@ -133,6 +147,21 @@ def _check_targets(system: System, targets: tuple[str, ...]) -> None:
         raise TrainingError(
             f"{listing(driven)}: a target is what the model computes, not its input."
         )
+
+
+def _weighted(records: Records, weights: Weighting, targets: tuple[str, ...]) -> Records:
+    """The records with their weights.
+
+    Raises:
+        TrainingError: if nothing of a target counts.
+    """
+    weighted = weights.apply(records)
+    for name, total in zip(targets, jnp.sum(weighted.weight, axis=0), strict=True):
+        if not total > 0:
+            raise TrainingError(
+                f"sample_weights: all weights of '{name}' are 0; leave the target out."
+            )
+    return weighted
 
 
 def _refuse_constant(problem: Problem) -> None:

@@ -19,6 +19,7 @@ from acausal.errors import TrainingError, need_compiled, need_path, shown
 from acausal.networks import law_of
 from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_predictions
 from acausal.training.objective.initial_state import InitialState
+from acausal.training.objective.prior import Earlier, entry
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import train_from_starts
@@ -177,7 +178,7 @@ def ensemble(
             "ac.fit(..., starts=...)."
         )
     seeds = tuple(range(seed, seed + members))
-    starts = _starts(system, params, seeds)
+    starts = _starts(system, params, seeds, chosen.prior)
     return Ensemble(train_from_starts(system, data, targets, chosen, seeds=seeds, params=starts))
 
 
@@ -185,14 +186,17 @@ def _starts(
     system: System,
     params: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None,
     seeds: Sequence[int],
+    prior: Earlier | None,
 ) -> Sequence[Mapping[str, Any]]:
     if params is None or isinstance(params, Mapping):
-        made = [system.parameters(seed) for seed in seeds]
+        made = [entry(system.parameters(seed), prior) for seed in seeds]
         numbers = {n: leaf for n, leaf in (params or {}).items() if not callable(leaf)}
         return [{**own, **numbers} for own in made]
     if len(params) != len(seeds):
         raise TrainingError(f"There are {len(params)} params for {len(seeds)} members.")
-    return [{**system.parameters(s), **own} for s, own in zip(seeds, params, strict=True)]
+    return [
+        {**entry(system.parameters(s), prior), **own} for s, own in zip(seeds, params, strict=True)
+    ]
 
 
 def _mean_and_deviation(

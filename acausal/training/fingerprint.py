@@ -32,11 +32,12 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Leg
 
-DERIVED = ("context", "shooting", "mesh", "first_states")
+DERIVED = ("context", "shooting", "weighting", "mesh", "first_states")
 """Fields of a problem that follow from the others, or only choose the devices."""
 
 ARGUMENTS = {
-    "networks": "train", "records": "data", "substeps": "dt", "sequences": "sequence_length, batch_size or subsample",
+    "networks": "train", "records": "data", "substeps": "dt", "timing": "delays or lags",
+    "sequences": "sequence_length, batch_size or subsample",
 }  # fmt: skip
 """Arguments of `acausal.fit` by the fields of a problem, where their names differ."""
 
@@ -66,7 +67,11 @@ def fingerprint(
         "targets": (problem.targets, _outputs(problem)),
         "loss": ([leg.trainer.limit for leg in legs], _loss(problem)),
         "regularizers": {n: _regularizer(problem, r) for n, r in problem.regularizers.items()},
-        "data": (problem.records, {n: dict(d.signals) for n, d in data.items()}),
+        "record_weights or sample_weights": (problem.weighting, problem.records.weight),
+        "data": (
+            problem.records.unweighted(),
+            {n: dict(d.signals) for n, d in data.items()},
+        ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.first_states, problem.shooting is None),
         "strategy": [leg.name for leg in legs],

@@ -9,6 +9,7 @@ import numpy as np
 
 from acausal.data import RecordsLike
 from acausal.errors import DataError, TrainingError, need_compiled, shown
+from acausal.training.objective.prior import entry
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import train_from_starts
@@ -39,7 +40,7 @@ def fit(
             several records, as a list or by name. They may differ in length and sample times, and miss samples.
         targets: the variables to fit, measured in the data.
         params: where to start: those of the model's parameters that differ from what `system.parameters` gives for
-            ``seed``, from which networks are made.
+            ``seed``, from which networks are made, or what a ``prior`` ends with.
         seed: of the networks, the sequences and the points. The same seed gives the same result.
         options: see `acausal.training.FitOptions`, each by its name.
 
@@ -61,6 +62,6 @@ def fit(
         raise TrainingError(
             f"targets={shown(targets)} are not names; give some of the model's variables."
         )
-    start = {**system.parameters(seed), **(params or {})}
+    start = {**entry(system.parameters(seed), chosen.prior), **(params or {})}
     (trained,) = train_from_starts(system, data, targets, chosen, seeds=(seed,), params=(start,))
     return trained

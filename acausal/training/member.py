@@ -93,8 +93,18 @@ class Member:
             _finite_or_inf(simulated.loss), validation, self.log.epochs, trainable, simulated
         )
         self.log.evaluated(new.loss, math.nan if validation is None else validation)
-        if self.log.epochs == 0 or new.score < self.best.score or math.isinf(self.best.score):
+        if (
+            self.log.epochs == 0
+            or self._deciding(new) < self._deciding(self.best)
+            or math.isinf(self.best.score)
+        ):
             self.best = new
+
+    def _deciding(self, best: Best) -> float:
+        """The score, weighed by what an earlier training knew where nothing is held out."""
+        if best.validation is not None or self.problem.prior is None:
+            return best.score
+        return float(self.problem.weighed(jnp.asarray(best.loss), best.trainable))
 
     def evaluations_without_improvement(self) -> int:
         """How many evaluations there were in this part of the strategy since the best one."""

@@ -21,12 +21,16 @@ from jax.typing import DTypeLike
 
 from acausal.errors import TrainingError, nearest, shown
 from acausal.simulation import Solver
+from acausal.training.objective.error_laws import ErrorLaw
 from acausal.training.objective.held_out import Validation
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.losses import Loss
 from acausal.training.objective.modifiers import Modifier
+from acausal.training.objective.prior import Earlier
 from acausal.training.objective.regularizers import Regularizer
 from acausal.training.objective.sharding import Device
+from acausal.training.objective.timing import Delay, Lag
+from acausal.training.objective.weighting import RecordWeights, Weight
 from acausal.training.progress import Observer
 
 UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
@@ -66,9 +70,20 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "modifiers": (_are_texts, "names of parameters, nor modifiers by name"),
     "gamma": (_is_number, "a number"),
     "per_record": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
+    "delays": (lambda v: isinstance(v, Mapping), "delays by name"),
+    "lags": (lambda v: isinstance(v, Mapping), "time constants by name"),
     "parameter_spread": (lambda v: isinstance(v, Mapping), "standard deviations by name"),
-    "loss": (lambda v: isinstance(v, str) or callable(v), "a loss, by name or as a function"),
+    "loss": (
+        lambda v: isinstance(v, str | ErrorLaw) or callable(v),
+        "a loss, by name or as a function",
+    ),
+    "record_weights": (lambda v: isinstance(v, str | Mapping), "a text, nor factors by name"),
+    "sample_weights": (lambda v: isinstance(v, Mapping), "weights by target"),
     "regularizers": (lambda v: callable(v) or _are_many(v), "a function, nor several"),
+    "prior": (
+        lambda v: hasattr(v, "confidence") and hasattr(v, "params"),
+        "the result of a training",
+    ),
     "sequence_length": (_is_number, "a number of seconds"),
     "batch_size": (_is_count, "a whole number"),
     "subsample": (_is_number, "a fraction"),
@@ -101,8 +116,13 @@ class FitKeywords(TypedDict, total=False):
     gamma: float
     parameter_spread: Mapping[str, float] | None
     per_record: Mapping[str, float | None] | None
-    loss: str | Loss
+    delays: Mapping[str, float | Delay] | None
+    lags: Mapping[str, float | Lag] | None
+    loss: str | Loss | ErrorLaw
+    record_weights: RecordWeights
+    sample_weights: Mapping[str, Weight] | None
     regularizers: Regularizer | Iterable[Regularizer]
+    prior: Earlier | None
     sequence_length: float | None
     batch_size: int
     subsample: float | None
@@ -141,10 +161,26 @@ class FitOptions:
             day: by name the standard deviation from record to record, which ties the values to the common one, or
             ``None`` for free values. Unlike a `parameter_spread`, which makes the model follow runs that nobody has
             measured, it finds the values of the runs that are measured.
+        delays: by input or target, how late it is: an `acausal.Delay`, which is trained, or seconds. The model sees an
+            input ``u(t - τ)`` as the record interpolates it (before its start, the first value); of a target
+            ``y(t - τ)`` of the prediction is compared. `Fit.delays` has the result. An input with the interpolation
+            "previous" jumps, so that its delay can only be given.
+        lags: by target, the time constant of its sensor's first-order lag: an `acausal.Lag`, which is trained, or
+            seconds. A record starts at rest. The lag comes before a delay. `Fit.lags` has the result.
         loss: ``"nrmse"``, the paper's (21), or a function (predicted, measured, sigma) or (predicted, measured, sigma,
             weight) -> scalar of shapes (M, k), (M, k), (k,), (M, k); averaged over a batch's sequences. The weight is
-            zero where nothing is measured.
+            zero where nothing is measured. ``"likelihood"``: maximum likelihood of normal errors, in which each target
+            counts by its noise, as estimated or given by `acausal.Likelihood`; ``"huber"`` and ``"student"``, or
+            `acausal.Huber` and `acausal.Student`, bear outliers. Sequences estimate the noise each for itself, from
+            some dozens of samples or more.
+        record_weights: ``"samples"``: all samples count alike; ``"records"``: all records do, however long they are;
+            or factors of their samples' weights by name of a record, 1 where there is none.
+        sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then; 0 leaves
+            it out. Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
         regularizers: penalties, such as `acausal.ZeroCrossing`; any function (params, context) -> scalar.
+        prior: an earlier fit, when new data come without the old ones: what it knew about laws and trained parameters
+            (its `Fit.confidence`) is the prior of this training, which starts from its parameters. Directions that the
+            new data leave open stay as they were. Train the same parameters again; those left out stay fixed.
         sequence_length: in seconds; ``None`` takes all of every record at once.
         batch_size: sequences in each update.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
@@ -174,7 +210,7 @@ class FitOptions:
             multiple of their number. By default JAX's default device alone.
         validation: what to hold out, which chooses the best: the last part of every record, such as 0.2 (predicted
             in one simulation from the record's start), names of records, or other records (which start as ``x0`` says;
-            with ``"fit"`` from their own measured states).
+            with ``"fit"`` from their own measured states, and as the model starts where these are not measured).
         evaluate_every: updates between two evaluations over the whole record and what is held out, among which the
             best is returned; by default a tenth of the epochs.
         patience: evaluations without a better one after which a part of the strategy ends.
@@ -192,8 +228,13 @@ class FitOptions:
     gamma: float = 0.2
     parameter_spread: Mapping[str, float] | None = None
     per_record: Mapping[str, float | None] | None = None
-    loss: str | Loss = "nrmse"
+    delays: Mapping[str, float | Delay] | None = None
+    lags: Mapping[str, float | Lag] | None = None
+    loss: str | Loss | ErrorLaw = "nrmse"
+    record_weights: RecordWeights = "samples"
+    sample_weights: Mapping[str, Weight] | None = None
     regularizers: Regularizer | Iterable[Regularizer] = ()
+    prior: Earlier | None = None
     sequence_length: float | None = None
     batch_size: int = 1
     subsample: float | None = None

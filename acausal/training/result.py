@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,16 +23,21 @@ from acausal.reporting import (
     add_laws,
     add_losses,
     add_parameters,
+    add_profiles,
     add_records,
     add_residuals,
 )
 from acausal.training.history import History
 from acausal.training.member import Trained
+from acausal.training.objective.arguments import labels
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
+from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.starts import Starts
 from acausal.training.uncertainty.confidence import Band, Confidence, confidence
@@ -77,7 +82,8 @@ class Fit:
         records: by name of a record, how the trained model follows it: times, predictions, errors, initial state.
         held_out: the same for the records with held-out samples; there only these count as measured.
         modifiers: change of every parameter that was trained: relative, p̃/p − 1; of one with a `Shift` or `Bounded`
-            absolute, p̃ − p.
+            absolute, p̃ − p. Trained
+            delays and lags are among them, as ``delay(force)`` in seconds; see `delays` and `lags`.
         arguments: by network, what it was called with in one simulation of every record.
         seen: by network, the statistics of these arguments.
         history: the training, update by update.
@@ -154,6 +160,31 @@ class Fit:
         squares = np.sqrt(np.nanmean(errors**2, axis=0))
         return dict(zip(self.problem.targets, squares.tolist(), strict=True))
 
+    @cached_property
+    def noise(self) -> dict[str, float]:
+        """By target, the level of its noise in its unit: as given to the loss, or as estimated from all records.
+
+        For losses that know of no noise it is the root mean square error.
+        """
+        problem, records = self.problem, self.problem.records
+        if not isinstance(problem.loss, LogLikelihood):
+            return self.rms
+        predicted = problem.simulate(self.trained).y
+        levels = problem.loss.levels(predicted, records.y, records.sigma, records.weight)
+        return dict(zip(problem.targets, levels.tolist(), strict=True))
+
+    @property
+    def delays(self) -> dict[str, float]:
+        """The delays of inputs and targets in seconds, trained or given."""
+        found = self.problem.assemble(self.trained)
+        return {n: float(found[delay_of(n)]) for n in self.problem.timing.delays}
+
+    @property
+    def lags(self) -> dict[str, float]:
+        """The time constants of targets' sensors in seconds, trained or given."""
+        found = self.problem.assemble(self.trained)
+        return {n: float(found[lag_of(n)]) for n in self.problem.timing.lags}
+
     @property
     def score(self) -> float:
         """The loss by which the best was chosen: over the held-out samples, else over the whole record."""
@@ -184,7 +215,32 @@ class Fit:
             raise TrainingError(f"There is no record '{record}': {nearest(record, known.names)}")
         counts = (known.of == known.names.index(record))[:, None]
         return replace(
-            self.problem, records=replace(known, weight=jnp.where(counts, known.weight, 0.0))
+            self.problem,
+            records=replace(known, weight=jnp.where(counts, known.weight, 0.0)),
+            prior=None,
+        )
+
+    def profile(
+        self, parameter: str, points: int = 21, width: float = 3.0, level: float = 0.95
+    ) -> Profile:
+        """The loss along a trained parameter, with everything else trained again where it is held.
+
+        Unlike `confidence`, which is local, this shows the whole way: an interval that need not be symmetric, and
+        whether there is one. Up to 60 trained numbers take Gauss-Newton steps; with more, such as the weights of
+        networks, all are trained by at most 120 updates of L-BFGS. All points are trained in one program.
+
+        Arguments:
+            parameter: its name, such as ``"mass.m"``.
+            points: where it is held, an odd number.
+            width: how far from the fit's value to either side, in standard deviations of `confidence`; less where it
+                would leave its bounds or change its sign.
+            level: of the interval.
+
+        Raises:
+            TrainingError: for a parameter that was not trained, numbers that do not fit, or if the model diverges.
+        """
+        return profile(
+            self.problem, self.trained, self.confidence(), parameter, points, width, level
         )
 
     def conformal(
@@ -250,8 +306,16 @@ class Fit:
             )
         return network
 
-    def report(self, folder: str | Path, title: str = "Training") -> Path:
-        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path."""
+    def report(
+        self, folder: str | Path, title: str = "Training", *, profiles: Sequence[Profile] = ()
+    ) -> Path:
+        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path.
+
+        Arguments:
+            folder: where.
+            title: of the page.
+            profiles: from `profile`, to show whether parameters are identifiable.
+        """
         trained = ", ".join((*self.seen, *self.modifiers))
         end = ", ended by the user" if self.interrupted else ""
         page = Page(
@@ -273,6 +337,8 @@ class Fit:
             add_laws(page, self.with_bands(sure.laws))
             header = ("parameter", "value", "change", "one sigma")
             add_parameters(page, header, self._parameters(sure), sure.summary())
+            self._add_own(page, sure)
+            add_profiles(page, profiles)
             add_residuals(page, self.residuals())
         else:
             page.text(
@@ -280,6 +346,19 @@ class Fit:
             )
         add_divergences(page, self.history.divergences)
         return page.write(need_path(folder, "report") / "index.html")
+
+    def _add_own(self, page: Page, sure: Confidence) -> None:
+        """The parameters that differ between records, in a table."""
+        names = self.problem.per_record.names
+        if not names:
+            return
+        page.section("Parameters of records")
+        header = ("record", *(f"{n} [{self.system.unit(n)}]" for n in names))
+        rows = [
+            (name, *(f"{r.parameters[n]:.5g} ± {sure.per_record[n][k]:.2g}" for n in names))
+            for k, (name, r) in enumerate(self.records.items())
+        ]
+        page.table(header, rows)
 
     def _losses(self) -> list[tuple[str, str, str]]:
         """Losses before and after, in rows."""
@@ -293,23 +372,35 @@ class Fit:
     def _parameters(self, sure: Confidence) -> list[tuple[str, str, str, str]]:
         """Value, change and standard deviation of every trained parameter, in rows."""
         written, rows = self.problem.modifiers.written, []
+        params = self.problem.assemble(self.trained)
         for name, change in self.modifiers.items():
-            unit = self.system.unit(name)
-            value = f"{float(self.params[name]):.6g} {unit}".removesuffix(" 1")
+            unit = self.problem.unit(name)
+            value = f"{float(params[name]):.6g} {unit}".removesuffix(" 1")
             sigma = written(name, sure.parameters[name], ".2g", unit)
             rows.append((name, value, written(name, change, "+.3g", unit), sigma))
         return rows
 
     def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
         """Learned laws as reports show them: bands over their networks' arguments in training."""
-        return {n: LearnedLaw(band, self.seen[n], self.samples(n)) for n, band in bands.items()}
+
+        def law(name: str, band: Band) -> LearnedLaw:
+            found = labels(self.system, name)
+            argument = found.arguments[0] if found.arguments else "argument"
+            return LearnedLaw(band, self.seen[name], self.samples(name), argument, found.result)
+
+        return {name: law(name, band) for name, band in bands.items()}
 
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
         return remove_offset(self.params, tuple(self.seen))
 
     def __repr__(self) -> str:
-        changes = ", ".join(f"{n} {value:+.3f}" for n, value in self.modifiers.items())
+        times = self.problem.timing
+        changes = ", ".join(
+            f"{n} {value:+.3f}" for n, value in self.modifiers.items() if n not in times.values
+        )
+        late = [f"{delay_of(n)} {value:.4g} s" for n, value in self.delays.items()]
+        late += [f"{lag_of(n)} {value:.4g} s" for n, value in self.lags.items()]
         end = " (interrupted)" if self.interrupted else ""
         lines = [
             f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",
@@ -320,6 +411,7 @@ class Fit:
             lines.insert(2, f"  held out  {self.validation_loss:.4g}")
         lines += [f"  modifiers {changes}"] if changes else []
         lines += [] if self.starts is None else [f"  starts    {self.starts.summary()}"]
+        lines += [f"  times     {', '.join(late)}"] if late else []
         diverged = self.history.divergences
         lines += (
             [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
@@ -353,7 +445,7 @@ def result(
     arguments = {n: np.asarray(seen[n]) for n in problem.networks}
     return Fit(
         system=problem.system,
-        params=problem.assemble(best.trainable),
+        params=problem.model_params(best.trainable),
         loss=best.loss,
         loss_before=float(history.full_loss[0, 1]),
         validation_loss=best.validation,

@@ -163,21 +163,22 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
     elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
         yield f"Training found nothing better than its start. {sentence}"
     unmoved = _unmoved(start, trained.last)
-    if unmoved and len(diverged) < epochs and trained.history.full_loss[0, 1] > EXACT:
+    exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
+    if unmoved and len(diverged) < epochs and not exact:
         yield from _reasons(unmoved, in_switches(problem.system))
     if clause := _out_of_range(problem, trained.best.trainable):
         yield (
             f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
         )
     changes = changes_of(problem, trained.best.trainable)
-    yield from problem.modifiers.at_limit(changes, problem.system.unit).values()
+    yield from problem.modifiers.at_limit(changes, problem.unit).values()
 
 
 def _long_steps(problem: Problem, best: Best) -> str | None:
     """A sentence on steps that are too long for gradients, or None."""
     if not isinstance(problem.solver, EXPLICIT):
         return None
-    packed = problem.system.pack(problem.assemble(best.trainable))
+    packed = problem.system.pack(problem.model_params(best.trainable))
     values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
     return long_steps(problem.system, values, problem.longest_step)
 

@@ -16,8 +16,8 @@ from acausal.reporting import (
     add_laws,
     add_parameters,
     add_predictions,
+    add_records,
     add_residuals,
-    add_trajectories,
 )
 
 TIME = np.linspace(0.0, 1.0, 50)
@@ -28,6 +28,18 @@ class Curve:
     x: np.ndarray
     law: np.ndarray
     sigma: np.ndarray
+
+
+@dataclass(frozen=True)
+class Followed:
+    time: np.ndarray
+    measured: np.ndarray
+    predicted: np.ndarray
+
+    @property
+    def rms(self) -> dict[str, float]:
+        errors = np.nanmean((self.measured - self.predicted) ** 2 + 0 * TIME[:, None])
+        return {"mass.s": float(np.sqrt(errors)), "mass.v": 0.01}
 
 
 @dataclass(frozen=True)
@@ -62,12 +74,28 @@ def written(page: Page, folder: Path) -> str:
 
 def test_every_target_has_a_figure_with_its_unit(tmp_path: Path) -> None:
     page, y = Page("Title"), np.stack([TIME, TIME**2], axis=1)
-    add_trajectories(page, TIME, y, 0 * y, y + 0.01, {"mass.s": "m", "mass.v": "m/s"})
-    bands = {"mass.s": Curve(TIME, TIME, 0 * TIME + 0.1)}
-    add_predictions(page, y, bands, {"mass.s": "m"})
+    units = {"mass.s": "m", "mass.v": "m/s"}
+    gappy = y.copy()
+    gappy[10:20] = np.nan
+    before, after = Followed(TIME, gappy, 0 * y), Followed(TIME, gappy, y + 0.01)
+    add_records(page, "Measured and simulated", {"run": before}, {"run": after}, units)
+    bands = {"run": {"mass.s": Curve(TIME, TIME, 0 * TIME + 0.1)}}
+    add_predictions(page, {"run": after}, bands, {"mass.s": "m"})
     text = written(page, tmp_path)
     assert text.count("<figure>") == 3
-    assert "A stretch of &#x27;mass.v&#x27;." in text
+    assert "A stretch of &#x27;mass.v&#x27;, and its errors over all of it." in text
+    assert "RMS error of mass.v [m/s]" in text
+    assert "0.01" in text
+
+
+def test_of_many_records_each_is_in_the_table_and_some_are_drawn(tmp_path: Path) -> None:
+    page, y = Page("Title"), TIME[:, None]
+    nothing = Followed(TIME, np.full_like(y, np.nan), y)
+    records = {f"run {i}": Followed(TIME, y, y) for i in range(20)} | {"run 3": nothing}
+    add_records(page, "Held out", {}, records, {"mass.s": "m"})
+    text = written(page, tmp_path)
+    assert text.count("<figure>") == 8
+    assert all(f"run {i}" in text for i in range(20))
 
 
 def test_laws_parameters_and_residuals(tmp_path: Path) -> None:

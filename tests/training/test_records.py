@@ -48,9 +48,7 @@ def train(data: Any = None, system: ac.System | None = None, **chosen: Any) -> a
     defaults: dict[str, Any] = {
         "modifiers": ["mass.m", "spring.d"], "gamma": 0.9, "strategy": "gauss_newton", "progress": False,
     }  # fmt: skip
-    return ac.fit(
-        system or plain(), data or runs(), ["mass.a", "mass.s"], **(defaults | chosen)
-    )
+    return ac.fit(system or plain(), data or runs(), ["mass.a", "mass.s"], **(defaults | chosen))
 
 
 @cache
@@ -160,7 +158,9 @@ def test_sequences_end_with_their_record():
     short = int(records.first[0])
     window = records.window(jnp.asarray(short), problem.sequences.length)
     assert int((np.asarray(window.weight)[:, 0] > 0).sum()) == len(runs()["short"])
-    np.testing.assert_array_equal(window.y[len(runs()["short"]) :, 0], records.y[records.last[0], 0])
+    np.testing.assert_array_equal(
+        window.y[len(runs()["short"]) :, 0], records.y[records.last[0], 0]
+    )
     starts = np.asarray(problem.sequences.starts)
     of, last = np.asarray(records.of), np.asarray(records.last)
     fits = starts + problem.sequences.length - 1 <= last[of[starts]]
@@ -254,7 +254,9 @@ def test_uneven_samples_are_integrated_in_steps_that_are_short_enough():
     coarse = ac.Data(
         fine.time[rows], {n: fine[n][rows] for n in ("push.f", "mass.a", "mass.s", "mass.v")}
     )
-    problem = pose({"uneven": uneven, "coarse": coarse}, dt=0.01, x0={"mass.s": 0.2, "mass.v": -0.2})
+    problem = pose(
+        {"uneven": uneven, "coarse": coarse}, dt=0.01, x0={"mass.s": 0.2, "mass.v": -0.2}
+    )
     records = problem.records
     assert problem.substeps == 1
     assert float(records.steps.h.max()) <= 0.01 + 1e-12
@@ -366,7 +368,9 @@ def learned_data() -> dict[str, ac.Data]:
 
 
 def test_the_report_shows_every_record(tmp_path: Any):
-    page = train(validation="medium", epochs=3).report(tmp_path).read_text()
+    chosen = {"validation": "medium", "epochs": 3, "per_record": {"spring.c": 5.0}}
+    page = train(**chosen).report(tmp_path).read_text()
+    assert "spring.c [N/m]" in page
     assert "of &#x27;long&#x27;" in page or "of 'long'" in page
     assert "Held out" in page
     assert "RMS error of mass.a" in page
@@ -389,10 +393,7 @@ def test_the_report_shows_every_record(tmp_path: Any):
 )  # fmt: skip
 def test_mistakes_get_one_sentence(chosen: dict[str, Any], sentence: str):
     chosen = dict(chosen)
-    data = chosen.pop("data", None)
+    data = chosen.pop("data", runs())
     with pytest.raises((ac.DataError, ac.TrainingError)) as error:
-        if data is None:
-            train(**chosen)
-        else:
-            ac.fit(plain(), data, "mass.a", modifiers=["mass.m"])
+        ac.fit(plain(), data, "mass.a", **({"modifiers": ["mass.m"], "progress": False} | chosen))
     assert str(error.value).startswith(sentence)

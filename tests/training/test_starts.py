@@ -181,7 +181,8 @@ def test_starts_are_spread_over_the_ranges_of_modifiers():
 def test_a_positive_parameter_is_spread_by_factors():
     kind = ac.Bounded(0.0, math.inf)
     values = [
-        float(kind.change(jnp.asarray(3.0), jnp.asarray(kind.free(3.0, q)))) + 3 for q in (0.16, 0.5, 0.84)
+        float(kind.change(jnp.asarray(3.0), jnp.asarray(kind.free(3.0, q)))) + 3
+        for q in (0.16, 0.5, 0.84)
     ]
     assert values == pytest.approx((3 / math.e, 3.0, 3 * math.e), rel=0.02)
 

@@ -43,12 +43,16 @@ def calls(system: System, module: str) -> tuple[Call, ...]:
     Raises:
         ModelError: for a name that is no module of the model.
     """
-    layout = system.flat.layout
+    return tuple(_calls(system, _target(system, module)))
+
+
+def _target(system: System, module: str) -> int:
+    """The index of a module, or of the one that it refers to."""
     targets = system.layout.module_of
-    known = {layout.module(i): i for i in range(len(targets))}
+    known = {system.flat.layout.module(i): i for i in range(len(targets))}
     if module not in known:
         raise ModelError(f"the model has no module '{module}': {nearest(module, known)}")
-    return tuple(_calls(system, int(targets[known[module]])))
+    return int(targets[known[module]])
 
 
 def _calls(system: System, target: int) -> Iterator[Call]:
@@ -101,3 +105,51 @@ def _arguments_of(system: System, call: Call, values: Values) -> Float[Array, " 
     slots |= {s: read_parameters(system.layout, p, packed) for s, p in parameters}
     slots |= {s: ModuleValue(packed.modules[m]) for s, m in call.modules}
     return jnp.stack([jnp.asarray(evaluate(a, slots), float) for a in call.arguments])
+
+
+@dataclass(frozen=True)
+class Labels:
+    """What a law takes and gives where a model first calls it, in words for axes and tables.
+
+    Attributes:
+        arguments: names with units, or expressions.
+        result: name with unit; empty where the law's value is no variable of the model.
+    """
+
+    arguments: tuple[str, ...]
+    result: str
+
+
+def labels(system: System, module: str) -> Labels:
+    """What a module takes and gives, by the first equation that calls it.
+
+    Raises:
+        ModelError: for a name that is no module of the model.
+    """
+    target = _target(system, module)
+    for group in system.flat.groups:
+        template = group.template
+        if not template.modules:
+            continue
+        chosen = system.layout.module_of[group.modules[0]].tolist()
+        modules: dict[Any, int] = dict(zip(template.modules, chosen, strict=True))
+        found = sorted(template.residual.atoms(ModuleCall), key=sp.default_sort_key)
+        for call in found:
+            if modules[call.args[0]] != target:
+                continue
+            rest: Any = template.residual.xreplace({call: sp.Integer(0)})
+            result = _label(system, group, -rest if (-rest).is_Symbol else rest)
+            arguments = tuple(_label(system, group, a) or str(a) for a in call.args[2:])
+            return Labels(arguments, result)
+    return Labels((), "")
+
+
+def _label(system: System, group: EquationGroup, expression: Any) -> str:
+    """Name and unit of a variable of the first equation of a group; an empty text for anything else."""
+    template, layout = group.template, system.flat.layout
+    places = zip(template.variables, group.variables[0].tolist(), template.orders, strict=True)
+    for symbol, index, order in places:
+        if symbol == expression:
+            name = "der(" * order + layout.variable(index) + ")" * order
+            return f"{name} [{system.unit(name)}]".replace(" []", "")
+    return ""

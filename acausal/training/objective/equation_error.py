@@ -60,14 +60,15 @@ class EquationError(eqx.Module):
         p = self.problem
         packed = p.pack(p.assemble(trainable), trainable)
         records = p.records
-        t, u, y, weight, of = (
-            a[self.rows] for a in (records.steps.t, p.inputs, records.y, records.weight, records.of)
-        )
+        steps = p.steps(packed, self.rows)
+        y, weight, of = (a[self.rows] for a in (records.y, records.weight, records.of))
 
         def at(t: Array, x: Array, u: Array, record: Array) -> Float[Array, " n_targets"]:
             return p.system.read(p.targets, Values(t, x, u, p.packed_of(packed, record)))
 
-        return p.compare_some(jax.vmap(at)(t, self.x, u, of), y, weight)[None]
+        return p.compare_some(jax.vmap(at)(steps.t, self.x, steps.inputs.start, of), y, weight)[
+            None
+        ]
 
     def entry(self, best: Trainable) -> Trainable:
         """What another part of the training has found, as a start of this one."""
@@ -92,6 +93,10 @@ def equation_error(problem: Problem) -> EquationError:
         raise TrainingError(
             "The equation error needs all states in the data: "
             "leave 'equation_error' out of the strategy, or measure them."
+        )
+    if slow := [n for n in problem.targets if n in problem.timing.delays + problem.timing.lags]:
+        raise TrainingError(
+            f"The equation error knows no delay or lag of a target, here {listing(slow)}: leave 'equation_error' out."
         )
     states = _smoothed(problem.records, np.asarray(problem.records.x))
     known = np.flatnonzero(np.isfinite(states).all(axis=1) & np.asarray(problem.records.sampled))

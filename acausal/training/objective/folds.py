@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal.data import Data
 from acausal.errors import DataError, shown
-from acausal.training.objective.held_out import HeldOut, untrained
+from acausal.training.objective.held_out import HeldOut, of_others
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
@@ -124,6 +124,6 @@ def judged_on(
         mesh=None,
     )
     if fold.record:
-        starts = first_states(problem.system, data, untrained(x0, data))
+        starts = first_states(problem.system, data, of_others(x0, data), trained=False)
         judged = replace(judged, first_states=starts, shooting=None)
     return HeldOut(judged)

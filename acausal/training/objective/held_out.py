@@ -107,7 +107,7 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None
         return None
     if not split.ends:
         held = {n: d.for_system(problem.system) for n, d in split.held.items()}
-        return HeldOut(over(problem, held, untrained(x0, held)))
+        return HeldOut(over(problem, held, of_others(x0, held)))
     other = over(problem, split.held, "model")
     records = other.records
     ends = jnp.asarray(list(split.ends.values()))[records.of]
@@ -122,14 +122,12 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None
     )
 
 
-def untrained(x0: InitialState, records: Mapping[str, Data]) -> InitialState:
-    """The choice for records on which nothing is trained; as measured where nothing else is said."""
-    if isinstance(x0, str):
-        return "data" if x0 == "fit" else x0
-    if not any(isinstance(v, str | Mapping) for v in x0.values()):
+def of_others(x0: InitialState, records: Mapping[str, Data]) -> InitialState:
+    """The choice for held-out records; as for trained ones where nothing is said of them."""
+    if isinstance(x0, str) or not any(isinstance(v, str | Mapping) for v in x0.values()):
         return x0
     chosen: Mapping[str, Any] = x0
-    return {n: "data" if chosen.get(n, "fit") == "fit" else chosen[n] for n in records}
+    return {n: chosen.get(n, "fit") for n in records}
 
 
 def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Problem:
@@ -141,8 +139,17 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         x0: the states at their starts.
     """
     system = problem.system
-    starts = first_states(system, data, x0)
-    records, substeps = lay_out(data, system.inputs, problem.targets, None, problem.longest_step)
+    starts = first_states(system, data, x0, trained=False)
+    records, substeps = lay_out(
+        data,
+        system.inputs,
+        problem.targets,
+        None,
+        problem.longest_step,
+        solver=problem.solver,
+        timing=problem.timing,
+    )
+    records = problem.weighting.apply(records)
     return replace(
         problem,
         records=replace(records, sigma=problem.records.sigma, known=False),

@@ -35,7 +35,7 @@ class Start(NamedTuple):
 
     Attributes:
         kind: `GIVEN`, `MODEL`, `STEADY` or `FIT`.
-        state: the given one; else as measured as far as that is so, and NaN.
+        state: what is known without parameters; NaN elsewhere.
     """
 
     kind: int
@@ -47,7 +47,7 @@ class FirstStates(eqx.Module):
 
     Attributes:
         kind: of every record.
-        given: states that do not depend on parameters.
+        given: states that do not depend on parameters; NaN for others.
         kinds: those that occur.
     """
 
@@ -86,19 +86,30 @@ class FirstStates(eqx.Module):
             rows = packed.values, u, t
             alone = len(self.kind) == 1
             found = one(jax.tree.map(lambda a: a[0], rows))[None] if alone else lax.map(one, rows)
-            states = jnp.where((self.kind == kind)[:, None], found, states)
+            known = jnp.where(jnp.isnan(self.given), found, self.given)
+            states = jnp.where((self.kind == kind)[:, None], known, states)
         return states
 
 
-def first_states(system: System, data: Mapping[str, Data], x0: InitialState) -> FirstStates:
+def first_states(
+    system: System, data: Mapping[str, Data], x0: InitialState, *, trained: bool = True
+) -> FirstStates:
     """The states at which records start as ``x0`` says.
+
+    Arguments:
+        system: the model.
+        data: records by name.
+        x0: the choice.
+        trained: whether they are records of the training; else those in the place of trained ones are as measured, and
+            as the model starts where they are not.
 
     Raises:
         DataError: for another word, a name that is neither a state nor a record, a value that is not a number, or a
             state that is neither in the data nor in ``x0``.
     """
     starts = [
-        _start(system, d, of) for d, of in zip(data.values(), by_record(data, x0), strict=True)
+        _start(system, d, of, trained=trained)
+        for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
     kinds = tuple(sorted({s.kind for s in starts}))
     return FirstStates(
@@ -140,11 +151,13 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
     return [own[n] for n in records]
 
 
-def _start(system: System, data: Data, x0: OfRecord) -> Start:
+def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
     measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
     if isinstance(x0, str) and x0 != "data":
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
+        if x0 == "fit" and not trained:
+            return Start(MODEL, measured)
         return Start(KINDS.index(x0), np.full(len(system.states), np.nan))
     given: Mapping[str, float] = {} if isinstance(x0, str) else x0
     for name, value in given.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -12,8 +13,18 @@ from jaxtyping import Float
 from acausal._jax import is_number
 from acausal.data import Data
 from acausal.errors import DataError, TrainingError, shown
-from acausal.simulation import Samples, Steps, functions_of_time, polynomials_over_steps
+from acausal.simulation import (
+    Samples,
+    Solver,
+    Steps,
+    TimeFunction,
+    functions_of_time,
+    inner_fractions,
+    polynomials_over_steps,
+)
+from acausal.training.objective.input_delays import delayed_inputs
 from acausal.training.objective.records import Records
+from acausal.training.objective.timing import Timing
 
 ALIKE = 1e-6
 """Sample times that differ by less than this part count as equal."""
@@ -37,6 +48,9 @@ def lay_out(
     targets: tuple[str, ...],
     states: tuple[str, ...] | None,
     longest: float | None = None,
+    *,
+    solver: Solver | None = None,
+    timing: Timing | None = None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
 
@@ -46,9 +60,12 @@ def lay_out(
         data: by name.
         inputs, targets, states: names of signals; states may be missing in some records.
         longest: step in seconds; by default steps go from sample to sample.
+        solver: of the steps, and
+        timing: the delays, where inputs are delayed.
 
     Raises:
         DataError: for a signal that is missing.
+        TrainingError: if an input's delay cannot be trained.
     """
     even = sample_time(data.values())
     substeps = 1 if longest is None or even is None else parts(even, longest)
@@ -79,6 +96,14 @@ def lay_out(
         sampled=jnp.asarray(np.concatenate([g.sampled for g in grids])),
         names=tuple(data),
     )
+    if timing is not None and solver is not None:
+        late = delayed_inputs(
+            inputs,
+            [r.functions for r in rows],
+            timing,
+            inner_fractions(solver, substeps),
+        )
+        records = replace(records, delayed=late)
     return records, substeps
 
 
@@ -88,6 +113,7 @@ class _Rows(NamedTuple):
     y: Float[np.ndarray, "n n_targets"]
     x: Float[np.ndarray, "n n_states"]
     inputs: Samples
+    functions: tuple[TimeFunction, ...]
 
 
 def _rows(
@@ -103,12 +129,13 @@ def _rows(
         return rows
 
     span = float(grid.t[0]), float(grid.t[-1])
-    inner = polynomials_over_steps(functions_of_time(inputs, data, span), grid.t)
+    functions = functions_of_time(inputs, data, span)
+    inner = polynomials_over_steps(functions, grid.t)
     names = states or ()
     nothing = np.full(len(data), np.nan)
     x = [data.signals.get(n, nothing) for n in names] or [nothing]
     y = data.columns(targets, "a target of the training")
-    return _Rows(at_rows(y), at_rows(np.stack(x, axis=1)), _with_last(inner))
+    return _Rows(at_rows(y), at_rows(np.stack(x, axis=1)), _with_last(inner), functions)
 
 
 def _with_last(inner: Samples) -> Samples:

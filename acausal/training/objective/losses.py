@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, nearest
+from acausal.training.objective.error_laws import LAWS, ErrorLaw
 
 Loss = Callable[..., Float[Array, ""]]
 """(predicted, measured, sigma, weight) -> scalar, for M points of k targets; a user's own may leave out the weight."""
@@ -34,8 +35,12 @@ def nrmse(
 
 
 def mean_of(terms: Float[Array, "M k"], weight: Float[Array, "M k"]) -> Float[Array, " k"]:
-    """The weighted mean over the points, by target; zero for one without any."""
-    total = jnp.sum(weight, axis=0)
+    """The weighted mean over the points, by target; zero for one without any.
+
+    Only the ratios of all weights matter: a target with twice the weights of the others counts twice.
+    """
+    counts = jnp.sum(weight > 0, axis=0)
+    total = counts * (jnp.sum(weight) / jnp.maximum(jnp.sum(counts), 1))
     return jnp.sum(terms * weight, axis=0) / jnp.where(total > 0, total, 1.0)
 
 
@@ -63,16 +68,20 @@ def number(what: str, function: Callable[..., object], *arguments: object) -> Fl
 LOSSES: dict[str, Loss] = {"nrmse": nrmse}
 
 
-def named(loss: str | Loss) -> Loss:
-    """A loss from its name, or the user's own function.
+def named(loss: str | Loss | ErrorLaw, targets: Sequence[str]) -> Loss:
+    """The loss of some targets, from its name, a law of errors, or the user's own function.
 
     Raises:
-        TrainingError: for a name that is not known.
+        TrainingError: for a name that is not known, or a level of noise of no target.
     """
+    if isinstance(loss, ErrorLaw):
+        return loss.of(targets)
     if callable(loss):
         return loss if _takes_weights(loss) else WithoutWeights(loss)
+    if loss in LAWS:
+        return LAWS[loss]().of(targets)
     if loss not in LOSSES:
-        raise TrainingError(f"No loss '{loss}': {nearest(loss, LOSSES)}")
+        raise TrainingError(f"No loss '{loss}': {nearest(loss, (*LOSSES, *LAWS))}")
     return LOSSES[loss]
 
 

@@ -230,6 +230,12 @@ class Modifiers(eqx.Module):
     kinds: tuple[Modifier, ...] = eqx.field(static=True)
     values: tuple[Scalar, ...]
 
+    def joined(self, other: Modifiers) -> Modifiers:
+        """These and others."""
+        return Modifiers(
+            self.names + other.names, self.kinds + other.kinds, self.values + other.values
+        )
+
     def start(self) -> dict[str, Scalar]:
         """The free variables δ where training starts: zero, which changes nothing."""
         return {name: jnp.zeros(()) for name in self.names}

@@ -16,17 +16,22 @@ from acausal._jax import Restarts, cast
 from acausal.codegen import Packed, Values
 from acausal.simulation import Integrated, Runs, Solver, Steps, integrate
 from acausal.training.objective.arguments import arguments
+from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.parameter_spread import ParameterSpread
 from acausal.training.objective.per_record import PerRecord, for_records
+from acausal.training.objective.prior import Prior
 from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer
+from acausal.training.objective.sensors import Sensors
 from acausal.training.objective.sequences import Batch, Sequences
 from acausal.training.objective.sharding import shard
+from acausal.training.objective.timing import Timing
 from acausal.training.objective.trainable import Simulated, Trainable
+from acausal.training.objective.weighting import Weighting
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -38,10 +43,12 @@ class PackedRecords(NamedTuple):
     Attributes:
         common: those of all records.
         own: of every record, the numbers in `PerRecord.places`; ``None`` where records do not differ.
+        times: delays and lags, by name.
     """
 
     common: Packed
     own: Float[Array, "R n_places"] | None
+    times: dict[str, Float[Array, ""]]
 
 
 class Problem(eqx.Module):
@@ -55,11 +62,14 @@ class Problem(eqx.Module):
         parameter_spread: the parameters that differ from run to run.
         targets: the variables that are compared.
         per_record: the parameters that have a value for each record.
+        timing: delays and lags; those that are trained are among ``modifiers``.
         records: the data.
+        weighting: how much records, targets and times count.
         sequences: how batches are drawn from them.
         first_states: the states at which records start, where they are not trained.
         shooting: the states at which sequences begin, where they are trained, too.
         loss: compares a predicted with a measured sequence.
+        prior: what an earlier training knew.
         regularizers: penalties by name.
         context: the arguments of regularizers besides the parameters.
         solver, substeps: the scheme, and the number of its steps from sample to sample.
@@ -74,11 +84,14 @@ class Problem(eqx.Module):
     parameter_spread: ParameterSpread
     targets: tuple[str, ...] = eqx.field(static=True)
     per_record: PerRecord
+    timing: Timing
     records: Records
+    weighting: Weighting = eqx.field(static=True)
     sequences: Sequences
     first_states: FirstStates
     shooting: ShootingStates | None
     loss: Loss = eqx.field(static=True)
+    prior: Prior | None
     regularizers: dict[str, Regularizer]
     context: Context
     solver: Solver = eqx.field(static=True)
@@ -95,8 +108,15 @@ class Problem(eqx.Module):
 
     @property
     def inputs(self) -> Float[Array, "N n_inputs"]:
-        """The model's inputs at every row."""
+        """The model's inputs at every row, as they are measured."""
         return self.records.steps.inputs.start
+
+    def steps(self, packed: PackedRecords, rows: Int[Array, " n"] | None = None) -> Steps:
+        """The steps of all records, or of some rows, with inputs delayed."""
+        steps, of = self.records.steps, self.records.of
+        if rows is not None:
+            steps, of = jax.tree.map(lambda a: a[rows] if a.ndim else a, (steps, of))
+        return self.records.delayed(steps, of, packed.times)
 
     def residuals(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, "N n_targets"]:
         """The residuals of predictions of all records: measured less predicted; zero where nothing is measured."""
@@ -117,6 +137,25 @@ class Problem(eqx.Module):
         """The loss of predictions of some samples."""
         return number("The loss", self.loss, predicted, measured, self.records.sigma, weight)
 
+    @property
+    def sensors(self) -> Sensors:
+        """What the targets' sensors do."""
+        return Sensors.of(self.timing, self.targets)
+
+    @property
+    def counts_as_logarithm(self) -> bool:
+        """Whether the loss is a logarithm of a likelihood; others are like a root mean square."""
+        return isinstance(self.loss, LogLikelihood)
+
+    def curvature(
+        self, predicted: Float[Array, "N n_targets"]
+    ) -> Float[Array, "N n_targets"] | None:
+        """The second derivative of the loss by each prediction, where the loss gives it."""
+        if not isinstance(self.loss, LogLikelihood):
+            return None
+        records = self.records
+        return self.loss.curvature(predicted, records.y, records.sigma, records.weight)
+
     # -- what is trained -----------------------------------------------------------------------------
 
     def start(self) -> Trainable:
@@ -127,16 +166,26 @@ class Problem(eqx.Module):
         return Trainable(networks, self.modifiers.start(), own, states)
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
-        """The model's parameters, with physical values, for some state of the training: those common to all records."""
+        """Physical values, networks, delays and lags for some state of the training: those common to all records."""
         networks = {
             n: eqx.combine(arrays, self.params[n]) for n, arrays in trainable.networks.items()
         }
-        return self.modifiers.apply({**self.params, **networks}, trainable.modifiers)
+        start = {**self.params, **networks, **self.timing.values}
+        return self.modifiers.apply(start, trainable.modifiers)
+
+    def model_params(self, trainable: Trainable) -> dict[str, Any]:
+        """The same without delays and lags: the parameters of the model."""
+        return self.timing.split(self.assemble(trainable))[0]
+
+    def unit(self, name: str) -> str:
+        """The unit of something that is trained."""
+        return "s" if name in self.timing.values else self.system.unit(name)
 
     def pack(self, params: dict[str, Any], trainable: Trainable) -> PackedRecords:
         """Parameters as the model's program reads them."""
+        params, times = self.timing.split(params)
         own = self.per_record.packed(self.system, params, trainable.per_record)
-        return PackedRecords(self.system.pack(params), own)
+        return PackedRecords(self.system.pack(params), own, times)
 
     def entry(self, best: Trainable) -> Trainable:
         """What another problem of this training has found, as a start of this one."""
@@ -156,14 +205,22 @@ class Problem(eqx.Module):
         """The loss, and what is known without data: a loss ℓ of n samples counts as the likelihood ``ℓ^-n``.
 
         That is the likelihood of normal errors whose size is not known; its largest value is that of the root mean
-        square.
+        square. A loss that is a logarithm itself counts as ``e^-nℓ``.
         """
-        return loss * jnp.exp(self.log_prior(trainable)) if self.per_record.names else loss
+        if not self.per_record.names and self.prior is None:
+            return loss
+        known = self.log_prior(trainable)
+        if self.counts_as_logarithm:
+            return loss + known
+        return loss * jnp.exp(known)
 
     def log_prior(self, trainable: Trainable) -> Float[Array, ""]:
         """Minus the logarithm of the prior density of what is trained, for each measured sample."""
         samples = jnp.sum(self.records.weight > 0)
-        return self.per_record.log_prior(trainable.per_record) / samples
+        known = self.per_record.log_prior(trainable.per_record)
+        if self.prior is not None:
+            known += self.prior.log_prior(self.assemble(trainable))
+        return known / samples
 
     # -- losses of sequences -------------------------------------------------------------------------
 
@@ -208,7 +265,7 @@ class Problem(eqx.Module):
         if self.sequences.whole:
             first = jax.tree.map(lambda a: a[0], (points, nudges))
             return self._loss_of_all(packed, trainable, *first)[None]
-        records, shooting = self.records, self.shooting
+        records, shooting, sensors = self.records, self.shooting, self.sensors
         parts = None if shooting is None else self._part_states(trainable, packed)
 
         def one(
@@ -224,9 +281,11 @@ class Problem(eqx.Module):
                 x0 = parts[shooting.part(start)]
             x0 = x0 if nudge is None else x0 + nudge
             own = self.packed_of(packed, records.of[start])
-            found = self._integrate(own, x0, window.steps)
+            steps = records.delayed(window.steps, records.of[start], packed.times)
+            found = self._integrate(own, x0, steps)
             assert found.y is not None
-            compared = found.y, window.y, window.weight
+            seen, weight = sensors.over_window(found.y, window, records, start, packed.times)
+            compared = seen, window.y, weight
             if points is not None:
                 compared = jax.tree.map(lambda a: a[points], compared)
             loss = self.compare_some(*compared)
@@ -256,7 +315,7 @@ class Problem(eqx.Module):
 
     def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
         """What every regularizer adds to the loss."""
-        params = self.assemble(trainable)
+        params = self.model_params(trainable)
         return {
             name: number(f"The regularizer '{name}'", r, params, self.context)
             for name, r in self.regularizers.items()
@@ -300,9 +359,10 @@ class Problem(eqx.Module):
         The calls of a network with several places in the model follow each other row by row.
         """
         packed = self.pack(self.assemble(trainable), trainable)
-        points = (self.records.steps.t, x, self.inputs, self.records.of)
+        steps, of = self.steps(packed, rows), self.records.of
         if rows is not None:
-            points = jax.tree.map(lambda a: a[rows], points)
+            x, of = x[rows], of[rows]
+        points = (steps.t, x, steps.inputs.start, of)
 
         def at(name: str) -> Float[Array, "n_calls n_arguments"]:
             def one(t: Array, x: Array, u: Array, record: Array) -> Array:
@@ -337,9 +397,9 @@ class Problem(eqx.Module):
     ) -> Float[Array, "R n_states"]:
         """The states at which records start."""
         records = self.records
-        t, u = records.steps.t[records.first], self.inputs[records.first]
+        first = self.steps(packed, records.first)
         all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
-        states = self.first_states(self.system, all_packed, t, u)
+        states = self.first_states(self.system, all_packed, first.t, first.inputs.start)
         if self.shooting is None:
             return states
         trained = self.shooting.of_first(trainable.states)
@@ -371,17 +431,22 @@ class Problem(eqx.Module):
         records = self.records
         x0 = self.start_states(trainable, packed)
         x0 = x0 if nudge is None else x0 + nudge
-        own = packed.own
+        own, steps = packed.own, self.steps(packed)
         if records.count == 1:
-            return self._integrate(
-                self.packed_of(packed, jnp.asarray(0)), x0[0], records.steps, direct=direct
-            )
+            one = self.packed_of(packed, jnp.asarray(0))
+            return self._measured(self._integrate(one, x0[0], steps, direct=direct), packed)
         runs = Runs(
             Restarts(records.begins, records.spread_at_starts(x0)),
             None if own is None else own[records.of],
             self.per_record.places,
         )
-        return self._integrate(packed.common, x0[0], records.steps, runs=runs, direct=direct)
+        found = self._integrate(packed.common, x0[0], steps, runs=runs, direct=direct)
+        return self._measured(found, packed)
+
+    def _measured(self, found: Integrated, packed: PackedRecords) -> Integrated:
+        """The same with targets as their sensors show them."""
+        assert found.y is not None
+        return found._replace(y=self.sensors.over_records(found.y, self.records, packed.times))
 
     def _integrate(
         self,

@@ -7,6 +7,7 @@ program has the same size however many there are.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import equinox as eqx
@@ -17,6 +18,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.simulation import Steps
+from acausal.training.objective.input_delays import NOTHING_DELAYED, DelayedInputs
 
 
 class Places(NamedTuple):
@@ -65,6 +67,7 @@ class Records(eqx.Module):
         sampled: the rows that hold samples; the others only shorten steps.
         names: of the records.
         known: whether these are the records of the training.
+        delayed: the inputs that come later than ``steps`` says.
     """
 
     steps: Steps
@@ -78,6 +81,7 @@ class Records(eqx.Module):
     sampled: Bool[Array, " N"]
     names: tuple[str, ...] = eqx.field(static=True)
     known: bool = eqx.field(static=True, default=True)
+    delayed: DelayedInputs = NOTHING_DELAYED
 
     def __len__(self) -> int:
         """How many rows there are."""
@@ -101,6 +105,10 @@ class Records(eqx.Module):
     def spread_at_starts(self, x0: Float[Array, "R n_states"]) -> Float[Array, "N n_states"]:
         """Rows with a state for each record at its first row, zero elsewhere."""
         return jnp.zeros((len(self), x0.shape[1]), x0.dtype).at[self.first].set(x0)
+
+    def unweighted(self) -> Records:
+        """The same where all measured samples count alike."""
+        return replace(self, weight=jnp.where(self.weight > 0, 1.0, 0.0))
 
     def window(self, start: Int[Array, ""], length: int) -> Window:
         """The ``length`` rows from ``start`` on; beyond the record's end its last row is repeated, with no weight."""

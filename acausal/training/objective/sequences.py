@@ -14,6 +14,9 @@ from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray
 from acausal.errors import DataError, listing
 from acausal.training.objective.records import Records
 
+LEAST_WEIGHT = 1e-9
+"""Weight of a sequence none of whose samples count, relative to the mean."""
+
 
 class Batch(eqx.Module):
     """Some sequences of records.
@@ -54,12 +57,13 @@ class Sequences(eqx.Module):
 
     Attributes:
         starts: the rows at which sequences may begin.
-        weight: of the record there.
+        weight: of each in the mean over a batch.
         length: rows in a sequence; a record that is shorter is taken as a whole.
         batch_size: sequences in a batch.
         points: rows that count in each sequence, or ``None`` for all.
         whole: whether the one sequence is all of every record.
         side_by_side: whether sequences begin where others end; else they begin at any row.
+        chances: running sums of the probabilities of ``starts``; ``None`` where all are alike.
     """
 
     starts: Int[Array, " n_starts"]
@@ -69,6 +73,7 @@ class Sequences(eqx.Module):
     points: int | None = eqx.field(static=True)
     whole: bool = eqx.field(static=True)
     side_by_side: bool = eqx.field(static=True, default=False)
+    chances: Float[Array, " n_starts"] | None = None
 
     @property
     def always_alike(self) -> bool:
@@ -101,8 +106,27 @@ class Sequences(eqx.Module):
             )
         return Batch(self.starts[chosen], self.weight[chosen], points)
 
+    def weighted(self, records: Records) -> Sequences:
+        """The same where sequences count by the weights of their samples.
+
+        Sequences at any row are drawn as often as they count; those side by side, all of which are drawn, have weights.
+        """
+        if self.whole:
+            return self
+        sums = np.append(0.0, np.cumsum(np.asarray(records.weight).sum(axis=1)))
+        starts = np.asarray(self.starts)
+        last = np.asarray(records.last)[np.asarray(records.of)[starts]]
+        counts = sums[np.minimum(starts + self.length - 1, last) + 1] - sums[starts]
+        weight = jnp.asarray(np.maximum(counts / counts.mean(), LEAST_WEIGHT))
+        if self.side_by_side:
+            return replace(self, weight=weight)
+        return replace(self, chances=jnp.cumsum(weight))
+
     def _chosen(self, key: PRNGKeyArray) -> Int[Array, " batch"]:
         count = len(self.starts)
+        if self.chances is not None:
+            where = jax.random.uniform(key, (self.batch_size,)) * self.chances[-1]
+            return jnp.minimum(jnp.searchsorted(self.chances, where, side="right"), count - 1)
         if not self.side_by_side:
             return jax.random.randint(key, (self.batch_size,), 0, count)
         every = jnp.arange(count)

@@ -73,6 +73,12 @@ class LeastSquares(Objective, Protocol):
         """The loss of one model's predictions."""
         ...
 
+    def curvature(
+        self, predicted: Float[Array, "n_samples n_targets"]
+    ) -> Float[Array, "n_samples n_targets"] | None:
+        """The second derivative of the loss by each prediction, where the loss gives it."""
+        ...
+
 
 class Evaluated(eqx.Module):
     """Losses of a batch, and the derivatives of their mean by what is trained.
@@ -127,7 +133,8 @@ def with_gauss_newton_hessian(
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 
     This is the Hessian of Gauss and Newton. A loss ℓ counts as ½ℓ², over ℓ. For root mean squares this is a sum of
-    squares, and a better model of ℓ than its own Hessian, which vanishes towards the minimum.
+    squares, and a better model of ℓ than its own Hessian, which vanishes towards the minimum. A loss that gives its
+    curvature by each prediction, as a likelihood does, has that of a weighted sum of squares.
     """
     flat, unravel = ravel_pytree(trainable)
 
@@ -139,9 +146,7 @@ def with_gauss_newton_hessian(
     )
     loss, gradient, hessian = jax.tree.map(
         lambda each: jnp.mean(each, axis=0),
-        jax.vmap(lambda y, jacobian: _of_loss(objective.compare, y, jacobian))(
-            predicted, jacobians
-        ),
+        jax.vmap(lambda y, jacobian: _of_loss(objective, y, jacobian))(predicted, jacobians),
     )
     mean = loss
     loss, gradient, hessian = _weighed(
@@ -176,20 +181,24 @@ def _weighed(
 
 
 def _of_loss(
-    loss: Callable[[Float[Array, "n_samples n_targets"]], Scalar],
+    objective: LeastSquares,
     predicted: Float[Array, "n_samples n_targets"],
     jacobian: Float[Array, "P n_samples n_targets"],
 ) -> tuple[Scalar, Float[Array, " P"], Float[Array, "P P"]]:
     """The loss of predictions, its gradient and Gauss-Newton Hessian, from the predictions' Jacobian."""
+    loss = objective.compare
     value, by_prediction = jax.value_and_grad(loss)(predicted)
+    rows = jacobian.reshape(len(jacobian), -1)
+    gradient = rows @ by_prediction.ravel()
+    if (curvature := objective.curvature(predicted)) is not None:
+        return value, gradient, (rows * curvature.ravel()) @ rows.T
 
     def times_hessian(direction: Float[Array, "n_samples n_targets"]) -> Float[Array, " ..."]:
         half = jax.grad(lambda y: 0.5 * loss(y) ** 2)
         return jax.jvp(half, (predicted,), (direction,))[1]
 
-    rows = jacobian.reshape(len(jacobian), -1)
     products = jax.vmap(times_hessian)(jacobian).reshape(len(jacobian), -1)
-    return value, rows @ by_prediction.ravel(), rows @ products.T / value
+    return value, gradient, rows @ products.T / value
 
 
 def _sum(penalties: dict[str, Scalar]) -> Scalar:

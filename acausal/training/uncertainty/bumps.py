@@ -8,7 +8,7 @@ import numpy as np
 from jax.scipy.special import erf
 from jaxtyping import Array, Float
 
-from acausal.networks import EnergyLaw
+from acausal.networks import EnergyLaw, law_of
 from acausal.training.objective.regularizers import Network
 
 BUMPS, SIGMAS = 12, 3.0
@@ -27,6 +27,10 @@ class Bumped(eqx.Module):
         """The law, or the energy whose derivative it is."""
         shapes = self.areas if isinstance(self.net, EnergyLaw) else self.bumps
         return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
+
+    def law(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
+        """The law."""
+        return law_of(self.net)(*inputs) + jnp.sum(self.heights * self.bumps(inputs[0]))
 
     def bumps(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
         """The bumps at x."""

@@ -25,6 +25,8 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
 from acausal.networks import law_of, output_scale
+from acausal.training.objective.error_laws import LogLikelihood
+from acausal.training.objective.prior import LawPrior, Prior, law_at
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -47,6 +49,9 @@ UNKNOWN = 0.9
 
 CORRELATED = 2.0
 """Residuals are called correlated if more samples than this are worth one independent sample."""
+
+POINTS_EACH = 4
+"""Points for each bump at which a later training compares a law with what is known."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -79,9 +84,10 @@ class Confidence:
             of the law's network can change: 1 where the law can take any part of the parameter.
         per_record: by parameter that differs between records, the standard deviation of each record's deviation from
             the common value.
-        noise: standard deviation of the residuals, by target.
+        noise: standard deviation of the residuals, by target; as given to the loss, or as estimated by it.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
         about: how well each parameter is known, one sentence each.
+        prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
 
     laws: dict[str, Band]
@@ -92,6 +98,7 @@ class Confidence:
     noise: dict[str, float]
     alike: dict[str, float]
     about: tuple[str, ...]
+    prior: Prior
 
     def words(self) -> list[str]:
         """The old name of `summary`."""
@@ -186,10 +193,10 @@ def confidence(
         )
     counts = np.asarray(problem.records.weight) > 0
     n = np.maximum(counts.sum(axis=0), 1)
-    noise = np.sqrt(np.sum(left**2, axis=0) / n)
-    alike = _alike(problem.records, left, counts)
+    noise, factor = _noise(problem, left)
+    alike = _alike(problem.records, factor * left, counts)
     least = np.maximum(noise, LEAST_NOISE * np.asarray(problem.records.sigma)) * np.sqrt(alike)
-    sensitivity = np.where(counts[:, :, None], jacobian / least[:, None], 0.0)
+    sensitivity = np.where(counts[:, :, None], jacobian * (factor / least)[:, :, None], 0.0)
     weighted = sensitivity[..., :count]
     along = sensitivity[..., count + alone :].reshape(left.size, bounds[-1])
     blocks = [
@@ -202,12 +209,14 @@ def confidence(
             strict=True,
         )
     ]
-    found = posterior_covariance(blocks, float(np.sum(n / alike)))
+    blocks += _earlier(problem, changed, len(scale), blocks[0])
+    samples = float(np.sum(n / alike)) + sum(len(b.common) for b in blocks[problem.records.count :])
+    found = posterior_covariance(blocks, samples)
     weighted = weighted.reshape(left.size, count)
     covariance = found.common * np.outer(deviations, deviations)
     between = covariance[ends[0] : ends[1], ends[0] : ends[1]]
     sigma = np.sqrt(np.diag(between))
-    each = np.sqrt([np.diag(c) for c in found.own]) * own
+    each = np.sqrt([np.diag(c) for c in found.own[: problem.records.count]]) * own
     with_laws = {
         name: {
             law: correlation_with(weighted[:, ends[0] + i], along[:, a:b])
@@ -230,7 +239,49 @@ def confidence(
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
         _about(problem, trainable, sigma, prior, taken),
+        _as_prior(
+            problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
+        ),
     )
+
+
+def _earlier(
+    problem: Problem,
+    changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
+    count: int,
+    like: Blocks,
+) -> list[Blocks]:
+    """What the training knew before, as one more record; none if that is nothing."""
+    if (prior := problem.prior) is None:
+        return []
+    jacobian = jax.jit(jax.jacfwd(lambda z: prior.misfit(changed(z)[1])))(jnp.zeros(count))
+    rows = np.asarray(jacobian)[:, : like.common.shape[1]]
+    return [Blocks(rows, np.zeros((len(rows), like.own.shape[1])))]
+
+
+def _as_prior(
+    problem: Problem,
+    params: dict[str, Any],
+    bumped: dict[str, Bumped],
+    seen: dict[str, Float[np.ndarray, "n_calls n_arguments"]],
+    root: Float[np.ndarray, "n n"],
+    alike: float,
+) -> Prior:
+    """What is known now, as the prior of a later training; ``root`` as of `Prior`."""
+
+    def one(name: str) -> LawPrior:
+        centres = bumped[name].centres
+        points = jnp.linspace(centres[0], centres[-1], POINTS_EACH * BUMPS)
+        rest = jnp.asarray(seen[name][:, 1:].mean(axis=0))
+        heights = np.linalg.pinv(np.asarray(jax.vmap(bumped[name].bumps)(points)))
+        return LawPrior(points, rest, law_at(params[name], points, rest), jnp.asarray(heights))
+
+    moved = problem.modifiers
+    values = [float(params[n]) for n in moved.names]
+    scales = [v if kind.unit else 1.0 for v, kind in zip(values, moved.kinds, strict=True)]
+    laws = {n: one(n) for n in problem.networks}
+    numbers = (jnp.asarray(a, float) for a in (values, scales, root, alike))
+    return Prior(laws, moved.names, *numbers)
 
 
 def _about(
@@ -241,14 +292,14 @@ def _about(
     taken: Bool[np.ndarray, " n_parameters"],
 ) -> tuple[str, ...]:
     """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
-    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.system.unit)
+    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.unit)
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
             return f"{at_limit[name]} Its standard deviation cannot be given."
         if sigma > UNKNOWN * prior:
             return f"The data say nothing about '{name}'; leave it as it was, or measure what depends on it."
-        deviation = problem.modifiers.written(name, sigma, ".2g", problem.system.unit(name))
+        deviation = problem.modifiers.written(name, sigma, ".2g", problem.unit(name))
         return f"'{name}' is known to ±{deviation} (one sigma)."
 
     rows = zip(problem.modifiers.names, sigma.tolist(), prior.tolist(), strict=True)
@@ -293,6 +344,18 @@ def _moved(problem: Problem, trainable: Trainable, own: Float[Array, " n_own"]) 
         first = jnp.arange(len(states)) if all_first else problem.shooting.first
         states = states.at[first].add(own[len(names) :])
     return replace(trainable, per_record=per_record, states=states)
+
+
+def _noise(
+    problem: Problem, left: Float[np.ndarray, "N n_targets"]
+) -> tuple[Float[np.ndarray, " n_targets"], Float[np.ndarray, "N n_targets"]]:
+    """The noise of every target, and the root of how much each residual counts: less for an outlier."""
+    records = problem.records
+    if not isinstance(problem.loss, LogLikelihood):
+        count = np.maximum(np.sum(np.asarray(records.weight) > 0, axis=0), 1)
+        return np.sqrt(np.sum(left**2, axis=0) / count), np.ones_like(left)
+    found = problem.loss.levels(records.y - left, records.y, records.sigma, records.weight)
+    return np.asarray(found), np.sqrt(problem.loss.law.weight(jnp.asarray(left) / found))
 
 
 def _alike(

@@ -32,10 +32,12 @@ class Covariance(NamedTuple):
     Attributes:
         common: of those in common.
         own: of each record's own numbers.
+        root: a triangle R of the inverse of the first, ``RᵀR``.
     """
 
     common: Float[np.ndarray, "n n"]
     own: tuple[Float[np.ndarray, "m m"], ...]
+    root: Float[np.ndarray, "n n"]
 
     @property
     def determined(self) -> float:
@@ -64,7 +66,8 @@ def covariance(blocks: Sequence[Blocks]) -> Covariance:
     m = blocks[0].own.shape[1]
     n = blocks[0].common.shape[1]
     reduced = np.concatenate([*(t[m:, m:] for t in triangles), np.eye(n)])
-    half = solve_triangular(np.linalg.qr(reduced, mode="r"), np.eye(n))
+    root = np.asarray(np.linalg.qr(reduced, mode="r"))
+    half = solve_triangular(root, np.eye(n))
     common = half @ half.T
 
     def own(triangle: Float[np.ndarray, "k m+n"]) -> Float[np.ndarray, "m m"]:
@@ -73,7 +76,7 @@ def covariance(blocks: Sequence[Blocks]) -> Covariance:
         )
         return alone @ alone.T + coupling @ common @ coupling.T
 
-    return Covariance(common, tuple(own(t) for t in triangles))
+    return Covariance(common, tuple(own(t) for t in triangles), root)
 
 
 def _triangle(block: Blocks) -> Float[np.ndarray, "k m+n"]:

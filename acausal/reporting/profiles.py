@@ -1,0 +1,99 @@
+"""Profiles of parameters: how much likelihood is lost where they are held."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Protocol, cast
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.html import Page
+from acausal.reporting.sections import AFTER, MEASURED, NARROW, figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SHOWN = 4.0
+"""Ratios are drawn up to so many times the bound."""
+
+
+class Profiled(Protocol):
+    """The loss along a parameter, such as `acausal.Profile`."""
+
+    @property
+    def name(self) -> str:
+        """The parameter."""
+        ...
+
+    @property
+    def unit(self) -> str:
+        """Its unit."""
+        ...
+
+    @property
+    def value(self) -> float:
+        """Where the fit found it."""
+        ...
+
+    @property
+    def values(self) -> Float[np.ndarray, " points"]:
+        """Where it was held."""
+        ...
+
+    @property
+    def ratio(self) -> Float[np.ndarray, " points"]:
+        """Twice the log likelihood that is lost there."""
+        ...
+
+    @property
+    def bound(self) -> float:
+        """The largest ratio inside of the interval."""
+        ...
+
+    def summary(self) -> str:
+        """What this means, as a sentence."""
+        ...
+
+
+def plot_profile(profile: Profiled, axes: Any = None) -> Figure:
+    """Plot the likelihood ratio over a parameter, with the bound of its interval.
+
+    Arguments:
+        profile: what to plot.
+        axes: matplotlib axes; by default those of a new figure.
+    """
+    ax = new_axes(NARROW)[0] if axes is None else need_axes(axes, "axes")
+    _draw(ax, profile)
+    return cast("Figure", ax.figure)
+
+
+def add_profiles(page: Page, profiles: Sequence[Profiled]) -> None:
+    """Profiles of parameters, if there are any: whether the data determine them."""
+    if not profiles:
+        return
+    page.section("Profiles")
+    page.text(
+        "Everything else is trained again where one parameter is held. Values below the dotted line agree with the "
+        "data; where a curve stays below it, the parameter is not identifiable."
+    )
+    for profile in profiles:
+        page.text(profile.summary())
+        page.figure(
+            figure(NARROW, lambda ax, profile=profile: _draw(ax, profile)),
+            f"The profile of '{profile.name}'.",
+        )
+
+
+def _draw(ax: Axes, profile: Profiled) -> None:
+    ax.plot(profile.values, profile.ratio, "o-", color=AFTER, lw=1.2, ms=3)
+    ax.axhline(profile.bound, color=MEASURED, lw=0.9, ls=":")
+    ax.axvline(profile.value, color=MEASURED, lw=0.9, ls="--")
+    finite = profile.ratio[np.isfinite(profile.ratio)]
+    top = min(float(finite.max()), SHOWN * profile.bound)
+    ax.set_ylim(-0.05 * profile.bound, 1.1 * max(top, profile.bound))
+    unit = "" if profile.unit in ("", "1") else f" in {profile.unit}"
+    ax.set(xlabel=f"{profile.name}{unit}", ylabel="likelihood ratio")
+    ax.grid(alpha=0.25)
