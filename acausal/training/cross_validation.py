@@ -53,6 +53,12 @@ class Fold:
         """By target, the root mean square error over the part, in the target's unit; NaN where it is not measured."""
         return rms_of(self.fit.held_out.values())
 
+    @cached_property
+    def parameters(self) -> dict[str, float]:
+        """The values of the trained parameters, delays and lags."""
+        found = self.fit.problem.assemble(self.fit.trained)
+        return {n: float(found[n]) for n in self.fit.modifiers}
+
     def __repr__(self) -> str:
         return f"Fold(without '{self.name}', loss {self.training_loss:.4g}, held out {self.held_out_loss:.4g})"
 
@@ -100,8 +106,8 @@ class CrossValidation:
     @property
     def parameters(self) -> dict[str, Spread]:
         """By trained parameter, its value."""
-        names = self.fits[0].modifiers
-        return {n: _spread(float(fit.params[n]) for fit in self.fits) for n in names}
+        every = [fold.parameters for fold in self.folds]
+        return {n: _spread(values[n] for values in every) for n in every[0]}
 
     @cached_property
     def records(self) -> dict[str, RecordFit]:
@@ -140,12 +146,10 @@ class CrossValidation:
         laws = Ensemble(self.fits).laws
         add_laws(page, self.fits[0].with_bands(laws))
         names = list(self.parameters)
-        rows = [
-            (fold.name, *(f"{float(fold.fit.params[n]):.6g}" for n in names)) for fold in self.folds
-        ]
+        rows = [(fold.name, *(f"{fold.parameters[n]:.6g}" for n in names)) for fold in self.folds]
         rows.append(("mean ± deviation", *(_written(s) for s in self.parameters.values())))
         if names:
-            unit = self.fits[0].system.unit
+            unit = self.fits[0].problem.unit
             header = ("without", *(f"{n} [{unit(n)}]" for n in names))
             add_parameters(page, header, rows)
         return page.write(need_path(folder, "report") / "index.html")

@@ -2,7 +2,7 @@
 
 Each has a length and an excitation of its own and another offset of the torque gauge. Encoders at the motor and at the
 load are sampled at 500 Hz, the gauge at 125 Hz; the gauge's cable fails for a while in one run, and in another one
-sample in fifty of the motor's speed is lost.
+sample in fifty of the motor's speed is lost. What is recorded of the drive is its command, which it follows late.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ FAST, EVERY, FINE = 2e-3, 4, 4
 """Sample time of speed and drive [s]; every so many samples the gauge is read; steps of the truth in a sample."""
 NOISE = {"motor.phi": 1e-3, SPEED: 0.05, "load.phi": 1e-3, "load.w": 0.05, GAUGE: 0.01}
 """Standard deviations of the noise of both encoders and of the gauge [rad, rad/s, N.m]."""
+LATE = 5.4e-3
+"""The drive follows its command so much later [s]: 2.7 samples."""
 SPREAD = 0.05
 """Standard deviation of the gauge's offset from run to run [N.m]."""
 
@@ -92,7 +94,7 @@ def campaign() -> dict[str, ac.Data]:
 def _measured(system: ac.System, run: Run, seed: int) -> ac.Data:
     rng = np.random.default_rng(seed)
     t = FAST * np.arange(run.ends())
-    drive = ac.Signal(t, run.drive(t))
+    drive = ac.Signal(t, run.drive(t)).delayed(LATE)
     params = {**system.parameters(), OFFSET: run.offset}
     solution = ac.simulate(
         system, (0, t[-1]), dt=FAST / FINE, inputs={INPUT: drive}, params=params, solver="rk4"

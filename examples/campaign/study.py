@@ -15,8 +15,8 @@ from rich.console import Console
 
 import acausal as ac
 from examples.campaign import figures
-from examples.campaign.model import GAUGE, OFFSET, SPEED, TRAINED, learning, truth
-from examples.campaign.runs import RUNS, SPREAD, campaign
+from examples.campaign.model import GAUGE, INPUT, OFFSET, SPEED, TRAINED, learning, truth
+from examples.campaign.runs import LATE, RUNS, SPREAD, campaign
 
 UPDATES = 600
 TARGETS = (SPEED, GAUGE)
@@ -36,6 +36,7 @@ def options(updates: int = UPDATES) -> dict[str, Any]:
         "modifiers": TRAINED,
         "gamma": 0.6,
         "per_record": {OFFSET: SPREAD},
+        "delays": {INPUT: ac.Delay(0.0, max=0.02)},
         "sequence_length": 0.5,
         "batch_size": 8,
         "epochs": updates,
@@ -100,7 +101,7 @@ def errors_of_laws(fit: ac.Fit) -> dict[str, float]:
 def parameters(found: Study) -> list[tuple[str, str, str, str, str]]:
     """By parameter: its unit, where it started, what all runs and the folds say, and the truth."""
     exact, start, system = truth().parameters(), learning().parameters(), learning()
-    return [
+    rows = [
         (
             f"{name} [{system.unit(name)}]",
             f"{start[name]:.4g}",
@@ -110,6 +111,10 @@ def parameters(found: Study) -> list[tuple[str, str, str, str, str]]:
         )
         for name in TRAINED
     ]
+    late = found.crossed.parameters[f"delay({INPUT})"]
+    all_runs = f"{1e3 * found.fit.delays[INPUT]:.4g}"
+    folds = f"{1e3 * late.mean:.4g} ± {1e3 * late.deviation:.1g}"
+    return [*rows, ("delay of the drive [ms]", "0", all_runs, folds, f"{1e3 * LATE:.4g}")]
 
 
 def offsets(fit: ac.Fit) -> list[tuple[str, str, str]]:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from examples.campaign import figures, study
-from examples.campaign.model import GAUGE, OFFSET, SPEED, TRAINED, learning, truth
-from examples.campaign.runs import EVERY, RUNS, campaign
+from examples.campaign.model import GAUGE, INPUT, OFFSET, SPEED, TRAINED, learning, truth
+from examples.campaign.runs import EVERY, LATE, RUNS, campaign
 
 
 def test_runs_differ_in_length_rates_and_gaps() -> None:
@@ -89,6 +89,7 @@ def test_laws_parameters_and_offsets_are_found() -> None:
     exact = truth().parameters()
     for name in TRAINED:
         assert found.fit.params[name] == pytest.approx(float(exact[name]), rel=0.01)
+    assert found.fit.delays[INPUT] == pytest.approx(LATE, abs=2e-4)
     for name, run in RUNS.items():
         assert found.fit.records[name].parameters[OFFSET] == pytest.approx(run.offset, abs=0.003)
     assert found.crossed.rms[SPEED].mean < 0.4
