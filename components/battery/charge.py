@@ -44,9 +44,9 @@ class Diffusion(PartialDiffusion):
 class Particle(ac.Component):
     """A sphere that charge diffuses into from its ``surface``, in ``n`` shells: the active material of an electrode.
 
-    Finite volumes of Fick's second law: ``n + 1`` storages at the radii ``k/n``, the last one at the surface, and ``n``
-    elements of `Diffusion` between them that share one network. ``tau = r**2/D`` is the time in which charge diffuses
-    through the sphere of radius ``r``. ``soc`` is the mean state of charge.
+    Finite volumes of Fick's second law: ``n`` storages at the radii ``1/n``, ``2/n`` ... 1, the last one at the surface,
+    and ``n - 1`` elements of `Diffusion` between them that share one network. ``tau = r**2/D`` is the time in which
+    charge diffuses through the sphere of radius ``r``. ``soc`` is the mean state of charge.
 
     With ``fixed_start`` all shells start at ``soc_start``; else that is a guess, and the model says where they start.
     """
@@ -55,7 +55,7 @@ class Particle(ac.Component):
     heatPort = HeatPort_a(when="useHeatPort")
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     fixed_start = ac.Option(True, doc="whether all shells start at soc_start")
-    n = ac.Option(3, doc="number of shells")
+    n = ac.Option(3, doc="number of shells, at least 2")
     learned = ac.Option(True, doc="whether the time constant depends on charge by a network")
     Q = ac.Parameter(unit="C", min=0, doc="capacity")
     tau = ac.Parameter(unit="s", min=0, doc="time of diffusion at T_ref")
@@ -67,7 +67,7 @@ class Particle(ac.Component):
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
         n = self.n
-        edges = [0.0, *((k + 0.5) / n for k in range(n)), 1.0]
+        edges = [0.0, *((k + 0.5) / n for k in range(1, n)), 1.0]
         self._shares = [b**3 - a**3 for a, b in zip(edges, edges[1:], strict=False)]
         start = ac.Start(self.soc_start, fixed=self.fixed_start)
         self.shell = [ChargeStorage(Q=self.Q * share, soc=start) for share in self._shares]
@@ -78,9 +78,9 @@ class Particle(ac.Component):
             "useHeatPort": self.useHeatPort,
             "learned": self.learned,
         }
-        first = Diffusion(Q=self.Q * _conductance(0, n), **common)
+        first = Diffusion(Q=self.Q * _conductance(1, n), **common)
         others = [
-            Diffusion(Q=self.Q * _conductance(k, n), net=first.net, **common) for k in range(1, n)
+            Diffusion(Q=self.Q * _conductance(k, n), net=first.net, **common) for k in range(2, n)
         ]
         self.diffusion = [first, *others]
         for inner, between, outer in zip(self.shell, self.diffusion, self.shell[1:], strict=False):
@@ -96,5 +96,5 @@ class Particle(ac.Component):
 
 
 def _conductance(k: int, n: int) -> float:
-    """What flows between the shells k and k + 1 of n, of a sphere's capacity in its time of diffusion."""
+    """What flows between the radii k/n and (k + 1)/n, of a sphere's capacity in its time of diffusion."""
     return 3 * ((k + 0.5) / n) ** 2 * n

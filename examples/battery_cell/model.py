@@ -11,6 +11,13 @@ from examples.battery_cell.laws import RisingSteps
 
 INPUTS = CURRENT, AMBIENT, START = "source.i", "ambient.T", "soc_guess"
 TARGETS = VOLTAGE, TEMPERATURE = "voltmeter.v", "case.T"
+NETS = ("ocv.net", "ocv.entropy", "resistance.net", "particle.diffusion[1].net")
+"""The learned laws: over charge, that of the resistance and of the diffusion over temperature, too."""
+
+
+def build() -> ac.System:
+    """The compiled cell."""
+    return ac.compile(Cell(soc_start=0.0, warmth_start=0.0))
 
 
 class Cell(ac.Component):
@@ -36,7 +43,7 @@ class Cell(ac.Component):
         self.resistance = battery.SeriesResistance(R=1.2e-3, E_a=12e3, width=4, **hot)
         self.relaxation = battery.Relaxation(R=2e-3, tau=120.0, E_a=10e3, learned=False, **hot)
         self.particle = battery.Particle(
-            Q=31.0 * 3600, tau=600.0, E_a=33e3, fixed_start=False, **hot
+            Q=31.0 * 3600, tau=600.0, E_a=33e3, n=2, fixed_start=False, **hot
         )
         self.overhang = battery.ChargeStorage(Q=1.0 * 3600, soc=at_start)
         self.creep = battery.Diffusion(Q=1.0 * 3600, tau=3e4, E_a=25e3, learned=False, **hot)

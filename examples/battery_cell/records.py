@@ -20,7 +20,7 @@ JUMP = 0.3
 """A current that changes by more from row to row has jumped [A]."""
 AFTER = 1e-3
 """How long after the row before it a jump happens [s]."""
-GROWTH, LONGEST, CHANGE = 0.08, 60.0, 6e-3
+GROWTH, LONGEST, CHANGE = 0.12, 60.0, 8e-3
 """Of rows that are trained on: how far apart, of the time since the last jump; at most [s]; sooner after a change [V]."""
 CURVE = np.array(
     [
@@ -66,6 +66,12 @@ class Table:
     def guess(self) -> float:
         """The state of charge that the first voltage tells about."""
         return float(np.interp(self.voltage[0] - LOSS * self.current[0], CURVE[1], CURVE[0]))
+
+    @property
+    def first_rest(self) -> int:
+        """The last row before a current flows; the first where one flows at once."""
+        flows = np.flatnonzero(self.current)
+        return max(int(flows[0]) - 1, 0) if len(flows) else 0
 
     def few(self) -> Table:
         """The record with fewer rows, close together only after a jump of the current, and where the voltage moves."""

@@ -18,8 +18,11 @@ from jaxtyping import Array, Float
 
 from acausal.training.optimizers.descent import Descent, DescentMethod
 
-DAMPING = 1e-3
-"""The first damping, relative to the largest entry of the Hessian's diagonal."""
+DAMPING = 1e-2
+"""The first damping, relative to the Hessian's diagonal."""
+
+FLAT = 1e-6
+"""Entries of the Hessian's diagonal count as at least this part of the largest one, where damping scales them."""
 
 GROWTH = 2.0
 """Factor by which damping grows at the first rejected step in a row; it doubles with every further one."""
@@ -37,7 +40,8 @@ class Damped(Descent):
     Attributes:
         hessian: at the best point.
         step: from there to the trial; ``predicted``: the decrease of the loss that the quadratic model expects.
-        damping, growth: what is added to the Hessian's diagonal, and the factor by which it grows if the step fails.
+        damping, growth: what part of it is added to the Hessian's diagonal, and the factor by which that grows if the
+            step fails.
     """
 
     hessian: Float[Array, "n n"]
@@ -49,7 +53,9 @@ class Damped(Descent):
 
 @cache
 def levenberg_marquardt() -> DescentMethod:
-    """Steps ``-(H + λ)⁻¹ g`` with a damping λ that follows the ratio of the actual to the predicted decrease.
+    """Steps ``-(H + λ D)⁻¹ g`` with a damping λ that follows the ratio of the actual to the predicted decrease.
+
+    ``D`` is the diagonal of ``H``, as Marquardt has it: so steps do not depend on the scales of what is trained.
 
     An update takes the loss (`value=...`), the gradient and an approximate Hessian (`hessian=...`) at one point. A
     point that lowers the loss becomes the best; otherwise the next trial is a shorter step from the best point. So the
@@ -89,8 +95,7 @@ def _after_trial(
     better = jnp.isfinite(value) & (first | (value < state.value))
     ratio = (state.value - value) / jnp.where(state.predicted > 0, state.predicted, 1.0)
     relaxed = state.damping * jnp.maximum(LEAST, 1 - (2 * ratio - 1) ** 3)
-    begun = DAMPING * jnp.max(jnp.abs(jnp.diag(hessian)))
-    damping = jnp.where(first, begun, jnp.where(better, relaxed, state.growth * state.damping))
+    damping = jnp.where(first, DAMPING, jnp.where(better, relaxed, state.growth * state.damping))
     growth = jnp.where(better, GROWTH, 2 * state.growth)
     stalled = better & ~first & (state.value - value <= ENOUGH * jnp.abs(value))
     point, value, gradient, hessian = jax.tree.map(
@@ -98,7 +103,9 @@ def _after_trial(
         (point, value, gradient, hessian),
         (state.point, state.value, state.gradient, state.hessian),
     )
-    step = -jnp.linalg.solve(hessian + damping * jnp.eye(len(point)), gradient)
+    scales = jnp.abs(jnp.diag(hessian))
+    scales = jnp.maximum(scales, FLAT * jnp.max(scales))
+    step = -jnp.linalg.solve(hessian + damping * jnp.diag(scales), gradient)
     step = jnp.where(jnp.isfinite(step), step, 0.0)
     predicted = -(gradient @ step + 0.5 * step @ hessian @ step)
     converged = stalled | (jnp.isfinite(value) & (jnp.abs(predicted) <= ENOUGH * jnp.abs(value)))
