@@ -1,6 +1,7 @@
 """Where charge is stored, and how it spreads."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import acausal as ac
@@ -44,9 +45,9 @@ class Diffusion(PartialDiffusion):
 class Particle(ac.Component):
     """A sphere that charge diffuses into from its ``surface``, in ``n`` shells: the active material of an electrode.
 
-    Finite volumes of Fick's second law: ``n`` storages at the radii ``1/n``, ``2/n`` ... 1, the last one at the surface,
-    and ``n - 1`` elements of `Diffusion` between them that share one network. ``tau = r**2/D`` is the time in which
-    charge diffuses through the sphere of radius ``r``. ``soc`` is the mean state of charge.
+    Finite volumes of Fick's second law: ``n`` storages at the radii ``1/n``, ``2/n`` ... 1, the last one at the
+    surface, and ``n - 1`` elements of `Diffusion` between them that share one network. ``tau = r**2/D`` is the time in
+    which charge diffuses through the sphere of radius ``r``. ``soc`` is the mean state of charge.
 
     With ``fixed_start`` all shells start at ``soc_start``; else that is a guess, and the model says where they start.
     """
@@ -68,7 +69,7 @@ class Particle(ac.Component):
         super().__init__(**modifiers)
         n = self.n
         edges = [0.0, *((k + 0.5) / n for k in range(1, n)), 1.0]
-        self._shares = [b**3 - a**3 for a, b in zip(edges, edges[1:], strict=False)]
+        self._shares = [b**3 - a**3 for a, b in pairwise(edges)]
         start = ac.Start(self.soc_start, fixed=self.fixed_start)
         self.shell = [ChargeStorage(Q=self.Q * share, soc=start) for share in self._shares]
         common: dict[str, Any] = {

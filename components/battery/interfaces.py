@@ -59,9 +59,17 @@ class PartialLearned(PartialThermal):
 
 
 class PartialDepending(PartialLearned):
-    """The same, where the state of charge is a signal ``soc``; ``soc_surface`` of an `OpenCircuitVoltage`, say."""
+    """The same, where the state of charge is a signal ``soc``, if the factor is ``learned``.
 
-    soc = ac.Input(unit="1", doc="state of charge")
+    Connect it with ``soc_surface`` of an `OpenCircuitVoltage`, say.
+    """
+
+    soc = ac.Input(unit="1", when="learned", doc="state of charge")
+
+    @property
+    def _slowing(self) -> Any:
+        """The factor at the state of charge of the signal."""
+        return self._factor(self.soc if self.learned else None)
 
 
 class PartialDiffusion(PartialLearned):

@@ -22,7 +22,7 @@ class SeriesResistance(OnePort, PartialDepending):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        yield ac.Eq(self.R_actual, self.R * self._factor(self.soc))
+        yield ac.Eq(self.R_actual, self.R * self._slowing)
         yield ac.Eq(self.v, self.R_actual * self.i)
         yield ac.Eq(self.LossPower, self.v * self.i)
 
@@ -41,7 +41,7 @@ class ChargeTransfer(OnePort, PartialDepending):
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         thermal = 2 * nature.R / nature.F * self.T_heatPort
-        yield ac.Eq(self.I_actual, self.I_0 / self._factor(self.soc))
+        yield ac.Eq(self.I_actual, self.I_0 / self._slowing)
         yield ac.Eq(self.v, thermal * ac.asinh(self.i / (2 * self.I_actual)))
         yield ac.Eq(self.LossPower, self.v * self.i)
 
@@ -49,8 +49,8 @@ class ChargeTransfer(OnePort, PartialDepending):
 class Relaxation(OnePort, PartialDepending):
     """A resistance and a capacitance in parallel: ``tau der(v) = R_actual i - v``, ``LossPower = v**2/R_actual``.
 
-    ``R_actual = R exp(E_a/R_gas (1/T - 1/T_ref) + net(soc, T_ref/T - 1))``. The time constant ``tau`` is the same at all
-    temperatures; so the capacitance is ``tau/R_actual``.
+    ``R_actual = R exp(E_a/R_gas (1/T - 1/T_ref) + net(soc, T_ref/T - 1))``. The time constant ``tau`` is the same at
+    all temperatures; so the capacitance is ``tau/R_actual``.
     """
 
     R = ac.Parameter(unit="Ohm", min=0, doc="resistance at T_ref")
@@ -60,6 +60,6 @@ class Relaxation(OnePort, PartialDepending):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        yield ac.Eq(self.R_actual, self.R * self._factor(self.soc))
+        yield ac.Eq(self.R_actual, self.R * self._slowing)
         yield ac.Eq(self.tau * ac.der(self.v), self.R_actual * self.i - self.v)
         yield ac.Eq(self.LossPower * self.R_actual, self.v**2)

@@ -16,8 +16,8 @@ class OpenCircuitVoltage(OnePort, PartialThermal):
 
     ``U(soc, T) = net(soc) + (T - T_ref) entropy(soc)``. The current ``i`` into the pin ``p`` charges what is connected
     to ``surface``. With the mean state of charge ``soc``, a signal, the heat is that of D. Bernardi et al. (A general
-    energy balance for battery systems, J. Electrochem. Soc. 132, 1985): ``LossPower = i (v - U(soc, T))``, what diffusion
-    loses, and ``i T entropy(soc)``, which is reversible and may be negative. The rest of the power is stored.
+    energy balance for battery systems, J. Electrochem. Soc. 132, 1985): ``LossPower = i (v - U(soc, T))``, what
+    diffusion loses, and ``i T entropy(soc)``, which is reversible and may be negative. The rest of the power is stored.
 
     Arguments:
         net: the curve at T_ref, by default a monotone network.

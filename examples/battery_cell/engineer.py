@@ -52,18 +52,17 @@ def _factor(params: Mapping[str, Any], element: str, net: str, warmth: float) ->
 def formula(params: Mapping[str, Any]) -> list[str]:
     """The formulas with their trained numbers."""
     net = params["ocv.net"]
-    heights, slope = jax.nn.softplus(net.height), float(jax.nn.softplus(net.slope))
+    heights, steepness, places, slope, offset = net.terms
     steps = [
         f"{float(a):.4g} tanh({float(k):.4g} (soc - {float(c):.4g}))"
-        for a, k, c in zip(heights, jnp.exp(net.steepness), net.place, strict=True)
+        for a, k, c in zip(heights, steepness, places, strict=True)
     ]
-    offset = float(params["ocv.U_nominal"] + net.offset)
+    offset, slope = float(params["ocv.U_nominal"] + offset), float(slope)
     p = {n: float(v) for n, v in params.items() if not callable(v)}
     return [
         f"U(soc) = {offset:.4g} + {slope:.4g} soc + {' + '.join(steps)}  [V, 25 degC]",
         f"capacity {p['particle.Q'] / 3600:.2f} Ah, overhang {p['overhang.Q'] / 3600:.2f} Ah",
-        f"charge transfer: 2 R T/F asinh(i/(2 I)), I = {p['transfer.I_0']:.3g} A, "
-        f"{p['transfer.E_a'] / 1e3:.3g} kJ/mol",
+        f"charge transfer: 2 R T/F asinh(i/(2 I)) with I = {p['transfer.I_0']:.3g} A at 25 degC",
         f"relaxation: {1e3 * p['relaxation.R']:.3g} mOhm, {p['relaxation.tau']:.3g} s",
         f"heat: {p['core.C'] + p['case.C']:.3g} J/K, to the chamber {p['convection.G']:.3g} W/K",
     ]

@@ -12,14 +12,17 @@ STEEP, FLAT = 20.0, 6.0
 """Where there is little charge, and elsewhere: how steep a step of the curve starts [1]."""
 
 
+UNIT = 0.05
+"""What one unit of the places, of the slope and of the offset is worth [1, V, V]: all weights then move U about alike."""
+
+
 class RisingSteps(eqx.Module):
-    """``U = b + s(a) q + Σ s(A_i) tanh(e^{k_i} (q - c_i))`` with ``s = softplus``: rises for all weights.
+    """``U = b + a q + Σ A_i tanh(k_i (q - c_i))`` with positive ``a``, ``A_i`` and ``k_i``: rises for all weights.
 
     Half of the steps lie near empty, where the voltage of a cell falls steeply.
 
     Arguments:
         steps: how many.
-        voltage: at the start of training, at half charge.
         key: of the steps' places.
     """
 
@@ -31,18 +34,23 @@ class RisingSteps(eqx.Module):
 
     def __init__(self, steps: int = 14, *, key: Array) -> None:
         low = steps // 2 - 1
-        first = np.concatenate(
-            [np.linspace(-0.08, 0.1, low), np.linspace(0.2, 1.05, steps - low)]
-        )
+        first = np.concatenate([np.linspace(-0.08, 0.1, low), np.linspace(0.2, 1.05, steps - low)])
         moved = 0.01 * jax.random.normal(key, (steps,))
-        self.place = jnp.asarray(first) + jnp.where(first < 0.12, 0.3, 1.0) * moved
+        places = jnp.asarray(first) + jnp.where(first < 0.12, 0.3, 1.0) * moved
+        self.place = places / UNIT
         self.steepness = jnp.log(jnp.where(first < 0.12, STEEP, FLAT))
         self.height = jnp.full(steps, -3.0)
-        self.slope = jnp.asarray(-0.5)
-        self.offset = jnp.asarray(-0.3)
+        self.slope = jnp.asarray(9.5)
+        self.offset = jnp.asarray(-0.3 / UNIT)
 
     def __call__(self, soc: Float[Array, ""]) -> Float[Array, ""]:
         """The voltage above the nominal one, at a state of charge."""
-        steps = jnp.tanh(jnp.exp(self.steepness) * (soc - self.place))
-        line = self.offset + jax.nn.softplus(self.slope) * soc
-        return line + jax.nn.softplus(self.height) @ steps
+        heights, steepness, places, slope, offset = self.terms
+        return offset + slope * soc + heights @ jnp.tanh(steepness * (soc - places))
+
+    @property
+    def terms(self) -> tuple[Array, Array, Array, Array, Array]:
+        """Heights, steepnesses and places of the steps; slope and offset of the line."""
+        line = UNIT * jax.nn.softplus(self.slope), UNIT * self.offset
+        heights = jax.nn.softplus(self.height)
+        return heights, jnp.exp(self.steepness), UNIT * self.place, *line

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import acausal as ac
@@ -59,7 +60,7 @@ class Cell(ac.Component):
     def _connect_circuit(self) -> None:
         chain = (self.relaxation, self.transfer, self.resistance, self.ocv)
         self.connect(self.source.n, chain[0].p)
-        for upper, lower in zip(chain, chain[1:], strict=False):
+        for upper, lower in pairwise(chain):
             self.connect(upper.n, lower.p)
         self.connect(self.ocv.n, self.source.p, self.ground.p, self.voltmeter.n)
         self.connect(self.source.n, self.voltmeter.p)
@@ -68,9 +69,7 @@ class Cell(ac.Component):
         self.connect(self.ocv.surface, self.particle.surface, self.creep.port_a)
         self.connect(self.creep.port_b, self.overhang.port)
         self.connect(self.particle.soc, self.ocv.soc)
-        self.connect(
-            self.ocv.soc_surface, self.transfer.soc, self.resistance.soc, self.relaxation.soc
-        )
+        self.connect(self.ocv.soc_surface, self.resistance.soc)
         heated = (self.ocv, self.transfer, self.resistance, self.relaxation, self.particle)
         self.connect(self.core.port, self.conduction.port_a, self.creep.heatPort)
         self.connect(self.core.port, *(element.heatPort for element in heated))

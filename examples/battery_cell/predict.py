@@ -18,7 +18,7 @@ from examples.battery_cell.records import KELVIN, Table
 
 LOWEST, HIGHEST, HALVINGS = -0.1, 1.2, 50
 """Between which states of charge a record may start, and how often the search halves them."""
-STEP = 10.0
+STEP = 5.0
 """The longest step [s]."""
 
 
@@ -49,7 +49,7 @@ def predict(
     row: int = 0,
     given: Mapping[str, float] | None = None,
 ) -> Prediction:
-    """Predict a record from one measured voltage.
+    """Predict a record from one measured voltage, and the first temperature of the case if that is measured, too.
 
     Arguments:
         system, params: the trained model.
@@ -57,7 +57,8 @@ def predict(
         row: whose voltage says where the cell starts; a later one of the rest in which the record begins, say.
         given: parameters of this record, if they are known: then no voltage is used.
     """
-    own = {**params, **({"soc_start": 0.0, "warmth_start": 0.0} if given is None else given)}
+    warmth = float(table.case[0] - table.ambient[0])
+    own = {**params, **({"soc_start": 0.0, "warmth_start": warmth} if given is None else given)}
     start = table.guess() if given is not None else first_charge(system, own, table, row)
     data = table.data(start)
     grid = _fine(data.time)
@@ -76,9 +77,7 @@ def rms(errors: Float[np.ndarray, " n"]) -> float:
     return float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")
 
 
-def first_charge(
-    system: ac.System, params: Mapping[str, Any], table: Table, row: int = 0
-) -> float:
+def first_charge(system: ac.System, params: Mapping[str, Any], table: Table, row: int = 0) -> float:
     """The state of charge at which a cell at rest has the voltage of a row, just after its current has begun."""
     data = table.data(0.0)
     u = jnp.asarray([data[n][np.searchsorted(data.time, table.time[row])] for n in system.inputs])
@@ -133,5 +132,3 @@ def write(path: Any, table: Table, found: Prediction) -> None:
     columns = [table.time, table.current, table.voltage, found.voltage, found.case - KELVIN]
     header = "time [s],current [A],voltage [V],predicted voltage [V],predicted temperature [degC]"
     np.savetxt(path, np.stack(columns, axis=1), "%.6g", ",", header=header, comments="")
-
-

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +21,7 @@ JUMP = 0.3
 AFTER = 1e-3
 """How long after the row before it a jump happens [s]."""
 GROWTH, LONGEST, CHANGE = 0.12, 60.0, 8e-3
-"""Of rows that are trained on: how far apart, of the time since the last jump; at most [s]; sooner after a change [V]."""
+"""Rows to train on: how far apart, of the time since the last jump; at most [s]; sooner after a change [V]."""
 CURVE = np.array(
     [
         [0.0, 0.03, 0.06, 0.1, 0.19, 0.29, 0.38, 0.48, 0.57, 0.67, 0.76, 0.86, 0.95, 1.0],
@@ -86,8 +86,13 @@ class Table:
             if gap >= min(LONGEST, GROWTH * (self.time[k] - since)) or moved:
                 kept.append(k)
         rows = np.unique([*kept, len(self.time) - 1])
-        columns = (self.time, self.current, self.voltage, self.ambient)
-        return Table(*(column[rows] for column in columns), self.case_time, self.case)
+        return replace(
+            self,
+            time=self.time[rows],
+            current=self.current[rows],
+            voltage=self.voltage[rows],
+            ambient=self.ambient[rows],
+        )
 
     def data(self, start: float | None = None) -> ac.Data:
         """The record for training and simulation; the state of charge at its start is by default a guess.
@@ -180,7 +185,9 @@ def _columns(path: Path) -> dict[str, np.ndarray]:
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             header, *rows = [row for row in csv.reader(file) if row]
-            values = np.array([[float(cell) if cell.strip() else np.nan for cell in row] for row in rows])
+            values = np.array(
+                [[float(cell) if cell.strip() else np.nan for cell in row] for row in rows]
+            )
     except (OSError, ValueError) as error:
         raise ac.DataError(f"{path} cannot be read: {error}") from None
     return {name.strip(): column for name, column in zip(header, values.T, strict=True)}

@@ -40,6 +40,7 @@ ENERGIES = tuple(
 MODIFIERS: dict[str, Any] = {
     **dict.fromkeys(POSITIVE, ac.Bounded(0, math.inf)),
     **dict.fromkeys(ENERGIES, ac.Shift(ENERGY)),
+    "particle.Q": ac.Shift(0.02 * 31 * 3600),
     "overhang_start": ac.Shift(0.2),
 }
 PER_RECORD = {"soc_start": 0.03, "warmth_start": 1.0}

@@ -1,6 +1,7 @@
 """Battery elements: declarations, diffusion into a sphere, resistances, and where the power goes."""
 
 import inspect
+from itertools import pairwise
 
 import jax
 import numpy as np
@@ -44,13 +45,13 @@ class Cell(ac.Component):
         self.particle = battery.Particle(Q=Q, tau=TAU, n=n, E_a=30e3, soc_start=0.6, **hot)
         self.body = thermal.HeatCapacitor(C=50.0, T=ac.Start(310.0, fixed=True))
         series = (self.relaxation, self.transfer, self.resistance, self.ocv)
-        for upper, lower in zip(series, series[1:], strict=False):
+        for upper, lower in pairwise(series):
             self.connect(upper.n, lower.p)
         self.connect(self.source.n, self.relaxation.p)
         self.connect(self.ocv.n, self.source.p, self.ground.p)
         self.connect(self.ocv.surface, self.particle.surface)
         self.connect(self.particle.soc, self.ocv.soc)
-        self.connect(self.ocv.soc_surface, *(element.soc for element in series[:3]))
+        self.connect(self.ocv.soc_surface, self.transfer.soc, self.resistance.soc)
         parts = (*series, self.particle)
         self.connect(self.body.port, *(element.heatPort for element in parts))
 
@@ -62,32 +63,30 @@ def system():
 
 @pytest.fixture(scope="module")
 def run(system):
-    """A discharge, a rest, a charge; and the parameters."""
+    """A discharge and a charge."""
     params = system.parameters(1)
 
     def current(t):
-        return jax.numpy.where(t < 600, -2.0, jax.numpy.where(t < 900, 0.0, 1.0))
+        return -2.0 * jax.numpy.sin(t / 200.0)
 
     inputs = {"source.i": current}
     return ac.simulate(system, (0.0, 1200.0), dt=1.0, inputs=inputs, params=params)
 
 
 def test_current_counts_charge(run):
-    counted = 0.6 + np.cumsum(np.r_[0.0, run["source.i"][:-1]]) / Q
-    assert np.asarray(run["particle.soc"]) == pytest.approx(counted, abs=1e-3)
+    counted = 0.6 - 400.0 / Q * (1 - np.cos(np.asarray(run.t) / 200.0))
+    assert np.asarray(run["particle.soc"]) == pytest.approx(counted, abs=1e-9)
 
 
 def test_what_goes_in_is_stored_or_lost(run):
     """Power in, less heat, is the rate of the energy at the mean charge: ``i (U - T dU/dT)``."""
     power = np.asarray(run["source.i"]) * -np.asarray(run["source.v"])
     heat = 50.0 * np.asarray(run["body.der_T"])
-    entropy = jax.vmap(run.system.parameters(1)["ocv.entropy"])(run["particle.soc"])
+    entropy = np.asarray(jax.vmap(run.system.parameters(1)["ocv.entropy"])(run["particle.soc"]))
     T = np.asarray(run["body.T"])
     stored = np.asarray(run["source.i"]) * (np.asarray(run["ocv.U_mean"]) - T * entropy)
-    capacitor = 60.0 / np.asarray(run["relaxation.R_actual"])
     v = np.asarray(run["relaxation.v"])
     held = v * (np.asarray(run["source.i"]) - v / np.asarray(run["relaxation.R_actual"]))
-    assert capacitor.min() > 0
     assert power == pytest.approx(stored + heat + held, abs=1e-6)
 
 
@@ -159,7 +158,7 @@ class Bench(ac.Component):
         self.fast = battery.ChargeTransfer(I_0=1e-3, learned=False)
         self.late = battery.Relaxation(R=0.2, tau=10.0, learned=False)
         parts = (self.cold, self.warm, self.slow, self.fast, self.late)
-        for upper, lower in zip(parts, parts[1:], strict=False):
+        for upper, lower in pairwise(parts):
             self.connect(upper.n, lower.p)
         self.connect(self.source.p, self.cold.p)
         self.connect(self.late.n, self.source.n, self.ground.p)
@@ -167,10 +166,8 @@ class Bench(ac.Component):
 
 def test_resistances_follow_their_formulas():
     system = ac.compile(Bench())
-    for element in ("cold", "warm", "slow", "fast", "late"):
-        assert f"{element}.soc" in system.inputs
-    given = {n: 0.5 for n in system.inputs}
-    done = ac.simulate(system, (0.0, 20.0), dt=0.1, inputs={n: (lambda t: 0.5) for n in given})
+    assert not system.inputs
+    done = ac.simulate(system, (0.0, 20.0), dt=0.1)
     volts = {n: float(done[f"{n}.v"][-1]) for n in ("cold", "warm", "slow", "fast", "late")}
     thermal_volts = nature.R * T_REF / nature.F
     factor = np.exp(20e3 / nature.R * (1 / 278.15 - 1 / T_REF))

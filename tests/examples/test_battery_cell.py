@@ -119,10 +119,9 @@ def test_laws_are_positive_and_written(params, tmp_path):
 
 
 def test_training_lowers_the_errors_and_parameters_come_back(made, params, system, tmp_path):
-    shifted = Table(
-        made.time, made.current, made.voltage - 0.02, made.ambient, made.case_time, made.case
-    )
-    fit = study.train({"one": made, "two": shifted}, epochs=2)
+    columns = (getattr(made, name) for name in ROWS)
+    warmer = Table(*columns, made.case_time, made.case + np.array([0.0, 0.2]))
+    fit = study.train({"one": made, "two": warmer}, epochs=2)
     assert set(fit.records) == {"one", "two"}
     assert fit.history.full_loss[-1, 1] < fit.history.full_loss[0, 1]
     study.save(fit, tmp_path / "cell.safetensors")

@@ -18,11 +18,8 @@ from jaxtyping import Array, Float
 
 from acausal.training.optimizers.descent import Descent, DescentMethod
 
-DAMPING = 1e-2
-"""The first damping, relative to the Hessian's diagonal."""
-
-FLAT = 1e-6
-"""Entries of the Hessian's diagonal count as at least this part of the largest one, where damping scales them."""
+DAMPING = 1e-3
+"""The first damping, relative to the largest entry of the Hessian's diagonal."""
 
 GROWTH = 2.0
 """Factor by which damping grows at the first rejected step in a row; it doubles with every further one."""
@@ -40,8 +37,7 @@ class Damped(Descent):
     Attributes:
         hessian: at the best point.
         step: from there to the trial; ``predicted``: the decrease of the loss that the quadratic model expects.
-        damping, growth: what part of it is added to the Hessian's diagonal, and the factor by which that grows if the
-            step fails.
+        damping, growth: what is added to the Hessian's diagonal, and the factor by which it grows if the step fails.
     """
 
     hessian: Float[Array, "n n"]
@@ -53,9 +49,7 @@ class Damped(Descent):
 
 @cache
 def levenberg_marquardt() -> DescentMethod:
-    """Steps ``-(H + λ D)⁻¹ g`` with a damping λ that follows the ratio of the actual to the predicted decrease.
-
-    ``D`` is the diagonal of ``H``, as Marquardt has it: so steps do not depend on the scales of what is trained.
+    """Steps ``-(H + λ)⁻¹ g`` with a damping λ that follows the ratio of the actual to the predicted decrease.
 
     An update takes the loss (`value=...`), the gradient and an approximate Hessian (`hessian=...`) at one point. A
     point that lowers the loss becomes the best; otherwise the next trial is a shorter step from the best point. So the
@@ -95,7 +89,8 @@ def _after_trial(
     better = jnp.isfinite(value) & (first | (value < state.value))
     ratio = (state.value - value) / jnp.where(state.predicted > 0, state.predicted, 1.0)
     relaxed = state.damping * jnp.maximum(LEAST, 1 - (2 * ratio - 1) ** 3)
-    damping = jnp.where(first, DAMPING, jnp.where(better, relaxed, state.growth * state.damping))
+    begun = DAMPING * jnp.max(jnp.abs(jnp.diag(hessian)))
+    damping = jnp.where(first, begun, jnp.where(better, relaxed, state.growth * state.damping))
     growth = jnp.where(better, GROWTH, 2 * state.growth)
     stalled = better & ~first & (state.value - value <= ENOUGH * jnp.abs(value))
     point, value, gradient, hessian = jax.tree.map(
@@ -103,9 +98,7 @@ def _after_trial(
         (point, value, gradient, hessian),
         (state.point, state.value, state.gradient, state.hessian),
     )
-    scales = jnp.abs(jnp.diag(hessian))
-    scales = jnp.maximum(scales, FLAT * jnp.max(scales))
-    step = -jnp.linalg.solve(hessian + damping * jnp.diag(scales), gradient)
+    step = -jnp.linalg.solve(hessian + damping * jnp.eye(len(point)), gradient)
     step = jnp.where(jnp.isfinite(step), step, 0.0)
     predicted = -(gradient @ step + 0.5 * step @ hessian @ step)
     converged = stalled | (jnp.isfinite(value) & (jnp.abs(predicted) <= ENOUGH * jnp.abs(value)))
