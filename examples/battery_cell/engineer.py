@@ -31,7 +31,10 @@ def laws(params: Mapping[str, Any]) -> dict[str, np.ndarray]:
         series = params["resistance.R"] * _factor(params, "resistance", "resistance.net", warmth)
         current = params["transfer.I_0"] / _arrhenius(params, "transfer", warmth)
         small = nature.R * (degrees + KELVIN) / nature.F / current
-        slow = params["relaxation.R"] * _arrhenius(params, "relaxation", warmth)
+        slow = sum(
+            params[f"{name}.R"] * _arrhenius(params, name, warmth)
+            for name in ("relaxation", "fast")
+        )
         tau = params["particle.tau"] * _factor(
             params, "particle", "particle.diffusion[1].net", warmth
         )
@@ -64,6 +67,7 @@ def formula(params: Mapping[str, Any]) -> list[str]:
         f"capacity {p['particle.Q'] / 3600:.2f} Ah, overhang {p['overhang.Q'] / 3600:.2f} Ah",
         f"charge transfer: 2 R T/F asinh(i/(2 I)) with I = {p['transfer.I_0']:.3g} A at 25 degC",
         f"relaxation: {1e3 * p['relaxation.R']:.3g} mOhm, {p['relaxation.tau']:.3g} s",
+        f"fast relaxation: {1e3 * p['fast.R']:.3g} mOhm, {p['fast.tau']:.3g} s",
         f"heat: {p['core.C'] + p['case.C']:.3g} J/K, to the chamber {p['convection.G']:.3g} W/K",
     ]
 

@@ -13,7 +13,7 @@ STEEP, FLAT = 20.0, 6.0
 
 
 UNIT = 0.05
-"""What one unit of the places, of the slope and of the offset is worth [1, V, V]: all weights then move U about alike."""
+"""What one unit of places, slope and offset is worth [1, V, V]: then all weights move U about alike."""
 
 
 class RisingSteps(eqx.Module):

@@ -43,6 +43,7 @@ class Cell(ac.Component):
         self.transfer = battery.ChargeTransfer(I_0=30.0, E_a=50e3, learned=False, **hot)
         self.resistance = battery.SeriesResistance(R=1.2e-3, E_a=12e3, width=4, **hot)
         self.relaxation = battery.Relaxation(R=2e-3, tau=120.0, E_a=10e3, learned=False, **hot)
+        self.fast = battery.Relaxation(R=3e-4, tau=10.0, E_a=20e3, learned=False, **hot)
         self.particle = battery.Particle(
             Q=31.0 * 3600, tau=600.0, E_a=33e3, n=2, fixed_start=False, **hot
         )
@@ -58,7 +59,7 @@ class Cell(ac.Component):
         self._connect_charge_and_heat()
 
     def _connect_circuit(self) -> None:
-        chain = (self.relaxation, self.transfer, self.resistance, self.ocv)
+        chain = (self.relaxation, self.fast, self.transfer, self.resistance, self.ocv)
         self.connect(self.source.n, chain[0].p)
         for upper, lower in pairwise(chain):
             self.connect(upper.n, lower.p)
@@ -70,7 +71,10 @@ class Cell(ac.Component):
         self.connect(self.creep.port_b, self.overhang.port)
         self.connect(self.particle.soc, self.ocv.soc)
         self.connect(self.ocv.soc_surface, self.resistance.soc)
-        heated = (self.ocv, self.transfer, self.resistance, self.relaxation, self.particle)
+        heated = (
+            *(self.ocv, self.transfer, self.resistance),
+            *(self.relaxation, self.fast, self.particle),
+        )
         self.connect(self.core.port, self.conduction.port_a, self.creep.heatPort)
         self.connect(self.core.port, *(element.heatPort for element in heated))
         self.connect(self.conduction.port_b, self.case.port, self.convection.port_a)

@@ -30,16 +30,28 @@ PRIOR = 3e-3
 POSITIVE = dict.fromkeys(
     (
         *("particle.tau", "overhang.Q", "creep.tau", "transfer.I_0", "resistance.R"),
-        *("relaxation.R", "relaxation.tau", "core.C", "case.C", "conduction.G", "convection.G"),
+        *(
+            "relaxation.R",
+            "relaxation.tau",
+            "fast.R",
+            "fast.tau",
+            "core.C",
+            "case.C",
+            "conduction.G",
+            "convection.G",
+        ),
     ),
     FACTOR,
 ) | {"particle.Q": 0.02}
 ENERGIES = tuple(
-    f"{name}.E_a" for name in ("particle", "creep", "transfer", "resistance", "relaxation")
+    f"{name}.E_a" for name in ("particle", "creep", "transfer", "resistance", "relaxation", "fast")
 )
+STEP, EPOCHS = 15.0, 24
+"""The longest step of the integration in training [s]; updates."""
 MODIFIERS: dict[str, Any] = {
     **dict.fromkeys(POSITIVE, ac.Bounded(0, math.inf)),
     **dict.fromkeys(ENERGIES, ac.Shift(ENERGY)),
+    "fast.tau": ac.Bounded(STEP / 2, 10 * STEP),  # longer than what the steps are stable for
     "particle.Q": ac.Shift(0.02 * 31 * 3600),
     "overhang_start": ac.Shift(0.2),
 }
@@ -47,8 +59,6 @@ PER_RECORD = {"soc_start": 0.03, "warmth_start": 1.0}
 """What differs between records: the start, by how much [1, K]."""
 ERRORS = np.array([8e-3, 0.8])
 """Errors of voltage and temperature that count the same [V, K]."""
-STEP, EPOCHS = 20.0, 40
-"""The longest step of the integration in training [s]; updates."""
 
 
 def loss(predicted: Array, measured: Array, sigma: Array, weight: Array) -> Array:
