@@ -18,6 +18,8 @@ from examples.battery_cell.records import KELVIN, Table
 
 LOWEST, HIGHEST, HALVINGS = -0.1, 1.2, 50
 """Between which states of charge a record may start, and how often the search halves them."""
+LEAD = 2.0
+"""A current in a first row that comes no later than this [s] has flowed since the clock's zero."""
 STEP = 5.0
 """The longest step [s]."""
 
@@ -63,7 +65,8 @@ def predict(
     data = table.data(start)
     grid = _fine(data.time)
     u = jnp.asarray([np.interp(grid, data.time, data[n]) for n in system.inputs]).T
-    x0 = system.initial_state(own, u0=u[0])
+    lead = 0.0 if given is not None else led(table)
+    x0 = begin(system, own, u[0], lead)
     y = np.asarray(_follow(system, own, jnp.asarray(grid), u, x0))
     volts, case = (np.interp(table.time, grid, column) for column in y.T)
     errors = (volts - table.voltage)[1:]
@@ -77,16 +80,32 @@ def rms(errors: Float[np.ndarray, " n"]) -> float:
     return float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")
 
 
+def led(table: Table) -> float:
+    """For how long a current has flowed at the first row [s]."""
+    first = float(table.time[0])
+    return first if table.current[0] != 0 and 0 < first <= LEAD else 0.0
+
+
+def begin(
+    system: ac.System, params: Mapping[str, Any], u: Float[Array, " n_inputs"], lead: float
+) -> Float[Array, " n_states"]:
+    """The state at the first row: the cell was at rest this long before."""
+    x = system.initial_state(params, u0=u)
+    rate = system.vector_field(0.0, x, u, params)
+    later = system.vector_field(lead, x + lead * rate, u, params)
+    return x + lead / 2 * (rate + later)
+
+
 def first_charge(system: ac.System, params: Mapping[str, Any], table: Table, row: int = 0) -> float:
     """The state of charge at which a cell at rest has the voltage of a row, just after its current has begun."""
     data = table.data(0.0)
     u = jnp.asarray([data[n][np.searchsorted(data.time, table.time[row])] for n in system.inputs])
-    place = system.inputs.index(START)
+    place, lead = system.inputs.index(START), led(table) if row == 0 else 0.0
 
     @jax.jit
     def volts(soc: Array) -> Array:
         at_start = u.at[place].set(soc)
-        x = system.initial_state(params, u0=at_start)
+        x = begin(system, params, at_start, lead)
         return system.observe(TARGETS[0], 0.0, x, at_start, params)
 
     low, high = LOWEST, HIGHEST
