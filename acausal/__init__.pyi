@@ -44,6 +44,7 @@ from .modeling import (
     Variable as Variable,
     acos as acos,
     asin as asin,
+    asinh as asinh,
     atan as atan,
     atan2 as atan2,
     cos as cos,

@@ -251,6 +251,7 @@ RULES: dict[type, LoweringRule] = {
     sp.atan: _call(jnp.arctan),
     sp.atan2: _call(jnp.arctan2),
     sp.sinh: _call(jnp.sinh),
+    sp.asinh: _call(jnp.arcsinh),
     sp.cosh: _call(jnp.cosh),
     sp.tanh: _call(jnp.tanh),
     sp.Abs: _call(jnp.abs),

@@ -7,6 +7,7 @@ It knows neither JAX nor files, nor any later stage.
 from sympy import (
     acos as acos,
     asin as asin,
+    asinh as asinh,
     atan as atan,
     atan2 as atan2,
     cos as cos,

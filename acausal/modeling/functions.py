@@ -78,6 +78,7 @@ COMPUTABLE: tuple[type, ...] = (
     sp.Piecewise,
     sp.acos,
     sp.asin,
+    sp.asinh,
     sp.atan,
     sp.atan2,
     sp.ceiling,

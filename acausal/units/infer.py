@@ -255,7 +255,7 @@ RULES: dict[type, DimensionRule] = {
     **dict.fromkeys((sp.Abs, sp.Max, sp.Min, sp.Mod, sp.floor, sp.ceiling), _alike),
     **dict.fromkeys((sp.sign, sp.Heaviside, sp.atan2), _number),
     **dict.fromkeys((sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan), _function),
-    **dict.fromkeys((sp.sinh, sp.cosh, sp.tanh), _function),
+    **dict.fromkeys((sp.sinh, sp.cosh, sp.tanh, sp.asinh), _function),
     Prescribed: _prescribed,
     ModuleCall: _call,
 }

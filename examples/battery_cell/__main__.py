@@ -1,0 +1,75 @@
+"""``python -m examples.battery_cell``: train a cell on measured records, and predict others."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+import acausal as ac
+from examples.battery_cell import engineer, predict, study
+from examples.battery_cell.model import build
+from examples.battery_cell.records import campaign, read
+
+PARAMS = "cell.safetensors"
+
+
+def main() -> None:
+    given = arguments()
+    try:
+        if given.predict is not None:
+            predicted(given)
+        elif given.leave_one_out:
+            lines = study.leave_one_out(campaign(given.data), range(given.seeds))
+            print(json.dumps(study.summary(lines)))
+        else:
+            trained(given)
+    except ac.DataError as error:
+        sys.exit(str(error))
+
+
+def arguments() -> argparse.Namespace:
+    about = "A battery cell from measured records."
+    parser = argparse.ArgumentParser(prog="python -m examples.battery_cell", description=about)
+    parser.add_argument("--data", type=Path, help="folder with the campaign's files: trains")
+    parser.add_argument("--leave-one-out", action="store_true", help="each record in turn")
+    parser.add_argument("--seeds", type=int, default=5, help="of --leave-one-out")
+    parser.add_argument("--seed", type=int, default=0, help="of one training")
+    parser.add_argument("--predict", type=Path, help="a record to predict from its first voltage")
+    parser.add_argument("--ambient", type=float, default=25.0, help="of the chamber, in degC")
+    parser.add_argument("--out", type=Path, default=Path("out/battery_cell"), help="for results")
+    given = parser.parse_args()
+    if given.data is None and given.predict is None:
+        parser.error("give --data FOLDER to train, or --predict record.csv")
+    return given
+
+
+def trained(given: argparse.Namespace) -> None:
+    tables = campaign(given.data)
+    begun = time.time()
+    fit = study.train(tables, given.seed)
+    seconds = time.time() - begun
+    study.save(fit, given.out / PARAMS)
+    engineer.show(fit.params)
+    engineer.write(fit.params, given.out / "laws.csv")
+    print(json.dumps({"seconds": seconds, "errors": study.judge(fit, tables)}))
+
+
+def predicted(given: argparse.Namespace) -> None:
+    trained = given.out / PARAMS
+    if not trained.is_file():
+        raise ac.DataError(f"There is no {trained}: train first, with --data FOLDER.")
+    system = build()
+    params = ac.load_params(trained, system)
+    table = read(given.predict, given.ambient)
+    found = predict.predict(system, params, table)
+    path = given.out / f"{given.predict.stem}_predicted.csv"
+    predict.write(path, table, found)
+    figures = {"soc_start": found.start, "rms_mV": 1e3 * found.rms, "written": str(path)}
+    print(json.dumps(figures))
+
+
+if __name__ == "__main__":
+    main()
