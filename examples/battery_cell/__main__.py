@@ -20,6 +20,8 @@ def main() -> None:
     given = arguments()
     try:
         if given.predict is not None:
+            if given.data is not None and not (given.out / PARAMS).is_file():
+                trained(given)
             predicted(given)
         elif given.leave_one_out:
             lines = study.leave_one_out(campaign(given.data), range(given.seeds))
