@@ -1,9 +1,14 @@
 """Settings for all tests, made before JAX or matplotlib are imported."""
 
+import gc
 import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import hypothesis
+import pytest
 
 os.environ.setdefault("ACAUSAL_COMPILATION_CACHE", "off")
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
@@ -15,6 +20,20 @@ hypothesis.settings.register_profile(
     "search", deadline=None, database=None, print_blob=True, max_examples=500
 )
 hypothesis.settings.load_profile("acausal")
+
+
+MAPS = Path("/proc/self/maps")
+MOST_MAPS = 25_000
+"""Every compiled program takes memory maps. Linux allows a process 65,530; XLA crashes at the next one."""
+
+
+@pytest.fixture(autouse=True, scope="module")
+def within_the_limit_of_memory_maps() -> Iterator[None]:
+    """Let go of compiled programs after a file of tests, where there are many."""
+    yield
+    if "jax" in sys.modules and MAPS.exists() and len(MAPS.read_bytes().splitlines()) > MOST_MAPS:
+        sys.modules["jax"].clear_caches()
+        gc.collect()
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

@@ -10,10 +10,10 @@ from tests.support.oscillator import learned, record
 
 
 def trained(devices):
-    """A short training whose batches the devices share."""
+    """A short training on two records whose sequences the devices share."""
     return ac.fit(
         learned(),
-        record(),
+        {"whole": record(), "part": record().between(3.0, 8.0)},
         "mass.a",
         sequence_length=0.25,
         batch_size=4,
@@ -21,6 +21,7 @@ def trained(devices):
         epochs=(12, 3),
         evaluate_every=5,
         modifiers=["mass.m"],
+        per_record={"spring.c": 2.0},
         devices=devices,
         progress=False,
     )
