@@ -118,6 +118,7 @@ def test_laws_are_positive_and_written(params, tmp_path):
     assert len((tmp_path / "laws.csv").read_text().splitlines()) == 1 + len(engineer.CHARGES)
 
 
+@pytest.mark.slow
 def test_training_lowers_the_errors_and_parameters_come_back(made, params, system, tmp_path):
     columns = (getattr(made, name) for name in ROWS)
     warmer = Table(*columns, made.case_time, made.case + np.array([0.0, 0.2]))

@@ -59,6 +59,7 @@ def short() -> study.Study:
     return study.study(updates=40, progress=False)
 
 
+@pytest.mark.slow
 def test_a_short_training_is_better_than_none_in_every_fold() -> None:
     found = short()
     assert [fold.name for fold in found.crossed.folds] == list(RUNS)
@@ -76,6 +77,7 @@ def test_the_page_shows_all_of_it(tmp_path: Path) -> None:
         assert (tmp_path / part / "index.html").exists()
 
 
+@pytest.mark.slow
 def test_folds_share_the_program_of_the_training() -> None:
     found = short()
     assert max(fit.compile_seconds for fit in found.crossed.fits) < 0.1 * found.fit.compile_seconds

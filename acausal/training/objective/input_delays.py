@@ -159,6 +159,8 @@ def delayed_inputs(
                 f"slope; say interpolation='{better}' in ac.Data, or fix the delay by a number."
             )
         found[column] = delay_of(source), _pieces(signals)
+    if not found:
+        return NOTHING_DELAYED
     names, pieces = [n for n, _ in found.values()], [p for _, p in found.values()]
     if fractions is None or len(fractions) > len(FRACTIONS):
         fractions = tuple(FRACTIONS.tolist())

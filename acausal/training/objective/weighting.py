@@ -21,7 +21,7 @@ Weight = float | Callable[[float], float]
 """A factor, or a function of time that gives it."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Weighting:
     """How much records, targets and times count.
 
@@ -31,7 +31,7 @@ class Weighting:
         samples: by index of a target.
     """
 
-    records: RecordWeights
+    records: str | tuple[tuple[str, float], ...]
     samples: tuple[tuple[int, Weight], ...]
 
     @property
@@ -48,8 +48,9 @@ class Weighting:
         for i, given in self.samples:
             rows = np.flatnonzero(weight[:, i])
             weight[rows, i] = [_at(given, time) for time in t[rows].tolist()]
-        if isinstance(self.records, Mapping):
-            factor = np.array([float(self.records.get(n, 1.0)) for n in records.names])
+        if not isinstance(self.records, str):
+            factors = dict(self.records)
+            factor = np.array([factors.get(n, 1.0) for n in records.names])
         elif self.records == "records":
             sums = np.bincount(of, weight.sum(axis=1), records.count)
             factor = sums.mean() / np.where(sums > 0, sums, 1.0)
@@ -109,7 +110,10 @@ def weighting(
                 "of time."
             )
     pairs = tuple((list(targets).index(n), w) for n, w in (sample_weights or {}).items())
-    found = Weighting(record_weights, pairs)
+    chosen = record_weights
+    if not isinstance(chosen, str):
+        chosen = tuple((name, float(factor)) for name, factor in chosen.items())
+    found = Weighting(chosen, pairs)
     if isinstance(loss, WithoutWeights) and not found.alike:
         raise TrainingError(
             "record_weights and sample_weights need a loss that takes weights: "
