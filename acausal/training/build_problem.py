@@ -77,13 +77,14 @@ def build_problem(
         if len(record) < 2:
             raise DataError(f"{where} has fewer than two samples.")
         check_resolution(record.time, dtype, where)
-        announce_derivatives(system.inputs, record)
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
     solver = for_fixed_steps(solver_named(options.solver), dtype)
     records, substeps = lay_out(
         data, system.inputs, targets, system.states, options.dt, solver=solver, timing=times
     )
+    for record in data.values():
+        announce_derivatives(system.inputs, record)
     loss = named(options.loss, targets)
     weights = weighting(options.record_weights, options.sample_weights, tuple(data), targets, loss)
     records = _weighted(records, weights, targets)

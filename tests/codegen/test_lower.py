@@ -31,6 +31,7 @@ SMOOTH = {
     "cos": sp.cos(x),
     "tan": sp.tan(x),
     "asin": sp.asin(x / 2),
+    "asinh": sp.asinh(x),
     "acos": sp.acos(x / 2),
     "atan": sp.atan(x),
     "atan2": sp.atan2(x, y) + sp.atan2(-y, -x),

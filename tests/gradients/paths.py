@@ -15,8 +15,9 @@ import numpy as np
 from jax import Array
 
 import acausal as ac
-from acausal.simulation import Steps, functions_of_time, integrate, over_steps, solvers
+from acausal.simulation import Steps, functions_of_time, integrate, solvers
 from acausal.simulation.inputs import evaluate_all
+from acausal.simulation.sampled_inputs import over_steps
 
 from .models import CASES, Case
 

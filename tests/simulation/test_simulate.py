@@ -519,7 +519,7 @@ def test_a_model_that_is_not_compiled(call, function):
 def test_what_is_no_mapping():
     with pytest.raises(ac.DataError, match=r"^params are numbers and networks by name"):
         ac.simulate(plain(), (0, 1), inputs=NO_FORCE, params=[1.0])
-    with pytest.raises(ac.DataError, match=r"^A record is "):
+    with pytest.raises(ac.DataError, match=r"^Data are one record"):
         ac.fit(plain(), None, ["mass.s"])
 
 
