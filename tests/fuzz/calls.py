@@ -1115,7 +1115,7 @@ CALLS["fit data"] = {
             "nan": lambda c: {**c.record, c.state: np.full(N, NAN)},
             "no time": lambda c: dict(c.data.signals),
             "unlike lengths": lambda c: {**c.record, c.state: np.ones(3)},
-            "a list of records": lambda c: [c.data],
+            "a list of texts": const(["run 1", "run 2"]),
             "a solution": lambda c: result(c),
             "an unknown signal": lambda c: {**c.record, "q": np.ones(N)},
             "the system": lambda c: c.system,
