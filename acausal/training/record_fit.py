@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import Simulated
+from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.uncertainty.residuals import Piece, Residuals, residuals
 
 
@@ -83,14 +83,15 @@ def residuals_of(records: Sequence[RecordFit]) -> tuple[Residuals, ...]:
 
 
 def of_records(
-    problem: Problem, simulated: Simulated, parameters: Mapping[str, Float[np.ndarray, " R"]]
+    problem: Problem, trainable: Trainable, simulated: Simulated
 ) -> dict[str, RecordFit]:
-    """The results for all records, by name."""
+    """The results for all records, by name, for some state of the training and its simulation."""
     records = problem.records
     t, x, y, u = (
         np.asarray(a) for a in (records.steps.t, simulated.x, simulated.y, problem.inputs)
     )
-    measured = np.where(np.asarray(records.weight) > 0, np.asarray(records.y), np.nan)
+    measured = records.measured
+    own = problem.per_record.values(problem.assemble(trainable), trainable.per_record)
 
     def one(k: int, name: str) -> RecordFit:
         rows = records.rows_of(k)
@@ -103,7 +104,7 @@ def of_records(
             {n: u[rows, i] for i, n in enumerate(problem.system.inputs)},
             np.asarray(records.sigma),
             dict(zip(problem.system.states, x[rows[0]].tolist(), strict=True)),
-            {n: float(values[k]) for n, values in parameters.items()},
+            {n: float(values[k]) for n, values in own.items()},
         )
 
     return {name: one(k, name) for k, name in enumerate(records.names)}

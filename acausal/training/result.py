@@ -278,9 +278,7 @@ class Fit:
     def before(self) -> dict[str, RecordFit]:
         """The records before training, as `records`."""
         start = self.problem.start()
-        return of_records(
-            self.problem, self.problem.simulate(start), own_parameters(self.problem, start)
-        )
+        return of_records(self.problem, start, self.problem.simulate(start))
 
     def samples(self, network: str, most: int = 400) -> Float[np.ndarray, " n_samples"]:
         """Some of the values that a network's first argument had over the record, at most so many."""
@@ -419,17 +417,10 @@ class Fit:
         return "\n".join(lines)
 
 
-def own_parameters(problem: Problem, trainable: Trainable) -> dict[str, Float[np.ndarray, " R"]]:
-    """The parameters that differ between records, for some state of the training."""
-    params = problem.assemble(trainable)
-    found = problem.per_record.values(params, trainable.per_record)
-    return {n: np.asarray(values) for n, values in found.items()}
-
-
 def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]:
     problem = replace(problem, mesh=None)
     known = problem.over_other_records(trainable)
-    return of_records(problem, problem.simulate(known), own_parameters(problem, known))
+    return of_records(problem, known, problem.simulate(known))
 
 
 def result(
@@ -450,7 +441,7 @@ def result(
         loss_before=float(history.full_loss[0, 1]),
         validation_loss=best.validation,
         best_epoch=best.epoch,
-        records=of_records(problem, best.simulated, own_parameters(problem, best.trainable)),
+        records=of_records(problem, best.trainable, best.simulated),
         held_out={} if held is None else _of_held_out(held.problem, best.trainable),
         modifiers={n: float(value) for n, value in changes_of(problem, best.trainable).items()},
         arguments=arguments,

@@ -1,4 +1,4 @@
-"""``python -m benchmarks.records``: what several records cost, and what gaps and slow sensors take away.
+"""``python -m benchmarks.records [--parts speed]``: what several records cost, and what gaps take away.
 
 The quarter vehicle over 42 s, noise of 2 %, in 1, 4, 16 and 64 records of unequal lengths with as many samples in all.
 Prints a table and one JSON line.
@@ -32,8 +32,8 @@ NOISE = 0.02
 
 def main() -> None:
     """Measure the chosen parts."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("parts", nargs="*", default=list(PARTS), choices=[*PARTS, []])
+    parser = argparse.ArgumentParser(description=str(__doc__).splitlines()[0])
+    parser.add_argument("--parts", nargs="+", default=list(PARTS), choices=list(PARTS))
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2, 3, 4])
     arguments = parser.parse_args()
     found: dict[str, Any] = {}

@@ -98,6 +98,11 @@ class Records(eqx.Module):
         return Places(np.asarray(self.steps.t), np.asarray(self.of), self.names)
 
     @property
+    def measured(self) -> Float[np.ndarray, "N n_targets"]:
+        """The targets; NaN where they are not measured."""
+        return np.where(np.asarray(self.weight) > 0, np.asarray(self.y), np.nan)
+
+    @property
     def begins(self) -> Bool[Array, " N"]:
         """Whether a record begins at a row."""
         return jnp.zeros(len(self), bool).at[self.first].set(True)

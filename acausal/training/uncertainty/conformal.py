@@ -142,7 +142,7 @@ def predicted(
     other = over(problem, records, x0)
     y = np.asarray(other.simulate(other.over_other_records(trained)).y)
     laid = other.records
-    measured = np.where(np.asarray(laid.weight) > 0, np.asarray(laid.y), np.nan)
+    measured = laid.measured
     rows = [laid.rows_of(k) for k in range(laid.count)]
     t = np.asarray(laid.steps.t)
     return [Predicted(t[r], y[r], measured[r]) for r in rows]
