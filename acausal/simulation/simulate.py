@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, need_double_precision, precision, traced
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, StepLimitError, need_compiled, shown
+from acausal.errors import DataError, need_compiled, shown
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
@@ -25,7 +25,7 @@ from acausal.simulation.inputs import (
     functions_of_time,
     inputs_by_name,
 )
-from acausal.simulation.run import EIGENVALUES, Run
+from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
 
@@ -120,22 +120,9 @@ def simulate(
         direct = isinstance(adjoint, dfx.ForwardMode | dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
-    candidates = _automatic(run) if solver == "auto" else (solvers.solver_named(solver),)
-    for chosen in candidates[:-1]:
-        try:
-            return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, adjoint, kind)
-        except StepLimitError:  # the model became stiff on its way
-            pass
-    return simulate_adaptive(run, ts, candidates[-1], rtol, atol, max_steps, adjoint, kind)
-
-
-def _automatic(run: Run) -> tuple[solvers.Solver, ...]:
-    """Tsit5, then Kvaerno5 if Tsit5 needs too many steps; Kvaerno5 alone for a model that is stiff at the start."""
-    implicit = solvers.solver_named("kvaerno5")
-    if solvers.stiff(run.modes(), run.end - run.begin):
-        return (implicit,)
-    explicit = solvers.solver_named("tsit5")
-    return (explicit, implicit) if len(run.start.x) <= EIGENVALUES else (explicit,)
+    chosen = None if solver == "auto" else solvers.solver_named(solver)
+    forward = isinstance(adjoint, dfx.ForwardMode)
+    return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, kind, forward=forward)
 
 
 def _span(t: tuple[float, float]) -> tuple[float, float]:

@@ -20,6 +20,7 @@ from acausal.by_name import ByName, names_in
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest, need_path, reason
 from acausal.simulation.finite import warn_of_nonfinite
+from acausal.simulation.statistics import Statistics
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +35,7 @@ AXES = Values(0, 0, 0, None)  # pyright: ignore[reportArgumentType]
 
 @partial(
     jax.tree_util.register_dataclass,
-    data_fields=["values"],
+    data_fields=["values", "statistics"],
     meta_fields=["system"],
     drop_fields=["_observed"],
 )
@@ -53,10 +54,12 @@ class Solution(ByName):
     Attributes:
         values: times, states and inputs with a leading axis of n points, and parameters.
         system: the model.
+        statistics: what the steps have cost; ``None`` for fixed ones.
     """
 
     values: Values
     system: System
+    statistics: Statistics | None = None
     _observed: dict[str, Float[Array, " n"]] = field(
         default_factory=dict[str, Array], init=False, repr=False
     )

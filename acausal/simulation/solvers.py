@@ -9,21 +9,20 @@ import diffrax as dfx
 import equinox as eqx
 import numpy as np
 from jax.typing import DTypeLike
-from numpy.typing import NDArray
 
 from acausal.errors import SimulationError, nearest, shortened
 from acausal.simulation.stages import StageNewton, stage_newton
 
-Solver = dfx.AbstractSolver
+
+class BDF(eqx.Module):
+    """Backward differentiation formulas of order 1 to 5, for stiff models, in adaptive steps."""
+
+
+Solver = dfx.AbstractSolver | BDF
+"""A diffrax solver, or one of our own."""
 
 EXPLICIT = (dfx.AbstractERK, dfx.Euler)
 """Explicit Runge–Kutta schemes; diffrax has no tableau of Euler's method."""
-
-STIFF_STEPS = 5000
-"""The most explicit steps that stability may require before an implicit solver is chosen."""
-
-TSIT5_STABILITY_LIMIT = 3.3
-"""Where the stability region of Tsit5 ends on the negative real axis, in units of 1/step."""
 
 STABILITY_LIMIT = 2.0
 """About where the stability regions of all explicit schemes end, in units of 1/step."""
@@ -67,6 +66,7 @@ SOLVERS: dict[str, Callable[[], Solver]] = {
     "kvaerno3": lambda: dfx.Kvaerno3(root_finder=stage_newton()),
     "kvaerno4": lambda: dfx.Kvaerno4(root_finder=stage_newton()),
     "kvaerno5": lambda: dfx.Kvaerno5(root_finder=stage_newton()),
+    "bdf": BDF,
 }
 """Solvers by name; any other diffrax solver for ordinary differential equations can be passed itself."""
 
@@ -81,8 +81,10 @@ def solver_named(solver: str | Solver) -> Solver:
         if solver not in SOLVERS:
             raise SimulationError(f"No solver '{solver}': {nearest(solver, (*SOLVERS, 'auto'))}")
         return SOLVERS[solver]()
-    if isinstance(solver, type) and issubclass(solver, dfx.AbstractSolver):
+    if isinstance(solver, type) and issubclass(solver, dfx.AbstractSolver | BDF):
         raise SimulationError(f"solver={solver.__name__} is a class: call it, {solver.__name__}().")
+    if isinstance(solver, BDF):
+        return solver
     if not isinstance(solver, dfx.AbstractSolver):
         raise SimulationError(
             f"solver={shortened(repr(solver))} is no solver; choose one of {', '.join(SOLVERS)}, "
@@ -138,17 +140,3 @@ def for_fixed_steps(
     return eqx.tree_at(
         lambda s: (s.root_finder, s.root_find_max_steps), solver, (newton, STAGE_STEPS)
     )
-
-
-def stiff(modes: NDArray[np.complex128], span: float) -> bool:
-    """Whether quickly decaying modes would force an explicit solver to needlessly short steps.
-
-    Only damped modes count, those with −Re λ at least as large as their |Im λ|: oscillations must be
-    resolved by any solver. A model is stiff if the fastest mode would cost Tsit5 more than `STIFF_STEPS` steps.
-
-    Arguments:
-        modes: eigenvalues of the model's Jacobian, shape (n,), in 1/s.
-        span: of the simulation, in seconds.
-    """
-    damped = modes[-modes.real >= np.abs(modes.imag)]
-    return float(np.max(-damped.real, initial=0.0)) * span / TSIT5_STABILITY_LIMIT > STIFF_STEPS

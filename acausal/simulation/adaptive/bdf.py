@@ -1,0 +1,337 @@
+"""Backward differentiation formulas of order 1 to 5 with a fixed leading coefficient, for stiff models.
+
+What is kept are the states at the last times themselves. So each step, whatever its order, is one equation,
+``x - c f(t, x) = sum of weights * states before``, and that is all that a derivative has to know.
+K. E. Brenan, S. L. Campbell, L. R. Petzold: Numerical Solution of Initial-Value Problems in DAEs, SIAM 1996, chapter 5.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal.simulation.adaptive.multistep import (
+    HARMONIC,
+    MOST,
+    POINTS,
+    differences,
+    error_constant,
+    slopes,
+    weights,
+)
+from acausal.simulation.adaptive.newton_matrix import NewtonMatrix
+from acausal.simulation.adaptive.one_step import first_length
+from acausal.simulation.adaptive.problem import Attempt, Counts, Problem
+
+State = Float[Array, " n_states"]
+
+RENEW = 0.3
+"""Relative change of the coefficient c beyond which the matrix of Newton's method is renewed."""
+
+KEEP = 20
+"""Steps after which it is renewed in any case."""
+
+CORRECTIONS = 4
+"""Newton steps at most."""
+
+LEFT = 0.1
+"""The part of a step's tolerance that may remain as error of its equations."""
+
+DIVERGED = 2.0
+"""The ratio of two corrections at which Newton's method is given up."""
+
+WORTH = 1.5
+"""A longer step is taken if it is so many times longer."""
+
+CAUTIOUS, BOLD = 6.0, 10.0
+"""Factors of safety of the error at this order and below, and at the next one."""
+
+
+class Memory(NamedTuple):
+    """What is known between two steps.
+
+    Attributes:
+        h: the length to try next, in seconds.
+        states: the latest, newest first, shape (POINTS, n_states). times: of them.
+        known: how many of them belong to the run; the others only fill the table.
+        order: of the next step. wait: steps before another order is considered.
+        failures: since the last step that counts.
+        matrix: of Newton's method, factorized. c: the coefficient it was made for. age: steps since then.
+        stale: whether it must be renewed.
+    """
+
+    h: Float[Array, ""]
+    states: Float[Array, "points n_states"]
+    times: Float[Array, " points"]
+    known: Int[Array, ""]
+    order: Int[Array, ""]
+    wait: Int[Array, ""]
+    failures: Int[Array, ""]
+    matrix: Any
+    c: Float[Array, ""]
+    age: Int[Array, ""]
+    stale: Bool[Array, ""]
+
+
+class Row(NamedTuple):
+    """A step's equation: its coefficient, and the weights of the states before."""
+
+    c: Float[Array, ""]
+    weights: Float[Array, " points"]
+    t: Float[Array, ""]
+    times: Float[Array, " points"]
+    order: Int[Array, ""]
+
+
+class Dense(NamedTuple):
+    """The polynomial through the end of a step and the points before it."""
+
+    states: Float[Array, "points_1 n_states"]
+    s: Float[Array, " points_1"]
+    order: Int[Array, ""]
+
+
+class _Newton(NamedTuple):
+    """Newton's method for one step."""
+
+    x: State
+    size: Float[Array, ""]
+    rate: Float[Array, ""]
+    count: Int[Array, ""]
+    done: Bool[Array, ""]
+    failed: Bool[Array, ""]
+
+
+class BDF(eqx.Module):
+    """The method.
+
+    Attributes:
+        matrix: how the equations of a step are solved.
+    """
+
+    name: ClassVar[str] = "BDF"
+    matrix: NewtonMatrix
+    tangents: bool = eqx.field(static=True, default=False)
+
+    def with_tangents(self) -> BDF:
+        """The method that can be differentiated in forward mode."""
+        return BDF(self.matrix, True)
+
+    def begin(self, problem: Problem, t: Array, x: State) -> tuple[Memory, Counts]:
+        """What is known at the begin, or after a jump: one state."""
+        f = problem.field(t, x)
+        h = first_length(problem, t, x, f, 1.0)
+        back = jnp.arange(POINTS)
+        states = x - (h * back)[:, None].astype(x.dtype) * lax.stop_gradient(f)
+        zero, one = jnp.zeros((), jnp.int32), jnp.ones((), jnp.int32)
+        memory = Memory(
+            h,
+            states,
+            t - h * back,
+            one,
+            one,
+            2 * one,
+            zero,
+            self.matrix.empty(x),
+            jnp.ones_like(h),
+            zero,
+            jnp.array(True),
+        )
+        return memory, Counts.of(rates=2)
+
+    def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
+        """Try a step of length h from t."""
+        m, end = memory, t + h
+        q = m.order
+        s = (end - m.times) / h
+        predicting = weights(s, q + 1, jnp.zeros_like(h))
+        alpha = jnp.asarray(HARMONIC, h.dtype)[q]
+        own = predicting - slopes(s, q + 1) / alpha
+        known = own @ m.states
+        c = h / alpha
+        whole, all_known = problem, known
+        problem, m, known = lax.stop_gradient((problem, m, known))
+        predicted, x_before = predicting @ m.states, m.states[0]
+        constant = error_constant(s, q)
+        renew = m.stale | (m.age >= KEEP) | (jnp.abs(c / m.c - 1) > RENEW)
+        matrix, made_for = lax.cond(
+            renew,
+            lambda: (self.matrix.renewed(problem.field, end, predicted, c), c),
+            lambda: (m.matrix, m.c),
+        )
+        newton = self._solve(problem, matrix, 2 / (1 + c / made_for), end, predicted, known, c, constant, x_before)
+        x = newton.x
+        states = memory.states
+        error = constant * problem.size(x - predicted, x_before, x)
+        error = jnp.where(newton.done, error, jnp.inf)
+        accepted = error < 1
+        if self.tangents:
+            x = self._with_tangent(whole, end, x, c, all_known)
+        solved = m._replace(
+            matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted)
+        )
+        after = self._after(problem, solved, h, end, newton.x, error, s)
+        after = after._replace(states=jnp.concatenate([x[None], states[:-1]]))
+        before = self._before(solved, newton, renew, h, error)._replace(states=states)
+        counts = Counts.of(
+            rates=newton.count, jacobians=renew, corrections=newton.count
+        )
+        dense = Dense(
+            jnp.concatenate([x[None], states]), jnp.concatenate([jnp.zeros((1,), s.dtype), s]), q
+        )
+        return Attempt(
+            accepted,
+            x,
+            jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
+            dense,
+            Row(c, own, end, m.times, q),
+            jnp.array(False),
+            counts,
+        )
+
+    def _with_tangent(self, problem: Problem, end: Array, x: State, c: Array, known: State) -> State:
+        """The solution of a step's equation, with its derivative by the implicit function theorem."""
+        residual = x - known - c * problem.field(end, x)
+        matrix = self.matrix.renewed(lax.stop_gradient(problem.field), end, x, c)
+        return x - self.matrix.solve(matrix, residual - lax.stop_gradient(residual))
+
+    def between(self, dense: Dense, t: Array, h: Array, at: Array) -> State:
+        """The state at a time within a step."""
+        return weights(dense.s, dense.order + 1, (t + h - at) / h) @ dense.states
+
+    def _solve(
+        self,
+        problem: Problem,
+        matrix: Any,
+        scale: Array,
+        t: Array,
+        predicted: State,
+        known: State,
+        c: Array,
+        constant: Array,
+        before: State,
+    ) -> _Newton:
+        """Solve ``x - c f(t, x) = known`` from the prediction."""
+
+        def goes_on(n: _Newton) -> Array:
+            return ~(n.done | n.failed)
+
+        def correct(n: _Newton) -> _Newton:
+            residual = n.x - known - c * problem.field(t, n.x)
+            correction = -scale * self.matrix.solve(matrix, residual)
+            x = n.x + correction
+            size = problem.size(correction, before, predicted)
+            rate = jnp.where(n.count > 0, jnp.maximum(0.3 * n.rate, size / n.size), n.rate)
+            done = jnp.where(size == 0, True, size * jnp.minimum(1.0, rate) * constant < LEFT)
+            count = n.count + 1
+            diverged = (n.count > 0) & (size > DIVERGED * n.size)
+            failed = ~done & (diverged | (count >= CORRECTIONS)) | ~jnp.isfinite(size)
+            return _Newton(x, size, rate, count, done & ~failed, failed)
+
+        one, no = jnp.ones_like(c), jnp.array(False)
+        begun = _Newton(predicted, one, one, jnp.zeros((), jnp.int32), no, no)
+        return lax.while_loop(goes_on, correct, begun)
+
+    def _after(
+        self, problem: Problem, m: Memory, h: Array, end: Array, x: State, error: Array, s: Array
+    ) -> Memory:
+        """What is known after a step that counts: the next order and length."""
+        q = m.order
+        states = jnp.concatenate([x[None], m.states])
+        times = jnp.concatenate([jnp.zeros((1,), s.dtype), s])
+
+        def size(derivative: Array) -> Array:
+            """How large, over the tolerance, the derivative of an order is, times the step to the same power."""
+            return problem.size(differences(times, derivative) @ states, m.states[0], x)
+
+        def longer(error: Array, order: Array, safety: float) -> Array:
+            return 1 / ((safety * error) ** (1 / (order + 1)) + 1e-6)
+
+        same = longer(error, q, CAUTIOUS)
+        wait = m.wait - 1
+        free = (wait <= 0) & (m.failures == 0)
+        can_fall = free & (q > 1)
+        can_rise = free & (q < MOST) & (m.known >= q + 2)
+        lower = lax.cond(can_fall, lambda: longer(size(q) / q, q - 1, CAUTIOUS), lambda: jnp.zeros_like(h))
+        upper = lax.cond(can_rise, lambda: longer(size(q + 2) / (q + 2), q + 1, BOLD), lambda: jnp.zeros_like(h))
+        best = jnp.maximum(same, jnp.maximum(lower, upper))
+        is_worth = best >= WORTH
+        order = jnp.where(best == upper, q + 1, jnp.where(best == lower, q - 1, q))
+        order = jnp.where(is_worth & free & (best > same), order, q)
+        factor = jnp.where(is_worth, jnp.minimum(best, 10.0), 1.0)
+        factor = jnp.where(m.failures > 0, 1.0, factor)
+        length = jnp.maximum(h * factor, jnp.where(factor > 1, 0.0, jnp.minimum(m.h, h)))
+        wait = jnp.where(order != q, order + 1, jnp.where(free, 2, wait))
+        return m._replace(
+            h=jnp.where((h < m.h) & (factor == 1.0), m.h, length),
+            states=states[:-1],
+            times=jnp.concatenate([end[None], m.times[:-1]]),
+            known=jnp.minimum(m.known + 1, POINTS),
+            order=order,
+            wait=wait,
+            failures=jnp.zeros_like(m.failures),
+            stale=jnp.array(False),
+        )
+
+    def _before(
+        self, m: Memory, newton: _Newton, renewed: Array, h: Array, error: Array
+    ) -> Memory:
+        """What is known where a step does not count: a matrix to renew, or a shorter length."""
+        unsolved, q = ~newton.done, m.order
+        failures = m.failures + jnp.where(unsolved & ~renewed, 0, 1)
+        factor = 1 / ((CAUTIOUS * error) ** (1 / (q + 1)) + 1e-6)
+        factor = jnp.clip(jnp.where(jnp.isfinite(factor), factor, 0.2), 0.2, 0.9)
+        factor = jnp.where(unsolved, jnp.where(renewed, 0.25, 1.0), factor)
+        lowered = ~unsolved & (failures >= 3)
+        return m._replace(
+            h=h * factor,
+            order=jnp.where(lowered, jnp.maximum(q - 1, 1), q),
+            wait=jnp.where(lowered, q + 1, m.wait),
+            failures=failures,
+            stale=unsolved,
+        )
+
+    def adjoint(self, to_last: State) -> Float[Array, "points_1 n_states"]:
+        """The adjoints of the last state and of those before it."""
+        return jnp.zeros((POINTS + 1, *to_last.shape), to_last.dtype).at[0].set(to_last)
+
+    def at_start(self, adjoint: Float[Array, "points_1 n_states"]) -> State:
+        """The cotangent of the first state."""
+        return adjoint[0]
+
+    def back(
+        self,
+        of_moved: Any,
+        own: list[Array],
+        row: Any,
+        end: State,
+        adjoint: Float[Array, "points_1 n_states"],
+        to_saved: Float[Array, "n_saved n_states"],
+        which: tuple[Array, Array],
+    ) -> tuple[Float[Array, "points_1 n_states"], list[Array]]:
+        """See `OneStep.back`."""
+        problem: Problem = of_moved(own)[1]
+        equation: Row = row.own
+        s = jnp.concatenate([jnp.zeros((1,), row.h.dtype), (equation.t - equation.times) / row.h])
+
+        def add(state: tuple[Array, Array]) -> tuple[Array, Array]:
+            j, total = state
+            at = (equation.t - problem.ts[j]) / row.h
+            return j + 1, total + weights(s, equation.order + 1, at)[:, None] * to_saved[j]
+
+        if len(problem.ts):
+            _, adjoint = lax.while_loop(lambda a: a[0] < which[1], add, (which[0], adjoint))
+        matrix = self.matrix.renewed(problem.field, equation.t, end, equation.c)
+        multiplier = self.matrix.solve_transposed(matrix, adjoint[0])
+
+        def rates(own: list[Array]) -> State:
+            return of_moved(own)[1].field(equation.t, end)
+
+        by_own = jax.vjp(rates, own)[1](equation.c * multiplier)[0]
+        before = adjoint[1:] + equation.weights[:, None] * multiplier
+        return jnp.concatenate([before, jnp.zeros_like(before[:1])]), by_own

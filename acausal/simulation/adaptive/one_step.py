@@ -1,0 +1,274 @@
+"""Adaptive steps of one-step schemes: explicit ones written out from their tableau, others by diffrax's `step`."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Any, ClassVar, NamedTuple, Self, cast
+
+import diffrax as dfx
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal.simulation.adaptive.problem import Attempt, Counts, Field, Problem
+
+State = Float[Array, " n_states"]
+
+SAFETY, SHORTER, LONGER = 0.9, 0.2, 10.0
+"""Of the next step's length over this one's: a factor of safety, the least and the most."""
+
+STIFF_RATIO = 3.25
+"""The step times the fastest mode, beyond which stability and not accuracy limits steps of Tsit5 and its like."""
+
+STIFF_AFTER = 15
+"""So many of the last steps must be limited by stability before a model counts as stiff (Hairer & Wanner, IV.2)."""
+
+RELEASED = 6
+"""So many steps in sequence that are not limited start that count again."""
+
+
+class Memory(NamedTuple):
+    """What is known between two steps.
+
+    Attributes:
+        h: the length to try next, in seconds.
+        x: the state.
+        first: the derivative there, or what a solver keeps between its steps.
+        limited: the steps that stability has limited. free: those in sequence that it has not.
+    """
+
+    h: Float[Array, ""]
+    x: State
+    first: Any
+    limited: Int[Array, ""]
+    free: Int[Array, ""]
+
+
+class Made(NamedTuple):
+    """A step.
+
+    Attributes:
+        x: the state at its end. error: an estimate of its error.
+        dense: what the scheme's interpolation takes.
+        first: of the next step. done: whether its equations are solved.
+        fastest: an estimate of the fastest mode, in 1/s.
+        counts: what it has cost.
+    """
+
+    x: State
+    error: State
+    dense: dict[str, Any]
+    first: Any
+    done: Bool[Array, ""]
+    fastest: Float[Array, ""]
+    counts: Counts
+
+
+class OneStep(eqx.Module):
+    """A scheme whose steps know only the state at their start.
+
+    Attributes:
+        solver: the diffrax solver.
+    """
+
+    history: ClassVar[int] = 1
+    solver: Any
+
+    @property
+    def name(self) -> str:
+        """For messages."""
+        return type(self.solver).__name__
+
+    def with_tangents(self) -> Self:
+        """The method that can be differentiated in forward mode."""
+        return self
+
+    @abstractmethod
+    def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> Any:
+        """What the first step, or one after a jump, may use."""
+
+    @abstractmethod
+    def make(self, field: Field, t: Array, h: Array, x: State, first: Any) -> Made:
+        """One step."""
+
+    def begin(self, problem: Problem, t: Array, x: State) -> tuple[Memory, Counts]:
+        """What is known at the begin, or after a jump; and what that cost."""
+        f = problem.field(t, x)
+        h = first_length(problem, t, x, f, self._order)
+        zero = jnp.zeros((), jnp.int32)
+        return Memory(h, x, self.first(problem.field, t, h, x, f), zero, zero), Counts.of(rates=2)
+
+    def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
+        """Try a step of length h from t."""
+        x = memory.x
+        made = self.make(problem.field, t, h, x, memory.first)
+        error = lax.stop_gradient(problem.size(made.error, x, made.x))
+        error = jnp.where(made.done & jnp.isfinite(error), error, jnp.inf)
+        accepted = error < 1
+        factor = SAFETY * error ** (-1 / self._order)
+        least, most = jnp.where(accepted, 1.0, SHORTER), jnp.where(accepted, LONGER, SAFETY)
+        longer = h * jnp.clip(factor, least, most).astype(h.dtype)
+        longer = jnp.where(accepted, jnp.maximum(longer, memory.h), longer)  # h may be what was left
+        is_limited = h * lax.stop_gradient(made.fastest) > STIFF_RATIO
+        free = jnp.where(is_limited, 0, memory.free + 1)
+        limited = jnp.where(free >= RELEASED, 0, memory.limited + is_limited)
+        after = Memory(longer, made.x, made.first, limited, free)
+        before = memory._replace(h=longer)
+        return Attempt(
+            accepted,
+            made.x,
+            jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
+            made.dense,
+            (),
+            accepted & (limited >= STIFF_AFTER),
+            made.counts,
+        )
+
+    def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
+        """The state at a time within a step from t of length h."""
+        one = jnp.ones_like(h)
+        return self.solver.interpolation_cls(t0=0 * one, t1=one, **dense).evaluate((at - t) / h)
+
+    def adjoint(self, to_last: State) -> State:
+        """The adjoint behind the last step."""
+        return to_last
+
+    def at_start(self, adjoint: State) -> State:
+        """The cotangent of the first state."""
+        return adjoint
+
+    def back(
+        self,
+        of_moved: Any,
+        own: list[Array],
+        row: Any,
+        end: State,
+        adjoint: State,
+        to_saved: Float[Array, "n_saved n_states"],
+        which: tuple[Array, Array],
+    ) -> tuple[State, list[Array]]:
+        """The adjoint before a step, and the cotangents of what moves.
+
+        Arguments:
+            of_moved: what moves -> (method, problem, start). own: what moves.
+            row: the step, one of `Rows`. end: the state at its end.
+            adjoint: behind it. to_saved: cotangents of the states saved; those in the range ``which`` lie in the step.
+        """
+        t, h = row.t, row.h
+        ts = of_moved(own)[1].ts
+
+        def step(own: list[Array], x: State) -> tuple[State, dict[str, Any]]:
+            field = of_moved(own)[1].field
+            made = self.make(field, t, h, x, self.first(field, t, h, x, field(t, x)))
+            return made.x, made.dense
+
+        (_, dense), pull = jax.vjp(step, own, row.x)
+
+        def add(state: tuple[Array, Any]) -> tuple[Array, Any]:
+            j, total = state
+            pulled = jax.vjp(lambda d: self.between(d, t, h, ts[j]), dense)[1](to_saved[j])[0]
+            return j + 1, jax.tree.map(jnp.add, total, pulled)
+
+        nothing = jax.tree.map(jnp.zeros_like, dense)
+        to_dense = nothing
+        if len(ts):
+            inside = lambda state: state[0] < which[1]  # noqa: E731
+            _, to_dense = lax.while_loop(inside, add, (which[0], nothing))
+        by_own, by_x = pull((adjoint, to_dense))
+        return by_x, by_own
+
+    @property
+    def _order(self) -> float:
+        return float(cast(float, self.solver.order(None)))  # of the local error of the embedded scheme
+
+
+class Explicit(OneStep):
+    """An explicit Runge–Kutta scheme."""
+
+    def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> State:
+        """The derivative."""
+        return f
+
+    def make(self, field: Field, t: Array, h: Array, x: State, first: State) -> Made:
+        """One step, its stages written out."""
+        tableau = self.solver.tableau
+        stages, inner = [first], x
+        for row, fraction in zip(tableau.a_lower, tableau.c, strict=True):
+            inner = _sum(x, h, row, stages)
+            stages.append(field(t + float(fraction) * h, inner))
+        if tableau.fsal:
+            end, last = inner, stages[-1]
+        else:
+            end = _sum(x, h, tableau.b_sol, stages)
+            last = field(t + h, end)
+        zero = jnp.zeros_like(x)
+        error = _sum(zero, h, tableau.b_error, stages)
+        k = h * jnp.stack(stages)
+        counts = Counts.of(rates=len(stages) - 1 + (not tableau.fsal))
+        done = jnp.array(True)
+        fastest = self._fastest(x, h, stages, end)
+        return Made(end, error, {"y0": x, "y1": end, "k": k}, last, done, fastest, counts)
+
+    def _fastest(self, x: State, h: Array, stages: list[State], end: State) -> Array:
+        """From the last two stages of a scheme that both are at the end of the step."""
+        tableau = self.solver.tableau
+        if not (tableau.fsal and len(tableau.c) > 1 and tableau.c[-2] == 1):
+            return jnp.zeros_like(h)
+        other = _sum(x, h, tableau.a_lower[-2], stages)
+        change, apart = stages[-1] - stages[-2], end - other
+        size = jnp.sqrt(jnp.sum(apart**2))
+        return lax.stop_gradient(
+            jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf)
+        )
+
+
+class Foreign(OneStep):
+    """Any other adaptive diffrax solver, by its own `step`."""
+
+    def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> Any:
+        """The solver's state."""
+        return self.solver.init(_term(field), t, t + h, x, None)
+
+    def make(self, field: Field, t: Array, h: Array, x: State, first: Any) -> Made:
+        """One step."""
+        end, error, dense, last, result = self.solver.step(
+            _term(field), t, t + h, x, None, first, False
+        )
+        done = result == dfx.RESULTS.successful
+        return Made(end, error, dense, last, done, jnp.zeros_like(h), Counts.of())
+
+    def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
+        """The state at a time within a step."""
+        return self.solver.interpolation_cls(t0=t, t1=t + h, **dense).evaluate(at)
+
+
+def first_length(problem: Problem, t: Array, x: State, f: State, order: float) -> Array:
+    """A length for the first step (Hairer, Nørsett & Wanner 1993, II.4)."""
+    x, f = lax.stop_gradient((x, f))
+    d0, d1 = problem.size(x, x), problem.size(f, x)
+    small = (d0 < 1e-5) | (d1 < 1e-5)
+    h0 = jnp.where(small, 1e-6, 0.01 * d0 / jnp.where(small, 1.0, d1))
+    h0 = jnp.minimum(h0, problem.end - t)
+    other = lax.stop_gradient(problem.field(t + h0, x + h0 * f))
+    d2 = problem.size(other - f, x) / h0
+    largest = jnp.maximum(d1, d2)
+    flat = largest <= 1e-15
+    h1 = (0.01 / jnp.where(flat, 1.0, largest)) ** (1 / (order + 1))
+    h = jnp.minimum(100 * h0, jnp.where(flat, jnp.maximum(1e-6, h0 * 1e-3), h1))
+    h = jnp.where(jnp.isfinite(h), h, h0 * 1e-3)
+    return lax.stop_gradient(h.astype(x.dtype))
+
+
+def _term(field: Field) -> dfx.ODETerm[Any]:
+    return dfx.ODETerm(lambda t, x, args: field(t, x))
+
+
+def _sum(x: State, h: Array, weights: Any, stages: list[State]) -> State:
+    total = None
+    for weight, stage in zip(weights, stages, strict=False):
+        if weight:
+            term = float(weight) * stage
+            total = term if total is None else total + term
+    return x if total is None else x + h * total

@@ -1,0 +1,117 @@
+"""What is integrated in adaptive steps, and the numbers that a run leaves behind."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal.codegen import Values
+from acausal.simulation.inputs import TimeFunction, evaluate
+
+
+class Field(eqx.Module):
+    """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
+
+    Attributes:
+        constant: the values that do not change on the way.
+        inputs: functions of time.
+        system: the model.
+    """
+
+    constant: Values
+    inputs: tuple[TimeFunction, ...]
+    system: Any = eqx.field(static=True)
+
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+        """The derivatives of the states."""
+        values = self.constant._replace(t=t, x=x, u=evaluate(self.inputs, t))
+        return self.system.rates(values)
+
+
+class Problem(eqx.Module):
+    """A run to be made.
+
+    Attributes:
+        field: the right-hand side.
+        x: the first state, shape (n_states,).
+        begin, end: in seconds.
+        ts: times to save, increasing.
+        breaks: times between begin and end at which the field jumps, increasing; steps end there.
+        rtol, atol: tolerances of a step.
+        max_steps: limit of steps, those that are repeated included.
+    """
+
+    field: Field
+    x: Float[Array, " n_states"]
+    begin: Float[Array, ""]
+    end: Float[Array, ""]
+    ts: Float[Array, " n_saved"]
+    breaks: Float[Array, " n_breaks"]
+    rtol: Float[Array, "*n_states"]
+    atol: Float[Array, "*n_states"]
+    max_steps: int = eqx.field(static=True)
+
+    def size(
+        self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]
+    ) -> Float[Array, ""]:
+        """The root mean square of a change over what the tolerances allow at some states."""
+        if not change.size:
+            return jnp.zeros((), change.dtype)
+        largest = jnp.abs(states[0])
+        for x in states[1:]:
+            largest = jnp.maximum(largest, jnp.abs(x))
+        return jnp.sqrt(jnp.mean((change / (self.atol + self.rtol * largest)) ** 2))
+
+
+class Counts(NamedTuple):
+    """What a run has cost.
+
+    Attributes:
+        steps: accepted. rejected: repeated with a shorter length, for their error or because they were not solved.
+        rates: evaluations of the right-hand side.
+        jacobians: evaluations of its Jacobian, each factorized.
+        corrections: Newton steps.
+    """
+
+    steps: Int[Array, ""]
+    rejected: Int[Array, ""]
+    rates: Int[Array, ""]
+    jacobians: Int[Array, ""]
+    corrections: Int[Array, ""]
+
+    @staticmethod
+    def of(
+        steps: Any = 0, rejected: Any = 0, rates: Any = 0, jacobians: Any = 0, corrections: Any = 0
+    ) -> Counts:
+        """Some numbers, the others zero."""
+        given = (steps, rejected, rates, jacobians, corrections)
+        return Counts(*(jnp.asarray(n, jnp.int32) for n in given))
+
+    def plus(self, other: Counts) -> Counts:
+        """The sums."""
+        return Counts(*(a + b for a, b in zip(self, other, strict=True)))
+
+
+class Attempt(NamedTuple):
+    """What a method found for one step.
+
+    Attributes:
+        accepted: whether the step counts.
+        x: the state at its end.
+        memory: what the method knows next, whether the step counts or not; it holds the length ``h`` to try.
+        dense: what `between` needs to interpolate within the step.
+        row: what `redo` needs to make the step again.
+        stiff: whether stability has limited the lengths of the last steps.
+        counts: what the attempt has cost.
+    """
+
+    accepted: Bool[Array, ""]
+    x: Float[Array, " n_states"]
+    memory: Any
+    dense: Any
+    row: Any
+    stiff: Bool[Array, ""]
+    counts: Counts
