@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from acausal._jax import is_real, traced
 from acausal.by_name import names_in
@@ -28,6 +28,9 @@ Span: TypeAlias = tuple[float, float]
 """Start and end, in seconds."""
 
 FORMS = "a number, samples, (times, samples), an acausal.Signal, or a function of time"
+
+KINKS = 10_000
+"""Adaptive steps end at the samples of an input that is interpolated linearly, if these are at most so many."""
 
 REACHES = 0.01
 """Samples reach a time that lies beyond them by less than this part of a sample time: times are rounded."""
@@ -291,11 +294,35 @@ def evaluate_all(
     return jax.vmap(lambda t: evaluate(functions, t))(t)
 
 
-def jumps(
-    functions: tuple[TimeFunction, ...], start: float, end: float
-) -> Float[np.ndarray, " n_jumps"]:
-    """Times between ``start`` and ``end`` at which an input is known to jump."""
-    jumping = [f for f in functions if isinstance(f, Signal) and f.jumps]
-    known = [np.asarray(f.ts) for f in jumping if not traced(f.ts)]
+class Breaks(NamedTuple):
+    """Times within a run at which adaptive steps end.
+
+    Attributes:
+        ts: increasing, in seconds.
+        jumps: at which of them an input jumps; at the others the slope of one does.
+    """
+
+    ts: Float[np.ndarray, " n_breaks"]
+    jumps: Bool[np.ndarray, " n_breaks"]
+
+
+def breaks(functions: tuple[TimeFunction, ...], start: float, end: float) -> Breaks:
+    """Times between ``start`` and ``end`` at which an input is known to jump, or to have a kink.
+
+    Of lines between more than `KINKS` samples, none: steps that end at each would take longer than those that an
+    estimate of their error chooses.
+    """
+    signals = [f for f in functions if isinstance(f, Signal) and not traced(f.ts)]
+    jumping = _times([f for f in signals if f.jumps], start, end)
+    bent = _times([f for f in signals if f.interpolation == "linear"], start, end)
+    if len(bent) > KINKS:
+        bent = bent[:0]
+    ts = np.union1d(jumping, bent)
+    return Breaks(ts, np.isin(ts, jumping))
+
+
+def _times(signals: list[Signal], start: float, end: float) -> Float[np.ndarray, " n"]:
+    """The samples' times within a span."""
+    known = [np.asarray(f.ts) for f in signals]
     ts = np.unique(np.concatenate(known)) if known else np.zeros(0)
     return ts[(ts > start) & (ts < end)]

@@ -265,10 +265,9 @@ class BDF(eqx.Module):
         order = jnp.where(is_worth & free & (best > same), order, q)
         factor = jnp.where(is_worth, jnp.minimum(best, 10.0), 1.0)
         factor = jnp.where(m.failures > 0, 1.0, factor)
-        length = jnp.maximum(h * factor, jnp.where(factor > 1, 0.0, jnp.minimum(m.h, h)))
         wait = jnp.where(order != q, order + 1, jnp.where(free, 2, wait))
         return m._replace(
-            h=jnp.where((h < m.h) & (factor == 1.0), m.h, length),
+            h=jnp.maximum(m.h, h * factor),  # a step may have been cut short
             states=states[:-1],
             times=jnp.concatenate([end[None], m.times[:-1]]),
             known=jnp.minimum(m.known + 1, POINTS),

@@ -44,8 +44,6 @@ def method_of(solver: solvers.Solver, problem: Problem) -> Method:
 
 def _with_tolerances(solver: dfx.AbstractSolver[Any], problem: Problem) -> dfx.AbstractSolver[Any]:
     """The solver with the tolerances of the steps, where its equations are to be solved with these."""
-    if isinstance(solver, dfx.AbstractRungeKutta):  # a scan over the stages that works in both modes
-        solver = eqx.tree_at(lambda s: s.scan_kind, solver, "lax", is_leaf=lambda a: a is None)
     if not isinstance(solver, dfx.AbstractImplicitSolver):
         return solver
     example: Any = dfx.with_stepsize_controller_tols(optx.Newton)()

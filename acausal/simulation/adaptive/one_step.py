@@ -227,6 +227,14 @@ class Explicit(OneStep):
 class Foreign(OneStep):
     """Any other adaptive diffrax solver, by its own `step`."""
 
+    def with_tangents(self) -> Self:
+        """The method that can be differentiated in forward mode."""
+        if not isinstance(self.solver, dfx.AbstractRungeKutta):
+            return self
+        # its loop over the stages takes derivatives in reverse mode only by default
+        kind: Any = "bounded"
+        return eqx.tree_at(lambda m: m.solver.scan_kind, self, kind, is_leaf=lambda a: a is None)
+
     def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> Any:
         """The solver's state."""
         return self.solver.init(_term(field), t, t + h, x, None)

@@ -39,7 +39,7 @@ class Problem(eqx.Module):
         x: the first state, shape (n_states,).
         begin, end: in seconds.
         ts: times to save, increasing.
-        breaks: times between begin and end at which the field jumps, increasing; steps end there.
+        breaks: times between begin and end at which steps end, increasing. jumps: where the field jumps there.
         rtol, atol: tolerances of a step.
         max_steps: limit of steps, those that are repeated included.
     """
@@ -50,6 +50,7 @@ class Problem(eqx.Module):
     end: Float[Array, ""]
     ts: Float[Array, " n_saved"]
     breaks: Float[Array, " n_breaks"]
+    jumps: Bool[Array, " n_breaks"]
     rtol: Float[Array, "*n_states"]
     atol: Float[Array, "*n_states"]
     max_steps: int = eqx.field(static=True)

@@ -13,10 +13,25 @@ from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Bool, Float, Int, PyTree
 
 from acausal.simulation.adaptive.problem import Problem
-from acausal.simulation.adaptive.search import Found, Rows, Start, search
+from acausal.simulation.adaptive.search import (
+    Found,
+    Progress,
+    Rows,
+    Start,
+    advance,
+    begin,
+    found,
+    room,
+    saves_start,
+    search,
+)
 
 Task = tuple[Any, Problem, Start]
 """Method, problem, start."""
+
+
+MEMORY = 2**23
+"""Numbers that the states of a run may take in memory before it is made part by part again."""
 
 
 class Kept(eqx.Module):
@@ -24,22 +39,28 @@ class Kept(eqx.Module):
 
     Attributes:
         values: all arrays of the task. moved: those whose derivatives are needed.
-        rows: the steps. n: how many. last: the state after them.
-        is_saved: whether the first state is among those saved.
+        parts: where each part of the run began, with a leading axis. count: how many parts there are.
+        rows: the steps of the last part. n: how many.
+        last: the state after them.
     """
 
     values: list[Array]
+    parts: Progress
+    count: Int[Array, ""]
     rows: Rows
     n: Int[Array, ""]
     last: Float[Array, " n_states"]
-    is_saved: Bool[Array, ""]
     moved: tuple[bool, ...] = eqx.field(static=True)
 
 
 def reverse(
     method: Any, problem: Problem, start: Start, *, until_stiff: bool = False
 ) -> Found:
-    """`search`, with derivatives in reverse mode."""
+    """`search`, with derivatives in reverse mode.
+
+    The states of all steps are kept, as far as `MEMORY` allows. Of a longer run they are kept part by part: the
+    derivative makes each part again from its start.
+    """
     arrays, fixed = eqx.partition((method, problem, start), eqx.is_array)
     leaves, tree = jax.tree.flatten(arrays)
 
@@ -48,7 +69,7 @@ def reverse(
 
     @jax.custom_vjp
     def run(leaves: list[Array]) -> Found:
-        return search(*given(leaves), until_stiff=until_stiff)[0]
+        return search(*given(leaves), until_stiff=until_stiff)
 
     def keep(leaves: list[Any]) -> tuple[Found, Kept]:
         values = [leaf.value for leaf in leaves]
@@ -56,17 +77,7 @@ def reverse(
             bool(leaf.perturbed) and jnp.issubdtype(leaf.value.dtype, jnp.inexact)
             for leaf in leaves
         )
-        method, problem, start = given(values)
-        found, rows = search(
-            method, problem, start, until_stiff=until_stiff, rows=problem.max_steps
-        )
-        assert rows is not None
-        saved = (
-            (start.next == 0) & (problem.ts[0] <= start.t)
-            if len(problem.ts)
-            else jnp.array(False)
-        )
-        return found, Kept(values, rows, found.counts.steps, found.x, saved, moved)
+        return _kept(values, moved, given(values), until_stiff)
 
     def back(kept: Kept, cotangents: Found) -> tuple[list[Array | None]]:
         def of_moved(some: list[Array]) -> Task:
@@ -75,11 +86,38 @@ def reverse(
                 [next(filled) if m else v for v, m in zip(kept.values, kept.moved, strict=True)]
             )
 
-        found = iter(_back(of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x)))
-        return ([next(found) if m else None for m in kept.moved],)
+        pulled = _back(of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x), until_stiff)
+        by_moved = iter(pulled)
+        return ([next(by_moved) if m else None for m in kept.moved],)
 
     run.defvjp(keep, back, symbolic_zeros=True)
     return run(leaves)
+
+
+def _kept(
+    values: list[Array], moved: tuple[bool, ...], task: Task, until_stiff: bool
+) -> tuple[Found, Kept]:
+    """The result of a run, and what its derivative needs."""
+    method, problem, start = task
+    size = min(problem.max_steps, max(MEMORY // max(len(start.x), 1), 1))
+    most = -(-problem.max_steps // size)
+    progress, saved = begin(method, problem, start)
+    rows = room(method, problem, progress, size)
+    parts = jax.tree.map(lambda a: jnp.zeros((most, *a.shape), a.dtype), progress)
+
+    def one(carry: tuple[Any, ...]) -> tuple[Any, ...]:
+        i, progress, saved, parts, rows, _ = carry
+        parts = jax.tree.map(lambda a, v: a.at[i].set(v), parts, progress)
+        last, saved, rows = advance(
+            method, problem, progress, saved, rows, until_stiff=until_stiff
+        )
+        return i + 1, last, saved, parts, rows, last.counts.steps - progress.counts.steps
+
+    zero = jnp.zeros((), jnp.int32)
+    state = zero, progress, saved, parts, rows, zero
+    state = lax.while_loop(lambda s: s[1].why < 0, one, state) if most > 1 else one(state)
+    count, last, saved, parts, rows, n = state
+    return found(last, saved), Kept(values, parts, count, rows, n, last.x, moved)
 
 
 def _filled(cotangent: Any) -> Array:
@@ -93,27 +131,48 @@ def _back(
     kept: Kept,
     to_saved: Float[Array, "n_saved n_states"],
     to_last: Float[Array, " n_states"],
+    until_stiff: bool,
 ) -> list[Array]:
     """The cotangents of what moves."""
     own = [v for v, m in zip(kept.values, kept.moved, strict=True) if m]
-    method, _, start = of_moved(own)
-    rows = kept.rows
-    begin = start.next + kept.is_saved
+    method, problem, start = of_moved(own)
+    size = len(kept.rows.t)
 
-    def body(carry: tuple[Array, PyTree, list[Array]]) -> tuple[Array, PyTree, list[Array]]:
-        k, adjoint, totals = carry
-        first = jnp.where(k > 0, rows.next[jnp.maximum(k - 1, 0)], begin)
-        which = first, rows.next[k]
-        end = jnp.where(k + 1 < kept.n, rows.x[jnp.minimum(k + 1, len(rows.t) - 1)], kept.last)
-        row = jax.tree.map(lambda a: a[k], rows)
-        adjoint, by_own = method.back(of_moved, own, row, end, adjoint, to_saved, which)
-        return k - 1, adjoint, [a + b for a, b in zip(totals, by_own, strict=True)]
+    def part(carry: tuple[Any, ...]) -> tuple[Any, ...]:
+        """One part of the run; ``rows`` are its own only where it is the last."""
+        i, rows, n, last, adjoint, totals = carry
+        progress = jax.tree.map(lambda a: a[i], kept.parts)
+        if kept.parts.t.shape[0] > 1:
+
+            def again() -> tuple[Rows, Array, Array]:
+                reached, _, made = advance(
+                    method, problem, progress, None, rows, until_stiff=until_stiff
+                )
+                return made, jnp.asarray(size, n.dtype), reached.x
+
+            rows, n, last = lax.cond(i < kept.count - 1, again, lambda: (rows, n, last))
+
+        def step(carry: tuple[Array, PyTree, list[Array]]) -> tuple[Array, PyTree, list[Array]]:
+            k, adjoint, totals = carry
+            which = jnp.where(k > 0, rows.next[jnp.maximum(k - 1, 0)], progress.next), rows.next[k]
+            end = jnp.where(k + 1 < n, rows.x[jnp.minimum(k + 1, size - 1)], last)
+            row = jax.tree.map(lambda a: a[k], rows)
+            adjoint, by_own = method.back(of_moved, own, row, end, adjoint, to_saved, which)
+            return k - 1, adjoint, [a + b for a, b in zip(totals, by_own, strict=True)]
+
+        _, adjoint, totals = lax.while_loop(lambda c: c[0] >= 0, step, (n - 1, adjoint, totals))
+        return i - 1, rows, n, last, adjoint, totals
 
     totals = [jnp.zeros_like(v) for v in own]
-    begun = kept.n - 1, method.adjoint(to_last), totals
-    _, adjoint, totals = lax.while_loop(lambda c: c[0] >= 0, body, begun)
+    state = kept.count - 1, kept.rows, kept.n, kept.last, method.adjoint(to_last), totals
+    state = (
+        lax.while_loop(lambda s: s[0] >= 0, part, state)
+        if kept.parts.t.shape[0] > 1
+        else part(state)
+    )
+    adjoint, totals = state[-2:]
     to_start = method.at_start(adjoint)
     if len(to_saved):
-        to_start = to_start + jnp.where(kept.is_saved, to_saved[0], 0)
+        to_start = to_start + jnp.where(saves_start(problem, start), to_saved[0], 0)
     _, pull = jax.vjp(lambda some: of_moved(some)[2].x, own)
     return [a + b for a, b in zip(totals, pull(to_start)[0], strict=True)]

@@ -45,7 +45,7 @@ class Found(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """The steps of a run, to be made again.
+    """Steps, to be made again.
 
     Attributes:
         t, h: start and length of each, shape (n,). next: the first of the times to save beyond it.
@@ -59,21 +59,24 @@ class Rows(NamedTuple):
     x: Float[Array, "n n_states"]
 
 
-class _Carry(NamedTuple):
+class Progress(NamedTuple):
+    """How far a run has come; all that it needs to go on.
+
+    Attributes:
+        t, x: time and state. next: the next of the times to save. ahead: the next time at which steps must end.
+        memory: the method's. why: it stopped (-1: it goes on). counts: what it has cost.
+    """
+
     t: Float[Array, ""]
     x: Float[Array, " n_states"]
     next: Int[Array, ""]
     ahead: Int[Array, ""]
     memory: Any
-    saved: Float[Array, "n_saved n_states"]
-    rows: Rows | None
     why: Int[Array, ""]
     counts: Counts
 
 
-def search(
-    method: Any, problem: Problem, start: Start, *, until_stiff: bool = False, rows: int = 0
-) -> tuple[Found, Rows | None]:
+def search(method: Any, problem: Problem, start: Start, *, until_stiff: bool = False) -> Found:
     """Go from a start to the end of a problem.
 
     Arguments:
@@ -81,76 +84,107 @@ def search(
         problem: what is integrated.
         start: where.
         until_stiff: whether to stop where stability limits the steps.
-        rows: of how many steps to keep what is needed to make them again.
     """
-    n_saved, n_breaks = len(problem.ts), len(problem.breaks)
-    stops = jnp.append(problem.breaks, problem.end)
+    progress, saved = begin(method, problem, start)
+    last, saved, _ = advance(method, problem, progress, saved, until_stiff=until_stiff)
+    return found(last, saved)
+
+
+def found(last: Progress, saved: Float[Array, "n_saved n_states"]) -> Found:
+    """The result of a run."""
+    return Found(saved, last.t, last.x, last.next, last.why, last.counts)
+
+
+def begin(method: Any, problem: Problem, start: Start) -> tuple[Progress, Array]:
+    """A run before its first step, and the states saved so far."""
     memory, counts = method.begin(problem, start.t, start.x)
-    saved = jnp.full((n_saved, *start.x.shape), jnp.nan, start.x.dtype)
-    next_one = start.next
-    if n_saved:
-        first = (next_one == 0) & (problem.ts[0] <= start.t)
-        saved = saved.at[0].set(jnp.where(first, start.x, saved[0]))
-        next_one = jnp.where(first, 1, next_one)
-    none = None if not rows else _empty(method, problem, start, memory, rows)
-    ahead = jnp.searchsorted(problem.breaks, start.t, side="right").astype(jnp.int32)
-    begun = _Carry(
-        start.t,
-        start.x,
-        next_one.astype(jnp.int32),
-        ahead,
-        memory,
-        saved,
-        none,
-        jnp.where(start.t < problem.end, -1, REACHED).astype(jnp.int32),
-        counts,
-    )
+    saved = jnp.full((len(problem.ts), *start.x.shape), jnp.nan, start.x.dtype)
+    following = start.next
+    if len(problem.ts):
+        is_saved = saves_start(problem, start)
+        saved = saved.at[0].set(jnp.where(is_saved, start.x, saved[0]))
+        following = following + is_saved
+    goes_on = jnp.where(start.t < problem.end, -1, REACHED)
+    ahead = jnp.searchsorted(problem.breaks, start.t, side="right")
+    following, ahead, goes_on = (n.astype(jnp.int32) for n in (following, ahead, goes_on))
+    return Progress(start.t, start.x, following, ahead, memory, goes_on, counts), saved
 
-    def goes_on(c: _Carry) -> Array:
-        return c.why < 0
 
-    def body(c: _Carry) -> _Carry:
-        proposed = lax.stop_gradient(c.memory.h)
-        stop = stops[c.ahead]
-        left = jnp.where(c.ahead < n_breaks, _just_before(stop), stop) - c.t
+def saves_start(problem: Problem, start: Start) -> Bool[Array, ""]:
+    """Whether the first state is among those saved."""
+    return (start.next == 0) & (problem.ts[0] <= start.t) if len(problem.ts) else jnp.array(False)
+
+
+def advance(
+    method: Any,
+    problem: Problem,
+    progress: Progress,
+    saved: Float[Array, "n_saved n_states"] | None,
+    rows: Rows | None = None,
+    *,
+    until_stiff: bool = False,
+) -> tuple[Progress, Any, Rows | None]:
+    """Make steps until the end, or until there is no more room for them.
+
+    Arguments:
+        method, problem: what is done.
+        progress: so far.
+        saved: the states saved so far; ``None``: save none.
+        rows: room for what is needed to make these steps again, if it is asked for.
+        until_stiff: whether to stop where stability limits the steps.
+
+    Returns:
+        The progress, the states saved, and the rows filled from the first on.
+    """
+    n_breaks, before = len(problem.breaks), progress.counts.steps
+    stops, jumps = jnp.append(problem.breaks, problem.end), jnp.append(problem.jumps, False)
+
+    def goes_on(carry: tuple[Progress, Any, Rows | None]) -> Array:
+        c, _, rows = carry
+        running = c.why < 0
+        return running if rows is None else running & (c.counts.steps - before < len(rows.t))
+
+    def body(carry: tuple[Progress, Any, Rows | None]) -> tuple[Progress, Any, Rows | None]:
+        c, saved, rows = carry
+        stop, proposed = stops[c.ahead], lax.stop_gradient(c.memory.h)
+        left = jnp.where(jumps[c.ahead], _just_before(stop), stop) - c.t
         to_stop = proposed * LEFT >= left
         h = jnp.where(to_stop, left, proposed)
         made = method.attempt(problem, c.memory, c.t, h)
         ok = made.accepted
         t = jnp.where(ok, jnp.where(to_stop, stop, c.t + h), c.t)
         x = jnp.where(ok, made.x, c.x)
-        saved, next_one = _save(method, problem, c, made.dense, c.t, h, t)
-        memory, own_counts = made.memory, made.counts
-        ahead = c.ahead
+        saved, following = _save(method, problem.ts, saved, c.next, made.dense, c.t, h, t)
+        memory, ahead, counts = made.memory, c.ahead, c.counts.plus(made.counts)
         if n_breaks:
-            at_break = ok & to_stop & (c.ahead < n_breaks)
-            ahead = c.ahead + at_break
-            fresh, cost = lax.cond(
-                at_break,
+            ahead = c.ahead + (ok & to_stop & (c.ahead < n_breaks))
+            memory, cost = lax.cond(
+                ok & to_stop & jumps[c.ahead],
                 lambda: method.begin(problem, t, x),
-                lambda: (memory, Counts.of()),
+                lambda: (made.memory, Counts.of()),
             )
-            memory, own_counts = fresh, own_counts.plus(cost)
-        counts = c.counts.plus(own_counts).plus(Counts.of(steps=ok, rejected=~ok))
-        kept = c.rows
-        if kept is not None:
-            k = jnp.where(ok, c.counts.steps, rows)  # beyond the last one: dropped
-            put = lambda a, v: a.at[k].set(v, mode="drop")  # noqa: E731
-            kept = jax.tree.map(put, kept, Rows(c.t, h, next_one, made.row, c.x))
-        exhausted = counts.steps + counts.rejected >= problem.max_steps
-        if kept is not None:
-            exhausted = exhausted | (counts.steps >= rows)
-        why = jnp.where(exhausted, EXHAUSTED, -1)
-        too_short = ~ok & (c.t + made.memory.h <= c.t)
-        why = jnp.where(too_short, TOO_SHORT, why)
+            counts = counts.plus(cost)
+        if rows is not None:
+            k = jnp.where(ok, c.counts.steps - before, len(rows.t))  # beyond the last: dropped
+            row = Rows(c.t, h, following, made.row, c.x)
+            rows = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), rows, row)
+        counts = counts.plus(Counts.of(steps=ok, rejected=~ok))
+        why = jnp.where(counts.steps + counts.rejected >= problem.max_steps, EXHAUSTED, -1)
+        why = jnp.where(~ok & (c.t + memory.h <= c.t), TOO_SHORT, why)
         if until_stiff:
             why = jnp.where(made.stiff, STIFF, why)
         why = jnp.where(t >= problem.end, REACHED, why).astype(jnp.int32)
-        return _Carry(t, x, next_one, ahead, memory, saved, kept, why, counts)
+        return Progress(t, x, following, ahead, memory, why, counts), saved, rows
 
-    last = lax.while_loop(goes_on, body, begun)
-    found = Found(last.saved, last.t, last.x, last.next, last.why, last.counts)
-    return found, last.rows
+    return lax.while_loop(goes_on, body, (progress, saved, rows))
+
+
+def room(method: Any, problem: Problem, progress: Progress, n: int) -> Rows:
+    """Room for n rows."""
+    p = progress
+    made = eqx.filter_eval_shape(method.attempt, problem, p.memory, p.t, p.memory.h)
+    like = Rows(p.t, p.t, p.next, made.row, p.x)
+    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
 
 
 def _just_before(t: Array) -> Array:
@@ -160,27 +194,27 @@ def _just_before(t: Array) -> Array:
 
 
 def _save(
-    method: Any, problem: Problem, c: _Carry, dense: Any, t: Array, h: Array, reached: Array
-) -> tuple[Array, Array]:
+    method: Any,
+    ts: Array,
+    saved: Array | None,
+    following: Array,
+    dense: Any,
+    t: Array,
+    h: Array,
+    reached: Array,
+) -> tuple[Array | None, Array]:
     """The states at the times to save up to the time reached, and the next of these times."""
-    ts = problem.ts
-    n = len(ts)
-    if not n:
-        return c.saved, c.next
+    if saved is None:
+        return None, jnp.searchsorted(ts, reached, side="right").astype(jnp.int32)
+    if not len(ts):
+        return saved, following
 
     def within(state: tuple[Array, Array]) -> Array:
         j = state[1]
-        return (j < n) & (ts[jnp.minimum(j, n - 1)] <= reached)
+        return (j < len(ts)) & (ts[jnp.minimum(j, len(ts) - 1)] <= reached)
 
     def one(state: tuple[Array, Array]) -> tuple[Array, Array]:
         saved, j = state
         return saved.at[j].set(method.between(dense, t, h, ts[j])), j + 1
 
-    return lax.while_loop(within, one, (c.saved, c.next))
-
-
-def _empty(method: Any, problem: Problem, start: Start, memory: Any, n: int) -> Rows:
-    """Room for n rows."""
-    made = eqx.filter_eval_shape(method.attempt, problem, memory, start.t, memory.h)
-    like = Rows(start.t, start.t, start.next, made.row, start.x)
-    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
+    return lax.while_loop(within, one, (saved, following))

@@ -27,7 +27,7 @@ from acausal.simulation.adaptive.search import (
     search,
 )
 from acausal.simulation.adaptive.tolerances import Tolerance
-from acausal.simulation.inputs import evaluate_all, jumps
+from acausal.simulation.inputs import breaks, evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
@@ -62,15 +62,14 @@ def simulate_adaptive(
     Raises:
         SimulationError: if the end is not reached.
     """
-    ts = jnp.asarray(saved)
-    breaks = jnp.asarray(jumps(run.inputs, run.begin, run.end))
+    ends = breaks(run.inputs, run.begin, run.end)
     constant = run.start._replace(t=None, x=None, u=None)
     problem = Problem(
         Field(constant, run.inputs, run.system),
         run.start.x,
         *map(jnp.asarray, (run.begin, run.end)),
-        ts,
-        breaks,
+        jnp.asarray(saved),
+        *map(jnp.asarray, ends),
         jnp.asarray(rtol, float),
         jnp.asarray(atol, float),
         max_steps,
@@ -125,7 +124,7 @@ def _solve(
 
     def forwards(arrays: PyTree) -> Found:
         method, problem, start = eqx.combine(arrays, rest)
-        return search(method.with_tangents(), problem, start, until_stiff=until_stiff)[0]
+        return search(method.with_tangents(), problem, start, until_stiff=until_stiff)
 
     def backwards(arrays: PyTree) -> Found:
         return reverse(*eqx.combine(arrays, rest), until_stiff=until_stiff)
