@@ -38,21 +38,24 @@ class IterationMatrix(ABC):
 
 @dataclass(frozen=True, eq=False)
 class DenseIterationMatrix(IterationMatrix):
-    """By LAPACK; the factors themselves are kept: the LU factors in one matrix, and the permutation of the rows."""
+    """By LAPACK; the factors themselves are kept: the LU factors in one matrix, and the permutation of the rows.
+
+    Attributes:
+        n: number of rows. positions: rows and columns of the entries, row by row; None if all are present.
+    """
 
     n: int
-    rows: Integers
-    columns: Integers
+    positions: tuple[Integers, Integers] | None
 
     def factorize(
         self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float
     ) -> tuple[Array, Array]:
         """See `IterationMatrix`."""
         n = self.n
-        if len(self.rows) == n**2:
+        if self.positions is None:
             jacobian = entries.reshape(n, n)
         else:
-            at = jnp.zeros((n, n), entries.dtype).at[self.rows, self.columns]
+            at = jnp.zeros((n, n), entries.dtype).at[self.positions]
             jacobian = at.set(entries, unique_indices=True, indices_are_sorted=True)
         factors, _, permutation = lu(jnp.eye(n, dtype=entries.dtype) - c * jacobian)
         return factors, permutation

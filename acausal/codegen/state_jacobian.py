@@ -18,7 +18,7 @@ from acausal.codegen.iteration_matrix import (
     SparseIterationMatrix,
 )
 from acausal.flattening import Integers
-from acausal.structure import ReducedModel, color_columns, jacobian_pattern
+from acausal.structure import ReducedModel, color_columns, jacobian_pattern, long_rows
 
 FEW = 32
 """Up to so many states a Jacobian is dense: one product with a matrix of directions finds all columns."""
@@ -35,20 +35,20 @@ AT_ONCE = 1 << 24
 
 @dataclass(frozen=True, eq=False)
 class StateJacobian(LeavesCaches):
-    """Positions of the entries of ``d(dx/dt)/dx`` and how to compute them.
+    """Positions of the entries of ``d(dx/dt)/dx``, and how to compute them.
 
     Attributes:
         n: number of states.
-        rows, columns: positions of the entries, row by row, shape (n_entries,); the whole diagonal is among them.
-        colors: of every column, shape (n,); columns of one colour share no row.
-        is_dense: whether all entries are present, so that they are a matrix of shape (n, n), row by row.
+        positions: rows and columns of the entries, row by row, the whole diagonal among them; None if all n * n
+            entries are present.
+        long_rows: rows that are found by a reverse derivative each.
+        colors: of every column, shape (n,); columns of one colour share none of the other rows.
     """
 
     n: int
-    rows: Integers
-    columns: Integers
+    positions: tuple[Integers, Integers] | None
+    long_rows: Integers
     colors: Integers
-    is_dense: bool
 
     @classmethod
     def of(cls, reduced: ReducedModel) -> StateJacobian:
@@ -58,42 +58,84 @@ class StateJacobian(LeavesCaches):
         if found is not None:
             diagonal = np.arange(n) * (n + 1)
             places = np.union1d(found[0] * n + found[1], diagonal)
-            rows, columns = np.divmod(places, n)
             if len(places) <= DENSE * n**2:
-                return cls(n, rows, columns, color_columns(rows, columns, n, n), False)
-        rows, columns = np.divmod(np.arange(n**2), max(n, 1))
-        return cls(n, rows, columns, np.arange(n), True)
+                rows, columns = np.divmod(places, n)
+                above = long_rows(rows, n)
+                short = ~np.isin(rows, above)
+                colors = color_columns(rows[short], columns[short], n, n)
+                return cls(n, (rows, columns), above, colors)
+        return cls(n, None, np.zeros(0, dtype=np.int64), np.arange(n))
+
+    @property
+    def is_dense(self) -> bool:
+        """Whether all entries are present, so that they are a matrix of shape (n, n), row by row."""
+        return self.positions is None
+
+    @property
+    def n_entries(self) -> int:
+        """How many entries there are."""
+        return self.n**2 if self.positions is None else len(self.positions[0])
+
+    @property
+    def rows(self) -> Integers:
+        """The row of every entry."""
+        return np.repeat(np.arange(self.n), self.n) if self.positions is None else self.positions[0]
+
+    @property
+    def columns(self) -> Integers:
+        """The column of every entry."""
+        return np.tile(np.arange(self.n), self.n) if self.positions is None else self.positions[1]
 
     @cached_property
     def n_colors(self) -> int:
-        """How many products with a vector give all entries."""
+        """How many products with a vector give all entries but those of long rows."""
         return int(self.colors.max(initial=-1)) + 1
 
     def entries(
         self, field: Callable[[Float[Array, " n"]], Float[Array, " n"]], x: Float[Array, " n"]
     ) -> Float[Array, " n_entries"]:
-        """The entries of the Jacobian of ``field`` at ``x``, by forward derivatives, one for each colour.
+        """The entries of the Jacobian of ``field`` at ``x``, by a forward derivative for each colour.
 
         Arguments:
             field: derivatives of the states as a function of the states, with this pattern. x: states.
         """
-        if self.is_dense:
+        if self.positions is None:
             return jax.jacfwd(field)(x).ravel()
 
         def product(color: Array) -> Array:
             return jax.jvp(field, (x,), ((self.colors == color).astype(x.dtype),))[1]
 
-        colors = jnp.arange(self.n_colors)
-        if self.n_colors * self.n <= AT_ONCE:
-            products = jax.vmap(product)(colors)
-        else:
-            products = jax.lax.map(product, colors, batch_size=max(AT_ONCE // self.n, 1))
-        places = self.colors[self.columns] * self.n + self.rows
-        return jnp.take(products.ravel(), places, unique_indices=True, mode="clip")
+        found = [self._in_turn(product, jnp.arange(self.n_colors))]
+        if len(self.long_rows):
+            pull = jax.vjp(field, x)[1]
+            found.append(
+                self._in_turn(
+                    lambda row: pull(jax.nn.one_hot(row, self.n, dtype=x.dtype))[0],
+                    jnp.asarray(self.long_rows),
+                )
+            )
+        return jnp.take(jnp.concatenate(found), self._places, unique_indices=True, mode="clip")
+
+    def _in_turn(self, derivative: Callable[[Array], Array], numbers: Array) -> Array:
+        """The derivatives of that numbers, one behind the other; side by side as far as memory allows."""
+        size = AT_ONCE // self.n
+        if len(numbers) <= size:
+            return jax.vmap(derivative)(numbers).ravel()
+        return jax.lax.map(derivative, numbers, batch_size=max(size, 1)).ravel()
+
+    @cached_property
+    def _places(self) -> Integers:
+        """Where each entry lies among the derivatives."""
+        rows, columns = self.rows, self.columns
+        above = np.full(self.n, -1)
+        above[self.long_rows] = np.arange(len(self.long_rows))
+        forward = self.colors[columns] * self.n + rows
+        reverse = (self.n_colors + above[rows]) * self.n + columns
+        return np.where(above[rows] < 0, forward, reverse)
 
     @cached_property
     def iteration_matrix(self) -> IterationMatrix:
         """How to solve equations with ``I - c J``: with LAPACK for few states or a full matrix, else with SuperLU."""
-        if self.is_dense or self.n <= SMALL:
-            return DenseIterationMatrix(self.n, self.rows, self.columns)
-        return SparseIterationMatrix.of(self.n, self.rows, self.columns)
+        if self.positions is None or self.n <= SMALL:
+            return DenseIterationMatrix(self.n, self.positions)
+        return SparseIterationMatrix.of(self.n, *self.positions)

@@ -26,8 +26,8 @@ def full():
 @pytest.fixture(
     scope="module",
     params=[
-        (DenseIterationMatrix, scattered),
-        (DenseIterationMatrix, full),
+        (lambda n, *positions: DenseIterationMatrix(n, positions), scattered),
+        (lambda n, *_: DenseIterationMatrix(n, None), full),
         (SparseIterationMatrix.of, scattered),
         (SparseIterationMatrix.of, full),
     ],

@@ -65,6 +65,34 @@ def test_many_colors_are_computed_in_turn(monkeypatch):
     np.testing.assert_allclose(jax.jit(lambda x: jacobian.entries(field, x))(x), expected)
 
 
+class Thermostat(ac.Component):
+    """n rooms in a row; what heats the first follows the mean of all temperatures."""
+
+    def __init__(self, n):
+        super().__init__()
+        self.T = [ac.Variable(start=1.0 + i) for i in range(n)]
+        self.heat = ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.heat), 1.0 - sum(self.T) / len(self.T))
+        for i, T in enumerate(self.T):
+            here = self.T[max(i - 1, 0) : i + 2]
+            yield ac.Eq(ac.der(T), sum(here) - 3 * T**3 + (self.heat if i == 0 else 0.0))
+
+
+def test_a_row_that_reads_all_states_needs_one_derivative_more():
+    system = ac.compile(Thermostat(40))
+    jacobian, packed = system.state_jacobian, system.pack()
+    assert jacobian.n_colors <= 4
+    assert [system.states[i] for i in jacobian.long_rows] == ["heat"]
+    x = jnp.linspace(0.5, 2.0, 41)
+    field = lambda x: system.rates(system.values(0.0, x, None, packed))  # noqa: E731
+    found, expected = jax.jit(lambda x: (jacobian.entries(field, x), jax.jacfwd(field)(x)))(x)
+    filled = np.zeros((41, 41))
+    filled[jacobian.rows, jacobian.columns] = found
+    np.testing.assert_allclose(filled, expected, rtol=1e-12, atol=1e-12)
+
+
 def test_a_full_jacobian_is_dense(monkeypatch):
     monkeypatch.setattr(state_jacobian, "FEW", 0)
     assert ac.compile(Plate(2)).state_jacobian.is_dense

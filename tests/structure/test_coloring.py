@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from acausal.structure import color_columns
+from acausal.structure import color_columns, long_rows
 
 
 def band(n, width):
@@ -54,3 +54,12 @@ def test_the_order_of_the_entries_does_not_matter():
     assert (
         color_columns(rows[mixed], columns[mixed], *shape) == color_columns(rows, columns, *shape)
     ).all()
+
+
+def test_few_long_rows_are_left_to_reverse_derivatives():
+    rows, _, n, _ = band(100, 1)
+    assert len(long_rows(rows, n)) == 0
+    full = np.concatenate([rows, np.full(n, 70), np.full(n, 20)])
+    assert long_rows(full, n).tolist() == [20, 70]
+    assert len(long_rows(np.repeat(np.arange(n), n), n)) == 0
+    assert len(long_rows(np.zeros(0, dtype=int), 0)) == 0
