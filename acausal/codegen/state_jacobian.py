@@ -29,9 +29,6 @@ DENSE = 0.2
 SMALL = 100
 """Up to so many states LAPACK is faster than a sparse factorization on the host."""
 
-AT_ONCE = 1 << 24
-"""The most numbers of products with directions that are computed side by side."""
-
 
 @dataclass(frozen=True, eq=False)
 class StateJacobian(LeavesCaches):
@@ -96,32 +93,31 @@ class StateJacobian(LeavesCaches):
     ) -> Float[Array, " n_entries"]:
         """The entries of the Jacobian of ``field`` at ``x``, by a forward derivative for each colour.
 
+        They are computed in turn: side by side they take longer to compile and are slower for many states.
+
         Arguments:
             field: derivatives of the states as a function of the states, with this pattern. x: states.
         """
-        if self.positions is None:
+        if self.n <= FEW:
             return jax.jacfwd(field)(x).ravel()
+        push = jax.linearize(field, x)[1]
+        if self.positions is None:
+            columns = jax.lax.map(push, jnp.eye(self.n, dtype=x.dtype), batch_size=FEW)
+            return columns.T.ravel()
 
-        def product(color: Array) -> Array:
-            return jax.jvp(field, (x,), ((self.colors == color).astype(x.dtype),))[1]
+        def column_sum(color: Array) -> Array:
+            return push((self.colors == color).astype(x.dtype))
 
-        found = [self._in_turn(product, jnp.arange(self.n_colors))]
+        found = jax.lax.map(column_sum, jnp.arange(self.n_colors)).ravel()
         if len(self.long_rows):
-            pull = jax.vjp(field, x)[1]
-            found.append(
-                self._in_turn(
-                    lambda row: pull(jax.nn.one_hot(row, self.n, dtype=x.dtype))[0],
-                    jnp.asarray(self.long_rows),
-                )
-            )
-        return jnp.take(jnp.concatenate(found), self._places, unique_indices=True, mode="clip")
+            pull = jax.linear_transpose(push, x)
 
-    def _in_turn(self, derivative: Callable[[Array], Array], numbers: Array) -> Array:
-        """The derivatives of that numbers, one behind the other; side by side as far as memory allows."""
-        size = AT_ONCE // self.n
-        if len(numbers) <= size:
-            return jax.vmap(derivative)(numbers).ravel()
-        return jax.lax.map(derivative, numbers, batch_size=max(size, 1)).ravel()
+            def row(number: Array) -> Array:
+                return pull(jax.nn.one_hot(number, self.n, dtype=x.dtype))[0]
+
+            rows = jax.lax.map(row, jnp.asarray(self.long_rows))
+            found = jnp.concatenate([found, rows.ravel()])
+        return jnp.take(found, self._places, unique_indices=True, mode="clip")
 
     @cached_property
     def _places(self) -> Integers:
