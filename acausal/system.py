@@ -22,6 +22,7 @@ from acausal.codegen import (
     Packed,
     ParameterLayout,
     Program,
+    StateJacobian,
     Values,
     default_parameters,
     explain_nonfinite,
@@ -130,6 +131,11 @@ class System(LeavesCaches):
     def nominal(self) -> Float[np.ndarray, " n_states"]:
         """Typical magnitudes of the states, in the order of ``x``: the attribute ``nominal``, 1 by default."""
         return np.abs(self.initializer.conditions.nominal)
+
+    @cached_property
+    def state_jacobian(self) -> StateJacobian:
+        """The pattern of ``d(dx/dt)/dx``, how to compute its entries, and how to solve equations with them."""
+        return StateJacobian.of(self.reduced)
 
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""

@@ -12,6 +12,11 @@ from acausal.codegen.interpreter import (
     rates_and_read as rates_and_read,
     read as read,
 )
+from acausal.codegen.iteration_matrix import (
+    DenseIterationMatrix as DenseIterationMatrix,
+    IterationMatrix as IterationMatrix,
+    SparseIterationMatrix as SparseIterationMatrix,
+)
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
 from acausal.codegen.nonfinite import explain_nonfinite as explain_nonfinite
@@ -25,4 +30,5 @@ from acausal.codegen.reading import (
     chosen_module as chosen_module,
     read_parameters as read_parameters,
 )
+from acausal.codegen.state_jacobian import StateJacobian as StateJacobian
 from acausal.codegen.values import Packed as Packed, Values as Values

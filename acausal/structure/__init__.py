@@ -6,10 +6,13 @@ It knows integers and templates; no JAX. Its graph algorithms know integers alon
 
 from acausal.structure.algebraic_loops import BlockEquation as BlockEquation, TornLoop as TornLoop
 from acausal.structure.blocks import Accumulation as Accumulation, Assignment as Assignment
+from acausal.structure.coloring import color_columns as color_columns, long_rows as long_rows
 from acausal.structure.elimination_order import (
     SETTINGS as SETTINGS,
     THRESHOLD as THRESHOLD,
     Pattern as Pattern,
+    analyse_diagonal as analyse_diagonal,
 )
 from acausal.structure.reduced_model import ReducedModel as ReducedModel, reduce as reduce
 from acausal.structure.sparse_loops import SparseGroup as SparseGroup, SparseLoop as SparseLoop
+from acausal.structure.state_dependence import jacobian_pattern as jacobian_pattern

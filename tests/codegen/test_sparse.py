@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import scipy.sparse.linalg
 
-from acausal.codegen import sparse
+from acausal.codegen import factorizations
 from acausal.codegen.sparse import SparseMatrix
 from acausal.structure.elimination_order import analyse
 
@@ -87,14 +87,7 @@ def test_batches_of_batches(system):
 def test_a_matrix_is_factorized_as_often_as_it_changes(system, monkeypatch):
     matrix, entries, b, _ = system
     matrix = SparseMatrix(matrix.pattern)
-    calls = []
-    plain = scipy.sparse.linalg.splu
-
-    def counted(*args, **kwargs):
-        calls.append(args)
-        return plain(*args, **kwargs)
-
-    monkeypatch.setattr(sparse, "splu", counted)
+    calls = count_factorizations(monkeypatch)
 
     @jax.jit
     def march(entries, b):
@@ -105,6 +98,60 @@ def test_a_matrix_is_factorized_as_often_as_it_changes(system, monkeypatch):
     assert len(calls) == 1
     jax.block_until_ready(march(2 * entries, b))
     assert len(calls) == 2
+
+
+def count_factorizations(monkeypatch):
+    calls = []
+    plain = scipy.sparse.linalg.splu
+
+    def counted(*args, **kwargs):
+        calls.append(args)
+        return plain(*args, **kwargs)
+
+    monkeypatch.setattr(factorizations, "splu", counted)
+    return calls
+
+
+def test_matrices_that_alternate_are_factorized_once_each(system, monkeypatch):
+    matrix, entries, b, dense = system
+    matrix = SparseMatrix(matrix.pattern)
+    calls = count_factorizations(monkeypatch)
+    scale = jnp.asarray([1.0, 2.0, 3.0])[:, None]
+    solve = jax.jit(jax.vmap(matrix.solve, (0, None)))
+    for _ in range(3):
+        close(solve(scale * entries, b), jax.vmap(dense, (0, None))(scale * entries, b))
+    assert len(calls) == 3
+
+
+@pytest.mark.parametrize(("most", "budget"), [(2, 1 << 23), (64, 2 * N)])
+def test_the_oldest_factorizations_are_dropped(system, monkeypatch, most, budget):
+    matrix, entries, b, dense = system
+    matrix = SparseMatrix(matrix.pattern)
+    monkeypatch.setattr(factorizations, "MOST", most)
+    monkeypatch.setattr(factorizations, "BUDGET", budget)
+    calls = count_factorizations(monkeypatch)
+    for scale in (1.0, 2.0, 3.0, 3.0, 1.0):
+        close(matrix.solve(scale * entries, b), dense(scale * entries, b))
+    assert len(calls) == 4
+
+
+def test_matrices_that_differ_in_one_entry_are_different(system):
+    matrix, entries, b, dense = system
+    for i in (0, len(entries) - 1):
+        changed = entries.at[i].multiply(1 + 1e-6)
+        close(matrix.solve(changed, b), dense(changed, b))
+        close(matrix.solve(entries, b), dense(entries, b))
+
+
+def test_the_transposed_system_has_the_same_factors(system, monkeypatch):
+    matrix, entries, b, _ = system
+    matrix = SparseMatrix(matrix.pattern)
+    calls = count_factorizations(monkeypatch)
+    x = matrix.solve_transposed(entries, b)
+    close(matrix.transposed_times(entries, x), b)
+    gradients = jax.grad(lambda b: matrix.solve_transposed(entries, b) @ b)(b)
+    close(gradients, x + matrix.solve(entries, b))
+    assert len(calls) == 1
 
 
 @pytest.mark.parametrize("factor", [0.0, jnp.nan, jnp.inf])
@@ -127,12 +174,14 @@ def test_one_thread_makes_and_drops_all_factorizations(system, monkeypatch):
     class Noted:
         def __init__(self, *args, **options):
             made.append(threading.get_ident())
-            self.solve = scipy.sparse.linalg.splu(*args, **options).solve
+            factors = scipy.sparse.linalg.splu(*args, **options)
+            self.solve, self.nnz = factors.solve, factors.nnz
 
         def __del__(self):
             dropped.append(threading.get_ident())
 
-    monkeypatch.setattr(sparse, "splu", Noted)
+    monkeypatch.setattr(factorizations, "splu", Noted)
+    monkeypatch.setattr(factorizations, "MOST", 1)
     _, entries, b, dense = system
     matrix = SparseMatrix(system[0].pattern)
     run = jax.jit(matrix.solve)

@@ -1,0 +1,118 @@
+"""Solve equations with ``I - c J``, the iteration matrix of implicit methods, factorized once for several right sides.
+
+What is kept of a matrix is a pytree of arrays, so that a `jax.lax.while_loop` can carry it. All functions are pure;
+they can be jitted, vmapped and differentiated.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from jax.lax.linalg import lu, triangular_solve
+from jaxtyping import Array, Float
+
+from acausal.codegen.sparse import SparseMatrix
+from acausal.flattening import Integers
+from acausal.structure import analyse_diagonal
+
+
+class IterationMatrix(ABC):
+    """How ``I - c J`` is factorized and solved, for a Jacobian ``J`` with a fixed pattern."""
+
+    @abstractmethod
+    def factorize(self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float) -> Any:
+        """What is kept of ``I - c J``: arrays; ``entries`` are those of ``J``."""
+
+    @abstractmethod
+    def solve(self, kept: Any, b: Float[Array, " n"]) -> Float[Array, " n"]:
+        """``x`` with ``(I - c J) x = b``; not finite where the matrix is singular."""
+
+    @abstractmethod
+    def solve_transposed(self, kept: Any, b: Float[Array, " n"]) -> Float[Array, " n"]:
+        """``x`` with ``(I - c J)^T x = b``."""
+
+
+@dataclass(frozen=True, eq=False)
+class DenseIterationMatrix(IterationMatrix):
+    """By LAPACK; the factors themselves are kept: the LU factors in one matrix, and the permutation of the rows.
+
+    Attributes:
+        n: number of rows. positions: rows and columns of the entries, row by row; None if all are present.
+    """
+
+    n: int
+    positions: tuple[Integers, Integers] | None
+
+    def factorize(
+        self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float
+    ) -> tuple[Array, Array]:
+        """See `IterationMatrix`."""
+        n = self.n
+        if self.positions is None:
+            jacobian = entries.reshape(n, n)
+        else:
+            at = jnp.zeros((n, n), entries.dtype).at[self.positions]
+            jacobian = at.set(entries, unique_indices=True, indices_are_sorted=True)
+        factors, _, permutation = lu(jnp.eye(n, dtype=entries.dtype) - c * jacobian)
+        return factors, permutation
+
+    def solve(self, kept: tuple[Array, Array], b: Float[Array, " n"]) -> Float[Array, " n"]:
+        """See `IterationMatrix`."""
+        factors, permutation = kept
+        y = _triangular(factors, b[permutation], lower=True)
+        return _triangular(factors, y, lower=False)
+
+    def solve_transposed(
+        self, kept: tuple[Array, Array], b: Float[Array, " n"]
+    ) -> Float[Array, " n"]:
+        """See `IterationMatrix`."""
+        factors, permutation = kept
+        y = _triangular(factors, b, lower=False, transposed=True)
+        y = _triangular(factors, y, lower=True, transposed=True)
+        return jnp.zeros_like(y).at[permutation].set(y, unique_indices=True)
+
+
+def _triangular(factors: Array, b: Array, *, lower: bool, transposed: bool = False) -> Array:
+    """Solve with one of two factors in a matrix; the lower one has ones on its diagonal."""
+    return triangular_solve(
+        factors,
+        b[:, None],
+        left_side=True,
+        lower=lower,
+        unit_diagonal=lower,
+        transpose_a=transposed,
+    )[:, 0]
+
+
+@dataclass(frozen=True, eq=False)
+class SparseIterationMatrix(IterationMatrix):
+    """By SuperLU on the host; the matrix's entries are kept, and the host remembers the factors that belong to them."""
+
+    matrix: SparseMatrix
+
+    @classmethod
+    def of(cls, n: int, rows: Integers, columns: Integers) -> SparseIterationMatrix:
+        """With an order of elimination found here; the whole diagonal must be among the entries."""
+        return cls(SparseMatrix(analyse_diagonal(rows, columns, n)))
+
+    def factorize(
+        self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float
+    ) -> Float[Array, " n_entries"]:
+        """See `IterationMatrix`; the factorization is made when it is first needed."""
+        pattern = self.matrix.pattern
+        identity = np.equal(pattern.rows, pattern.columns)
+        return jnp.asarray(identity, entries.dtype) - c * entries
+
+    def solve(self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]) -> Float[Array, " n"]:
+        """See `IterationMatrix`."""
+        return self.matrix.solve(kept, b)
+
+    def solve_transposed(
+        self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]
+    ) -> Float[Array, " n"]:
+        """See `IterationMatrix`."""
+        return self.matrix.solve_transposed(kept, b)

@@ -1,0 +1,88 @@
+"""The pattern of ``d(dx/dt)/dx``: which states the derivative of each state depends on, from templates and integers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from acausal.flattening import Integers
+from acausal.structure.algebraic_loops import TornLoop
+from acausal.structure.blocks import Accumulation, Assignment
+from acausal.structure.dependence import Computation, TooManyError, dependence
+from acausal.structure.reduced_model import ReducedModel
+from acausal.structure.sparse_loops import SparseLoop
+
+
+def jacobian_pattern(reduced: ReducedModel) -> tuple[Integers, Integers] | None:
+    """Rows and columns of the entries that may differ from zero, row by row; None if there are too many to list.
+
+    Every unknown of an algebraic loop depends on all that the equations of its loop read.
+    """
+    computations = [_COMPUTATION[type(step)](step) for step in reduced.steps]
+    n_nodes = len(reduced.derivative)
+    try:
+        return dependence(computations, reduced.states, reduced.rates, n_nodes)
+    except TooManyError:
+        return None
+
+
+def _table(results: Integers, reads: Integers) -> Computation:
+    """Rows that compute ``results[i]`` from ``reads[i]``."""
+    rows = np.arange(len(results))
+    return Computation(
+        len(results),
+        np.repeat(rows, results.shape[1]),
+        results.ravel(),
+        np.repeat(rows, reads.shape[1]),
+        reads.ravel(),
+    )
+
+
+def _assignment(step: Assignment) -> Computation:
+    solved = step.template.solved(step.column)
+    assert solved is not None
+    present = solved.free_symbols
+    read = [i for i, s in enumerate(step.template.variables) if s in present]
+    return _table(step.unknowns[:, None], step.variables[:, read])
+
+
+def _accumulation(step: Accumulation) -> Computation:
+    return _table(step.unknowns[:, None], step.terms)
+
+
+def _torn_loop(loop: TornLoop) -> Computation:
+    return _table(loop.unknowns, loop.externals)
+
+
+def _sparse_loop(loop: SparseLoop) -> Computation:
+    """Loops of one level are solved together, but each depends on its own equations only."""
+    n = len(loop.unknowns)
+    shape = (2 * n, 2 * n)  # unknowns, then equations
+    edges = loop.pattern.columns, n + loop.pattern.rows
+    n_loops, member = connected_components(coo_array((np.ones(len(edges[0])), edges), shape=shape))
+    equation, offset = member[n:], 0
+    rows: list[Integers] = []
+    nodes: list[Integers] = []
+    for group in loop.groups:
+        size, slots = group.variables.shape
+        rows.append(np.repeat(equation[offset : offset + size], slots))
+        nodes.append(group.variables.ravel())
+        offset += size
+    rows.append(equation[offset + loop.sums.rows])
+    nodes.append(loop.sums.nodes)
+    reading, read = np.concatenate(rows), np.concatenate(nodes)
+    outside = loop.places(read) < 0
+    return Computation(n_loops, member[:n], loop.unknowns, reading[outside], read[outside])
+
+
+_COMPUTATION: dict[type, Callable[[Any], Computation]] = {
+    Assignment: _assignment,
+    Accumulation: _accumulation,
+    TornLoop: _torn_loop,
+    SparseLoop: _sparse_loop,
+}
+"""By kind of step, what it computes from what."""

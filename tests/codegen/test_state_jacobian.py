@@ -1,0 +1,112 @@
+"""Entries of the state Jacobian, found colour by colour, are those of the dense one."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.codegen import DenseIterationMatrix, SparseIterationMatrix, state_jacobian
+from tests.support.stiff import Bridge, Chain, DiodeAndResistor, Ladder, Plate
+
+MODELS = {
+    "plate": (lambda: Plate(7), 7),
+    "ladder with loops": (lambda: Ladder(40, Bridge), 3),
+    "ladder with nonlinear loops": (lambda: Ladder(40, DiodeAndResistor), 3),
+    "chain with networks": (lambda: Chain(20, neural_spring=True), 6),
+    "small": (lambda: Plate(3), 9),
+}
+
+
+@pytest.fixture(scope="module", params=MODELS)
+def case(request):
+    """The system, its derivatives as a function of states and parameters, and the number of colours."""
+    make, n_colors = MODELS[request.param]
+    system = ac.compile(make())
+
+    def field(packed):
+        return lambda x: system.rates(system.values(0.0, x, None, packed))
+
+    return system, field, n_colors
+
+
+def test_entries_are_those_of_the_dense_jacobian(case):
+    system, field, n_colors = case
+    jacobian, packed = system.state_jacobian, system.pack()
+    n = len(system.states)
+    assert jacobian.is_dense == (n < 32)
+    assert jacobian.n_colors == n_colors
+    assert set(range(n)) <= set(jacobian.rows[jacobian.rows == jacobian.columns].tolist())
+    entries = jax.jit(lambda x, packed: jacobian.entries(field(packed), x))
+    dense = jax.jit(lambda x, packed: jax.jacfwd(field(packed))(x))
+    for seed in range(3):
+        x = jnp.asarray(np.random.default_rng(seed).uniform(0.1, 0.5, n))
+        filled = np.zeros((n, n))
+        filled[jacobian.rows, jacobian.columns] = entries(x, packed)
+        expected = dense(x, packed)
+        np.testing.assert_allclose(filled, expected, rtol=1e-12, atol=1e-12 * abs(expected).max())
+
+
+def test_the_pattern_is_found_once(case):
+    system, _, _ = case
+    assert system.state_jacobian is system.state_jacobian
+    assert system.state_jacobian.iteration_matrix is system.state_jacobian.iteration_matrix
+
+
+def test_a_dense_jacobian_of_many_states(monkeypatch):
+    system = ac.compile(Plate(7))
+    monkeypatch.setattr(state_jacobian, "DENSE", 0.0)
+    jacobian, packed = system.state_jacobian, system.pack()
+    assert jacobian.is_dense
+    x = jnp.linspace(1.0, 2.0, 49)
+    field = lambda x: system.rates(system.values(0.0, x, None, packed)) * x  # noqa: E731
+    found, expected = jax.jit(lambda x: (jacobian.entries(field, x), jax.jacfwd(field)(x)))(x)
+    np.testing.assert_allclose(found.reshape(49, 49), expected, rtol=1e-12)
+
+
+class Thermostat(ac.Component):
+    """n rooms in a row; what heats the first follows the mean of all temperatures."""
+
+    def __init__(self, n):
+        super().__init__()
+        self.T = [ac.Variable(start=1.0 + i) for i in range(n)]
+        self.heat = ac.Variable(start=0.0)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.heat), 1.0 - sum(self.T) / len(self.T))
+        for i, T in enumerate(self.T):
+            here = self.T[max(i - 1, 0) : i + 2]
+            yield ac.Eq(ac.der(T), sum(here) - 3 * T**3 + (self.heat if i == 0 else 0.0))
+
+
+def test_a_row_that_reads_all_states_needs_one_derivative_more():
+    system = ac.compile(Thermostat(40))
+    jacobian, packed = system.state_jacobian, system.pack()
+    assert jacobian.n_colors <= 4
+    assert [system.states[i] for i in jacobian.long_rows] == ["heat"]
+    x = jnp.linspace(0.5, 2.0, 41)
+    field = lambda x: system.rates(system.values(0.0, x, None, packed))  # noqa: E731
+    found, expected = jax.jit(lambda x: (jacobian.entries(field, x), jax.jacfwd(field)(x)))(x)
+    filled = np.zeros((41, 41))
+    filled[jacobian.rows, jacobian.columns] = found
+    np.testing.assert_allclose(filled, expected, rtol=1e-12, atol=1e-12)
+
+
+def test_the_way_to_solve_follows_from_size_and_pattern(monkeypatch):
+    assert isinstance(ac.compile(Plate(7)).state_jacobian.iteration_matrix, DenseIterationMatrix)
+    monkeypatch.setattr(state_jacobian, "SMALL", 40)
+    assert isinstance(ac.compile(Plate(7)).state_jacobian.iteration_matrix, SparseIterationMatrix)
+
+
+def test_a_model_without_states_has_no_entries():
+    class Nothing(ac.Component):
+        x = ac.Variable()
+
+        def equations(self):
+            yield ac.Eq(self.x, 1.0)
+
+    jacobian = ac.compile(Nothing()).state_jacobian
+    assert jacobian.n_colors == 0
+    assert jacobian.entries(lambda x: x, jnp.zeros(0)).shape == (0,)
