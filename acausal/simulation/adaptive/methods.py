@@ -25,7 +25,7 @@ def explicit() -> Explicit:
 
 def stiff(problem: Problem) -> BDF:
     """The method for stiff models."""
-    return BDF(NewtonMatrix())
+    return BDF(NewtonMatrix(problem.field.system.state_jacobian))
 
 
 def method_of(solver: solvers.Solver, problem: Problem) -> Method:

@@ -1,36 +1,43 @@
-"""The matrix of Newton's method, ``I - c J``: made, factorized, and solved with."""
+"""The matrix of Newton's method in implicit steps, ``I - c J``: made at a point, factorized, and solved with."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from acausal.codegen import StateJacobian
 from acausal.simulation.adaptive.problem import Field
 
 State = Float[Array, " n_states"]
 
 
 class NewtonMatrix(eqx.Module):
-    """A dense one."""
+    """How the matrix is made and factorized; by the pattern of the model's Jacobian.
+
+    Attributes:
+        jacobian: of the model.
+    """
+
+    jacobian: StateJacobian = eqx.field(static=True)
 
     def empty(self, x: State) -> Any:
-        """Room for the factors."""
-        n = len(x)
-        return jnp.eye(n, dtype=x.dtype), jnp.arange(n, dtype=jnp.int32)
+        """Factors of the identity, in place of those that are not known yet."""
+        return self._factorized(jnp.zeros(self.jacobian.n_entries, x.dtype), jnp.zeros((), x.dtype))
 
     def renewed(self, field: Field, t: Array, x: State, c: Array) -> Any:
         """The factors at a point."""
-        jacobian = jax.jacfwd(lambda x: field(t, x))(x)
-        return jax.scipy.linalg.lu_factor(jnp.eye(len(x), dtype=x.dtype) - c * jacobian)
+        return self._factorized(self.jacobian.entries(lambda x: field(t, x), x), c)
 
     def solve(self, factors: Any, b: State) -> State:
         """``x`` with ``(I - c J) x = b``."""
-        return jax.scipy.linalg.lu_solve(factors, b)
+        return self.jacobian.iteration_matrix.solve(factors, b)
 
     def solve_transposed(self, factors: Any, b: State) -> State:
         """The same with the transposed matrix."""
-        return jax.scipy.linalg.lu_solve(factors, b, trans=1)
+        return self.jacobian.iteration_matrix.solve_transposed(factors, b)
+
+    def _factorized(self, entries: Array, c: Array) -> Any:
+        return self.jacobian.iteration_matrix.factorize(entries, c)
