@@ -6,7 +6,6 @@ from typing import Any, TypeAlias
 
 import diffrax as dfx
 import equinox as eqx
-import jax
 import optimistix as optx
 
 from acausal.simulation import solvers
@@ -56,4 +55,4 @@ def _with_tolerances(solver: dfx.AbstractSolver[Any], problem: Problem) -> dfx.A
 
 
 def _anything(node: object) -> bool:
-    return node is getattr(dfx.with_stepsize_controller_tols(optx.Newton)(), "rtol")
+    return node is dfx.with_stepsize_controller_tols(optx.Newton)().rtol

@@ -110,7 +110,9 @@ class OneStep(eqx.Module):
         factor = SAFETY * error ** (-1 / self._order)
         least, most = jnp.where(accepted, 1.0, SHORTER), jnp.where(accepted, LONGER, SAFETY)
         longer = h * jnp.clip(factor, least, most).astype(h.dtype)
-        longer = jnp.where(accepted, jnp.maximum(longer, memory.h), longer)  # h may be what was left
+        longer = jnp.where(
+            accepted, jnp.maximum(longer, memory.h), longer
+        )  # h may be what was left
         is_limited = h * lax.stop_gradient(made.fastest) > STIFF_RATIO
         free = jnp.where(is_limited, 0, memory.free + 1)
         limited = jnp.where(free >= RELEASED, 0, memory.limited + is_limited)
@@ -181,7 +183,9 @@ class OneStep(eqx.Module):
 
     @property
     def _order(self) -> float:
-        return float(cast(float, self.solver.order(None)))  # of the local error of the embedded scheme
+        return float(
+            cast(float, self.solver.order(None))
+        )  # of the local error of the embedded scheme
 
 
 class Explicit(OneStep):
@@ -219,9 +223,7 @@ class Explicit(OneStep):
         other = _sum(x, h, tableau.a_lower[-2], stages)
         change, apart = stages[-1] - stages[-2], end - other
         size = jnp.sqrt(jnp.sum(apart**2))
-        return lax.stop_gradient(
-            jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf)
-        )
+        return lax.stop_gradient(jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf))
 
 
 class Foreign(OneStep):

@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 from jax.custom_derivatives import SymbolicZero
-from jaxtyping import Array, Bool, Float, Int, PyTree
+from jaxtyping import Array, Float, Int, PyTree
 
 from acausal.simulation.adaptive.problem import Problem
 from acausal.simulation.adaptive.search import (
@@ -53,9 +53,7 @@ class Kept(eqx.Module):
     moved: tuple[bool, ...] = eqx.field(static=True)
 
 
-def reverse(
-    method: Any, problem: Problem, start: Start, *, until_stiff: bool = False
-) -> Found:
+def reverse(method: Any, problem: Problem, start: Start, *, until_stiff: bool = False) -> Found:
     """`search`, with derivatives in reverse mode.
 
     The states of all steps are kept, as far as `MEMORY` allows. Of a longer run they are kept part by part: the
@@ -86,7 +84,9 @@ def reverse(
                 [next(filled) if m else v for v, m in zip(kept.values, kept.moved, strict=True)]
             )
 
-        pulled = _back(of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x), until_stiff)
+        pulled = _back(
+            of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x), until_stiff
+        )
         by_moved = iter(pulled)
         return ([next(by_moved) if m else None for m in kept.moved],)
 
@@ -108,9 +108,7 @@ def _kept(
     def one(carry: tuple[Any, ...]) -> tuple[Any, ...]:
         i, progress, saved, parts, rows, _ = carry
         parts = jax.tree.map(lambda a, v: a.at[i].set(v), parts, progress)
-        last, saved, rows = advance(
-            method, problem, progress, saved, rows, until_stiff=until_stiff
-        )
+        last, saved, rows = advance(method, problem, progress, saved, rows, until_stiff=until_stiff)
         return i + 1, last, saved, parts, rows, last.counts.steps - progress.counts.steps
 
     zero = jnp.zeros((), jnp.int32)
