@@ -310,7 +310,7 @@ class BDF(eqx.Module):
         of_moved: Any,
         own: list[Array],
         row: Any,
-        end: State,
+        begin: State,
         adjoint: Float[Array, "points_1 n_states"],
         to_saved: Float[Array, "n_saved n_states"],
         which: tuple[Array, Array],
@@ -327,11 +327,11 @@ class BDF(eqx.Module):
 
         if len(problem.ts):
             _, adjoint = lax.while_loop(lambda a: a[0] < which[1], add, (which[0], adjoint))
-        matrix = self.matrix.renewed(problem.field, equation.t, end, equation.c)
+        matrix = self.matrix.renewed(problem.field, equation.t, row.x, equation.c)
         multiplier = self.matrix.solve_transposed(matrix, adjoint[0])
 
         def rates(own: list[Array]) -> State:
-            return of_moved(own)[1].field(equation.t, end)
+            return of_moved(own)[1].field(equation.t, row.x)
 
         by_own = jax.vjp(rates, own)[1](equation.c * multiplier)[0]
         before = adjoint[1:] + equation.weights[:, None] * multiplier

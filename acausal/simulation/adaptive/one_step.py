@@ -146,7 +146,7 @@ class OneStep(eqx.Module):
         of_moved: Any,
         own: list[Array],
         row: Any,
-        end: State,
+        begin: State,
         adjoint: State,
         to_saved: Float[Array, "n_saved n_states"],
         which: tuple[Array, Array],
@@ -155,7 +155,7 @@ class OneStep(eqx.Module):
 
         Arguments:
             of_moved: what moves -> (method, problem, start). own: what moves.
-            row: the step, one of `Rows`. end: the state at its end.
+            row: the step, one of `Rows`. begin: the state at its start.
             adjoint: behind it. to_saved: cotangents of the states saved; those in the range ``which`` lie in the step.
         """
         t, h = row.t, row.h
@@ -166,7 +166,7 @@ class OneStep(eqx.Module):
             made = self.make(field, t, h, x, self.first(field, t, h, x, field(t, x)))
             return made.x, made.dense
 
-        (_, dense), pull = jax.vjp(step, own, row.x)
+        (_, dense), pull = jax.vjp(step, own, begin)
 
         def add(state: tuple[Array, Any]) -> tuple[Array, Any]:
             j, total = state
