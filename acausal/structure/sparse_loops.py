@@ -14,9 +14,6 @@ from acausal.structure.elimination_order import Pattern, analyse
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, partials, random_values
 
-LARGE = 100
-"""A loop of more unknowns is neither torn nor written out."""
-
 
 @dataclass(frozen=True)
 class SparseGroup:
