@@ -135,6 +135,7 @@ class _Generator:
             tuple(self._sparse_formula(loop, g) for g in loop.groups),
             balances,
             loop.pattern,
+            loop.matched,
             loop.is_linear,
             self.reduced.start_guess(loop.unknowns),
             self.reduced.nominal(loop.unknowns),

@@ -185,12 +185,14 @@ class SolveSparseLoop(LeavesCaches):
     Attributes:
         formulas: equations in order of rows, then the ``balances``.
         pattern: where the Jacobian's entries are, in the same order.
+        matched: for every unknown the equation that it is matched to.
         guess, scale: start values and magnitudes of the unknowns, shape (size,).
     """
 
     formulas: tuple[SparseFormula, ...]
     balances: Balances
     pattern: Pattern
+    matched: Integers
     is_linear: bool
     guess: np.ndarray
     scale: np.ndarray

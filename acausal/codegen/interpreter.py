@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import jax.numpy as jnp
@@ -19,7 +19,7 @@ from acausal.codegen.instructions import (
 from acausal.codegen.lower import evaluate
 from acausal.codegen.program import INPUTS, STATES, ZERO, Program
 from acausal.codegen.reading import Arrays, read_arguments, read_elements
-from acausal.codegen.sparse_loop import solve_sparse_loop
+from acausal.codegen.sparse_loop import matched_residuals, solve_sparse_loop
 from acausal.codegen.values import Values
 
 
@@ -43,6 +43,34 @@ def rates_and_read(
     arrays = _run(program, {*wanted.sources, *program.rate_sources}, values)
     found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
     return _rates(program, values, arrays), found
+
+
+def filled(program: Program, values: Values, numbers: Sequence[int]) -> list[Array]:
+    """The first results of some instructions."""
+    wanted = [program.first[i] for i in numbers]
+    arrays = _run(program, wanted, values)
+    return [arrays[array] for array in wanted]
+
+
+def rates_and_residuals(
+    program: Program, values: Values, given: Mapping[int, Array]
+) -> tuple[Float[Array, " n_states"], list[Array]]:
+    """Derivatives of the states where the unknowns of some sparse loops are given, and the loops' residuals.
+
+    Arguments:
+        given: the unknowns, by the number of the instruction that solves for them otherwise.
+    """
+    arrays = _known(program, values)
+    residuals: list[Array] = []
+    for i in program.needed(program.rate_sources):
+        instruction = program.instructions[i]
+        if i in given:
+            assert isinstance(instruction, SolveSparseLoop)
+            residuals.append(matched_residuals(instruction, values, arrays, given[i]))
+            _fill(program, arrays, i, [given[i]])
+        else:
+            _fill(program, arrays, i, execute(instruction, values, arrays))
+    return _rates(program, values, arrays), residuals
 
 
 def steps(

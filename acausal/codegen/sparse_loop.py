@@ -40,6 +40,13 @@ def nearest_of_sparse_loop(
     return found, equations.residual(found)
 
 
+def matched_residuals(
+    loop: SolveSparseLoop, values: Values, arrays: Arrays, unknowns: Array
+) -> Array:
+    """Residuals for given unknowns, in the order of the unknowns that the equations are matched to."""
+    return _equations(loop, values, arrays).residual(unknowns)[loop.matched]
+
+
 def _equations(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> _Sparse:
     """The equations with all that is known filled in."""
     known = [read_arguments(f.arguments, values, arrays) for f in loop.formulas]

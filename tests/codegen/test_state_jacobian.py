@@ -9,7 +9,8 @@ import pytest
 
 import acausal as ac
 from acausal.codegen import DenseIterationMatrix, SparseIterationMatrix, state_jacobian
-from tests.support.stiff import Bridge, Chain, DiodeAndResistor, Ladder, Plate
+from acausal.components import electrical as el
+from tests.support.stiff import Bridge, Chain, DiodeAndResistor, Ladder, Pack, Plate
 
 MODELS = {
     "plate": (lambda: Plate(7), 7),
@@ -85,13 +86,58 @@ def test_a_row_that_reads_all_states_needs_one_derivative_more():
     system = ac.compile(Thermostat(40))
     jacobian, packed = system.state_jacobian, system.pack()
     assert jacobian.n_colors <= 4
-    assert [system.states[i] for i in jacobian.long_rows] == ["heat"]
+    assert [system.states[i] for i in jacobian.pattern.long_rows] == ["heat"]
     x = jnp.linspace(0.5, 2.0, 41)
     field = lambda x: system.rates(system.values(0.0, x, None, packed))  # noqa: E731
     found, expected = jax.jit(lambda x: (jacobian.entries(field, x), jax.jacfwd(field)(x)))(x)
     filled = np.zeros((41, 41))
     filled[jacobian.rows, jacobian.columns] = found
     np.testing.assert_allclose(filled, expected, rtol=1e-12, atol=1e-12)
+
+
+class Hardening(el.OnePort):
+    """A resistor whose voltage grows faster than its current: ``v = R i + K i**3``."""
+
+    R = ac.Parameter(1.0, unit="Ohm")
+    K = ac.Parameter(0.5, unit="V/A3")
+
+    def equations(self):
+        yield from super().equations()
+        yield ac.Eq(self.v, self.R * self.i + self.K * self.i**3)
+
+
+@pytest.mark.parametrize(
+    "resistor", [lambda k: el.Resistor(R=1.0 + 0.1 * k), lambda k: Hardening(R=1.0 + 0.1 * k)]
+)
+def test_loops_that_join_all_states_are_opened(resistor, monkeypatch):
+    system = ac.compile(Pack(12, 3, resistor))
+    monkeypatch.setattr(state_jacobian, "SMALL", 10)
+    monkeypatch.setattr(state_jacobian, "DENSE", 0.5)
+    jacobian, packed = system.state_jacobian, system.pack()
+    assert jacobian.n == 36 < jacobian.pattern.size
+    assert jacobian.open_loops
+    x, b = jnp.linspace(0.5, 1.5, 36), jnp.cos(jnp.arange(36.0))
+    u = jnp.zeros(0)
+
+    @jax.jit
+    def run(x, packed):
+        field = system.field(0.0, u, packed)
+        matrix = jacobian.iteration_matrix
+        kept = matrix.factorize(jacobian.entries(field, x), 0.3)
+        found = matrix.solve(kept, b), matrix.solve_transposed(kept, b)
+        return *found, jnp.eye(36) - 0.3 * jax.jacfwd(field)(x)
+
+    once, transposed, dense = run(x, packed)
+    np.testing.assert_allclose(dense @ once, b, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(dense.T @ transposed, b, rtol=1e-9, atol=1e-9)
+    with pytest.raises(TypeError, match="open loops needs a Field"):
+        jacobian.entries(lambda x: x, x)
+
+
+def test_loops_stay_closed_where_the_jacobian_is_small(monkeypatch):
+    system = ac.compile(Pack(12, 3, lambda k: el.Resistor(R=1.0)))
+    assert system.state_jacobian.open_loops == ()
+    assert system.state_jacobian.is_dense
 
 
 def test_the_way_to_solve_follows_from_size_and_pattern(monkeypatch):
