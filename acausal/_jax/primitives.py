@@ -42,7 +42,8 @@ ELEMENTWISE = _names(
 """Operations on each element of arrays of one shape; some of their arguments may be single numbers."""
 
 AXES_FROM_THE_FRONT = _names(
-    "argmax concatenate reduce_and reduce_max reduce_min reduce_or reduce_prod reduce_sum rev split squeeze stack unstack"
+    "argmax concatenate reduce_and reduce_max reduce_min reduce_or reduce_prod reduce_sum rev split squeeze stack "
+    "unstack"
 )
 """Operations whose parameters count axes from the front, so that a further axis at the end changes nothing."""
 

@@ -21,8 +21,8 @@ from acausal.simulation.solvers import Solver
 if TYPE_CHECKING:
     from acausal.system import System
 
-STEPS_PER_ROW = 16
-"""Steps, at most, that a row takes on average."""
+STEPS_PER_ROW = 100
+"""Steps, at most, that a row takes on average: where an input has a corner, stiff methods begin with short ones."""
 
 FEWEST = 1000
 """Steps that are allowed in any case."""

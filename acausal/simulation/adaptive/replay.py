@@ -31,7 +31,7 @@ Task = tuple[Any, Problem, Start]
 
 
 MEMORY = 2**23
-"""Numbers that the states of a run may take in memory before it is made part by part again."""
+"""Numbers that the steps of a run may take in memory before it is made part by part again."""
 
 
 class Kept(eqx.Module):
@@ -97,9 +97,10 @@ def _kept(
 ) -> tuple[Found, Kept]:
     """The result of a run, and what its derivative needs."""
     method, problem, start = task
-    size = min(problem.max_steps, max(MEMORY // max(len(start.x), 1), 1))
-    most = -(-problem.max_steps // size)
     progress, saved = begin(method, problem, start)
+    numbers = sum(a.size for a in jax.tree.leaves(room(method, problem, progress, 1)))
+    size = min(problem.max_steps, max(MEMORY // numbers, 1))
+    most = -(-problem.max_steps // size)
     rows = room(method, problem, progress, size)
     parts = jax.tree.map(lambda a: jnp.zeros((most, *a.shape), a.dtype), progress)
 

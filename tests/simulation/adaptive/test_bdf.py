@@ -140,7 +140,9 @@ def test_held_inputs_begin_anew_where_they_jump():
     )
     t = np.asarray(found.t)
     exact = np.where(
-        t < 1, 1 - np.exp(-1000 * t), 3 - (2 + np.exp(-1000.0)) * np.exp(-1000 * np.maximum(t - 1, 0))
+        t < 1,
+        1 - np.exp(-1000 * t),
+        3 - (2 + np.exp(-1000.0)) * np.exp(-1000 * np.maximum(t - 1, 0)),
     )
     np.testing.assert_allclose(found["x"], exact, atol=1e-7)
 
