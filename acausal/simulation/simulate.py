@@ -77,8 +77,9 @@ def simulate(
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
-        adjoint: for fixed steps, ``diffrax.ForwardMode()`` allows derivatives in forward mode (`jax.jvp`,
-            `jax.jacfwd`). Adaptive steps have derivatives in both modes without it; there it is deprecated.
+        adjoint: ``diffrax.ForwardMode()`` allows derivatives in forward mode (`jax.jvp`, `jax.jacfwd`) for fixed steps,
+            and second ones for adaptive steps, which have first ones in both modes without it. Any other is of no use
+            for adaptive steps, and deprecated there.
         dtype: precision of time, states and parameters in the steps, float64 or float32. Single precision takes
             half the time in large batches; in adaptive steps ``rtol`` should not be below 1e-5.
 
@@ -119,13 +120,13 @@ def simulate(
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
     chosen = None if solver == "auto" else solvers.solver_named(solver)
-    if adjoint is not None:
+    forward = isinstance(adjoint, dfx.ForwardMode)
+    if adjoint is not None and not forward:
         warnings.warn(
             "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
             DeprecationWarning,
             stacklevel=2,
         )
-    forward = isinstance(adjoint, dfx.ForwardMode)
     return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, kind, forward=forward)
 
 
