@@ -62,7 +62,9 @@ def test_of_equals_the_preferred_one_is_torn(kind):
     n = 5
     for wanted in range(n):
         ring = [[i, (i + 1) % n] for i in range(n)]
-        torn = tear(ring, anything, n, lambda v, w=wanted: Preference(**kind) if v == w else Preference())
+        torn = tear(
+            ring, anything, n, lambda v, w=wanted: Preference(**kind) if v == w else Preference()
+        )
         assert torn.tears == (wanted,)
 
 
