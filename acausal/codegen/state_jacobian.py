@@ -30,7 +30,7 @@ from acausal.codegen.iteration_matrix import (
 )
 from acausal.codegen.program import Program
 from acausal.flattening import Integers
-from acausal.structure import ReducedModel, SparseLoop, jacobian_pattern
+from acausal.structure import ReducedModel, SparseLoop, TornLoop, jacobian_pattern
 
 FEW = 32
 """Up to so many states a Jacobian is dense: one product with a matrix of directions finds all columns."""
@@ -43,6 +43,10 @@ LISTED = 1_000_000, 10_000_000
 
 SMALL = 100
 """Up to so many states LAPACK is faster than a sparse factorization on the host."""
+
+
+WIDE = 32
+"""Torn loops of more unknowns may be opened."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +70,7 @@ class StateJacobian(LeavesCaches):
         n = len(reduced.states)
         most = int(np.clip(2 * DENSE * n**2, *LISTED))
         needed = program.needed(program.rate_sources)
-        loops = tuple(i for i in needed if isinstance(reduced.steps[i], SparseLoop))
+        loops = tuple(i for i in needed if _is_wide(reduced.steps[i]))
         for opened in (loops, ()) if loops and n > SMALL else ((),):
             found = jacobian_pattern(reduced, most, opened) if n > FEW else None
             if found is not None:
@@ -137,6 +141,13 @@ class StateJacobian(LeavesCaches):
         if self.n <= SMALL and not self.open_loops:
             return DenseIterationMatrix(self.n, positions)
         return SparseIterationMatrix.of(self.n, self.pattern.size, *positions)
+
+
+def _is_wide(step: object) -> bool:
+    """Whether a step is an algebraic loop that may join many states."""
+    if isinstance(step, TornLoop):
+        return step.shape.n_unknowns > WIDE
+    return isinstance(step, SparseLoop)
 
 
 def _with_diagonal(
