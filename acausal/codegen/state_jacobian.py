@@ -66,19 +66,22 @@ class StateJacobian(LeavesCaches):
 
     @classmethod
     def of(cls, reduced: ReducedModel, program: Program) -> StateJacobian:
-        """The pattern of a model's Jacobian, with a colouring of its columns."""
+        """The pattern of a model's Jacobian, with a colouring of its columns; with open loops if that saves entries."""
         n = len(reduced.states)
+        if n <= FEW:
+            return cls(n, None)
         most = int(np.clip(2 * DENSE * n**2, *LISTED))
-        needed = program.needed(program.rate_sources)
+        needed = program.needed(program.rate_sources) if n > SMALL else []
         loops = tuple(i for i in needed if _is_wide(reduced.steps[i]))
-        for opened in (loops, ()) if loops and n > SMALL else ((),):
-            found = jacobian_pattern(reduced, most, opened) if n > FEW else None
-            if found is not None:
-                size, rows, columns = found
-                rows, columns = _with_diagonal(rows, columns, n, size)
-                if len(rows) <= DENSE * n**2:
-                    return cls(n, ColoredPattern.of(size, rows, columns), opened)
-        return cls(n, None)
+        ways = ((), loops) if loops else ((),)
+        choices = [(jacobian_pattern(reduced, most, opened), opened) for opened in ways]
+        listed = [(*pattern, opened) for pattern, opened in choices if pattern is not None]
+        if not listed:
+            return cls(n, None)
+        size, rows, columns, opened = min(listed, key=lambda choice: len(choice[1]))
+        if len(rows) > DENSE * n**2:
+            return cls(n, None)
+        return cls(n, ColoredPattern.of(size, *_with_diagonal(rows, columns, n, size)), opened)
 
     @property
     def is_dense(self) -> bool:
