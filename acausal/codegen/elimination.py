@@ -35,7 +35,7 @@ def eliminate(a: Float[Array, "n n"], b: Float[Array, " n"]) -> Float[Array, " n
 
     Its derivatives are solutions with the same matrix, or its transpose; XLA computes the pivots they share once.
     """
-    return _apply(_factorize(a), b)
+    return _computed_once(_apply(_factorize(_computed_once(a)), _computed_once(b)))
 
 
 def _derivative(
@@ -78,6 +78,11 @@ def _apply(pivots: Sequence[Pivot], b: Float[Array, " n"]) -> Float[Array, " n"]
         rest = value - jnp.sum(p.row[1:] * x)
         x = jnp.concatenate([(rest / p.row[0])[None], x])
     return x
+
+
+def _computed_once(values: Array) -> Array:
+    """The values: XLA would compute them anew at every use, where that looks cheap."""
+    return jax.lax.optimization_barrier(values)
 
 
 def _chosen(chosen: Bool[Array, " k"], rows: Array) -> Array:

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.codegen.interpreter import filled, rates, rates_and_residuals
+from acausal.codegen.interpreter import rates, rates_and_residuals, results
 from acausal.codegen.program import Program
 from acausal.codegen.values import Packed, Values
 
@@ -35,9 +35,11 @@ class Field:
         """The unknowns of some loops at their solution, one loop behind the other.
 
         Arguments:
-            loops: numbers of instructions that solve sparse loops. x: states.
+            loops: numbers of instructions that solve algebraic loops. x: states.
         """
-        return jnp.concatenate(filled(self.program, self._values(x), loops))
+        return jnp.concatenate(
+            [jnp.atleast_1d(a) for a in results(self.program, self._values(x), loops)]
+        )
 
     def with_open_loops(
         self, loops: Sequence[int], x: Float[Array, " n"], unknowns: Float[Array, " m"]
@@ -46,12 +48,13 @@ class Field:
 
         The residuals are in the order of the unknowns that they are matched to.
         """
-        given: dict[int, Array] = {}
+        given: dict[int, list[Array]] = {}
         for i in loops:
-            size = len(self.program.nodes[self.program.first[i]])
-            given[i], unknowns = unknowns[:size], unknowns[size:]
+            outputs, size = (getattr(self.program.instructions[i], a) for a in ("outputs", "size"))
+            own, unknowns = unknowns[: outputs * size], unknowns[outputs * size :]
+            given[i] = list(own.reshape((outputs, size) if size > 1 else (outputs,)))
         dx, residuals = rates_and_residuals(self.program, self._values(x), given)
-        return jnp.concatenate([dx, *residuals])
+        return jnp.concatenate([dx, *map(jnp.atleast_1d, residuals)])
 
     def _values(self, x: Array) -> Values:
         return Values(self.t, x, self.u, self.packed)

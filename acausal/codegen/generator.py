@@ -110,6 +110,7 @@ class _Generator:
             tuple(torn.residuals),
             tuple((unknown, _block_formula(formula, e)) for unknown, formula, e in solved),
             tuple(torn.tears),
+            shape.matched,
             shape.is_linear,
             arguments,
             self.reduced.start_guess(tears),

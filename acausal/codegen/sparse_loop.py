@@ -40,11 +40,11 @@ def nearest_of_sparse_loop(
     return found, equations.residual(found)
 
 
-def matched_residuals(
-    loop: SolveSparseLoop, values: Values, arrays: Arrays, unknowns: Array
-) -> Array:
-    """Residuals for given unknowns, in the order of the unknowns that the equations are matched to."""
-    return _equations(loop, values, arrays).residual(unknowns)[loop.matched]
+def matched_residuals_of_sparse_loop(
+    loop: SolveSparseLoop, values: Values, arrays: Arrays, unknowns: list[Array]
+) -> list[Array]:
+    """For given unknowns the residuals of the equations matched to them, as one array each."""
+    return [_equations(loop, values, arrays).residual(unknowns[0])[loop.matched]]
 
 
 def _equations(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> _Sparse:

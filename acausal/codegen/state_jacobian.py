@@ -30,7 +30,7 @@ from acausal.codegen.iteration_matrix import (
 )
 from acausal.codegen.program import Program
 from acausal.flattening import Integers
-from acausal.structure import ReducedModel, SparseLoop, jacobian_pattern
+from acausal.structure import ReducedModel, SparseLoop, TornLoop, jacobian_pattern
 
 FEW = 32
 """Up to so many states a Jacobian is dense: one product with a matrix of directions finds all columns."""
@@ -43,6 +43,10 @@ LISTED = 1_000_000, 10_000_000
 
 SMALL = 100
 """Up to so many states LAPACK is faster than a sparse factorization on the host."""
+
+
+WIDE = 32
+"""Torn loops of more unknowns may be opened."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,19 +66,22 @@ class StateJacobian(LeavesCaches):
 
     @classmethod
     def of(cls, reduced: ReducedModel, program: Program) -> StateJacobian:
-        """The pattern of a model's Jacobian, with a colouring of its columns."""
+        """The pattern of a model's Jacobian, with a colouring of its columns; with open loops if that saves entries."""
         n = len(reduced.states)
+        if n <= FEW:
+            return cls(n, None)
         most = int(np.clip(2 * DENSE * n**2, *LISTED))
-        needed = program.needed(program.rate_sources)
-        loops = tuple(i for i in needed if isinstance(reduced.steps[i], SparseLoop))
-        for opened in (loops, ()) if loops and n > SMALL else ((),):
-            found = jacobian_pattern(reduced, most, opened) if n > FEW else None
-            if found is not None:
-                size, rows, columns = found
-                rows, columns = _with_diagonal(rows, columns, n, size)
-                if len(rows) <= DENSE * n**2:
-                    return cls(n, ColoredPattern.of(size, rows, columns), opened)
-        return cls(n, None)
+        needed = program.needed(program.rate_sources) if n > SMALL else []
+        loops = tuple(i for i in needed if _is_wide(reduced.steps[i]))
+        ways = ((), loops) if loops else ((),)
+        choices = [(jacobian_pattern(reduced, most, opened), opened) for opened in ways]
+        listed = [(*pattern, opened) for pattern, opened in choices if pattern is not None]
+        if not listed:
+            return cls(n, None)
+        size, rows, columns, opened = min(listed, key=lambda choice: len(choice[1]))
+        if len(rows) > DENSE * n**2:
+            return cls(n, None)
+        return cls(n, ColoredPattern.of(size, *_with_diagonal(rows, columns, n, size)), opened)
 
     @property
     def is_dense(self) -> bool:
@@ -137,6 +144,13 @@ class StateJacobian(LeavesCaches):
         if self.n <= SMALL and not self.open_loops:
             return DenseIterationMatrix(self.n, positions)
         return SparseIterationMatrix.of(self.n, self.pattern.size, *positions)
+
+
+def _is_wide(step: object) -> bool:
+    """Whether a step is an algebraic loop that may join many states."""
+    if isinstance(step, TornLoop):
+        return step.shape.n_unknowns > WIDE
+    return isinstance(step, SparseLoop)
 
 
 def _with_diagonal(

@@ -41,6 +41,19 @@ class BlockShape:
     torn: Torn
 
     @property
+    def matched(self) -> tuple[int, ...]:
+        """For every unknown an equation of its own that contains it."""
+        contained = [[(c, v) for c, v in enumerate(e.variables) if v >= 0] for e in self.equations]
+        certain = [
+            [v for c, v in own if c not in e.vanishing]
+            for own, e in zip(contained, self.equations, strict=True)
+        ]
+        variable_of = graph.match(certain, self.n_unknowns)
+        if min(variable_of) < 0:
+            variable_of = graph.match([[v for _, v in own] for own in contained], self.n_unknowns)
+        return tuple(np.argsort(variable_of).tolist())
+
+    @property
     def is_linear(self) -> bool:
         """Whether the loop is linear in its unknowns."""
         return all(

@@ -22,24 +22,26 @@ def jacobian_pattern(
 ) -> tuple[int, Integers, Integers] | None:
     """Number of rows, and rows and columns of the entries that may differ from zero; None if there are too many.
 
-    Every unknown of an algebraic loop depends on all that the equations of its loop read. Where sparse loops are
-    opened, their unknowns are columns behind the states, and the equations matched to them are rows.
+    Every unknown of an algebraic loop depends on all that the equations of its loop read. Where loops are opened, their
+    unknowns are columns behind the states, and the equations matched to them are rows.
 
     Arguments:
         most: how many dependences may be listed, also of variables that are not states.
-        opened: numbers of steps that are sparse loops.
+        opened: numbers of steps that are algebraic loops.
     """
     computations: list[Computation] = []
     sources, wanted = [reduced.states], [reduced.rates]
     n_nodes = len(reduced.derivative)
     for i, step in enumerate(reduced.steps):
         if i in opened:
-            assert isinstance(step, SparseLoop)
-            residuals = n_nodes + np.arange(len(step.unknowns))
-            computations.append(_residuals(step, residuals))
-            sources.append(step.unknowns)
-            wanted.append(residuals[step.matched])
-            n_nodes += len(residuals)
+            assert isinstance(step, SparseLoop | TornLoop)
+            sources.append(np.concatenate(step.results))
+            wanted.append(n_nodes + np.arange(len(sources[-1])))
+            rows = _matched_torn(step) if isinstance(step, TornLoop) else _matched_sparse(step)
+            computations.append(
+                Computation(len(wanted[-1]), wanted[-1] - n_nodes, wanted[-1], *rows)
+            )
+            n_nodes += len(wanted[-1])
         else:
             computations.append(_COMPUTATION[type(step)](step))
     columns = np.concatenate(sources)
@@ -90,10 +92,21 @@ def _sparse_loop(loop: SparseLoop) -> Computation:
     return Computation(n_loops, member[:n], loop.unknowns, reading, nodes[outside])
 
 
-def _residuals(loop: SparseLoop, residuals: Integers) -> Computation:
-    """Each equation of a loop computes its residual."""
-    n = len(residuals)
-    return Computation(n, np.arange(n), residuals, *_reads(loop))
+def _matched_sparse(loop: SparseLoop) -> tuple[Integers, Integers]:
+    """Pairs of an unknown and a node that the equation matched to it reads."""
+    rows, nodes = _reads(loop)
+    return np.argsort(loop.matched)[rows], nodes
+
+
+def _matched_torn(loop: TornLoop) -> tuple[Integers, Integers]:
+    """The same; loops of one shape lie side by side, the first unknown of all before the second of all."""
+    size = len(loop.unknowns)
+    known = np.concatenate(
+        [loop.unknowns, loop.externals[:, ::-1]], axis=1
+    )  # by code, also negative
+    read = [known[:, list(loop.shape.equations[e].variables)] for e in loop.shape.matched]
+    rows = [np.repeat(k * size + np.arange(size), r.shape[1]) for k, r in enumerate(read)]
+    return np.concatenate(rows), np.concatenate([r.ravel() for r in read])
 
 
 def _reads(loop: SparseLoop) -> tuple[Integers, Integers]:
