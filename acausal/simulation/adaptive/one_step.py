@@ -272,7 +272,10 @@ def first_length(problem: Problem, t: Array, x: State, f: State, order: float) -
 
 
 def _term(field: Field) -> dfx.ODETerm[Any]:
-    return dfx.ODETerm(lambda t, x, args: field(t, x))
+    def rates(t: Any, x: State, args: Any) -> State:
+        return field(t, x)
+
+    return dfx.ODETerm(rates)
 
 
 def _sum(x: State, h: Array, weights: Any, stages: list[State]) -> State:

@@ -73,9 +73,11 @@ def simulate_adaptive(
     problem = Problem(
         _ModelField(constant, run.inputs, run.system),
         run.start.x,
-        *map(jnp.asarray, (run.begin, run.end)),
+        jnp.asarray(run.begin),
+        jnp.asarray(run.end),
         jnp.asarray(saved),
-        *map(jnp.asarray, ends),
+        jnp.asarray(ends.ts),
+        jnp.asarray(ends.jumps),
         jnp.asarray(rtol, float),
         jnp.asarray(atol, float),
         max_steps,
