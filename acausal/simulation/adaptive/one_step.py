@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.simulation.adaptive.problem import Attempt, Counts, Field, Problem
+from acausal.simulation.adaptive.problem import Attempt, Counts, Problem, RightHandSide
 
 State = Float[Array, " n_states"]
 
@@ -86,11 +86,11 @@ class OneStep(eqx.Module):
         return self
 
     @abstractmethod
-    def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> Any:
+    def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> Any:
         """What the first step, or one after a jump, may use."""
 
     @abstractmethod
-    def make(self, field: Field, t: Array, h: Array, x: State, first: Any) -> Made:
+    def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: Any) -> Made:
         """One step."""
 
     def begin(self, problem: Problem, t: Array, x: State) -> tuple[Memory, Counts]:
@@ -191,11 +191,11 @@ class OneStep(eqx.Module):
 class Explicit(OneStep):
     """An explicit Runge–Kutta scheme."""
 
-    def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> State:
+    def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> State:
         """The derivative."""
         return f
 
-    def make(self, field: Field, t: Array, h: Array, x: State, first: State) -> Made:
+    def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
         """One step, its stages written out."""
         tableau = self.solver.tableau
         stages, inner = [first], x
@@ -237,11 +237,11 @@ class Foreign(OneStep):
         kind: Any = "bounded"
         return eqx.tree_at(lambda m: m.solver.scan_kind, self, kind, is_leaf=lambda a: a is None)
 
-    def first(self, field: Field, t: Array, h: Array, x: State, f: State) -> Any:
+    def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> Any:
         """The solver's state."""
         return self.solver.init(_term(field), t, t + h, x, None)
 
-    def make(self, field: Field, t: Array, h: Array, x: State, first: Any) -> Made:
+    def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: Any) -> Made:
         """One step."""
         end, error, dense, last, result = self.solver.step(
             _term(field), t, t + h, x, None, first, False
@@ -271,7 +271,7 @@ def first_length(problem: Problem, t: Array, x: State, f: State, order: float) -
     return lax.stop_gradient(h.astype(x.dtype))
 
 
-def _term(field: Field) -> dfx.ODETerm[Any]:
+def _term(field: RightHandSide) -> dfx.ODETerm[Any]:
     def rates(t: Any, x: State, args: Any) -> State:
         return field(t, x)
 
