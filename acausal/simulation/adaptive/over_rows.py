@@ -57,15 +57,15 @@ class _RowsField(eqx.Module):
     places: tuple[int, ...] = eqx.field(static=True)
     system: Any = eqx.field(static=True)
 
-    def __call__(self, clock: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
-        return self.at(clock)(x)
+        return self.at(t)(x)
 
-    def at(self, clock: Array) -> Field:
-        """It at one time."""
+    def at(self, t: Array) -> Field:
+        """It at one time of the clock."""
         steps, edges = self.steps, self.edges
-        row = jnp.clip(jnp.searchsorted(edges, clock, side="right") - 1, 0, len(edges) - 2)
-        t, start, end, coefficients = (
+        row = jnp.clip(jnp.searchsorted(edges, t, side="right") - 1, 0, len(edges) - 2)
+        begin, start, end, coefficients = (
             jax.tree.map(lambda a: a[row], part)
             for part in (
                 steps.t,
@@ -75,8 +75,8 @@ class _RowsField(eqx.Module):
             )
         )
         h = steps.h if steps.h.ndim == 0 else steps.h[row]
-        step = Step(t, h, start, end, coefficients)
-        fraction = (clock - edges[row]) / h
+        step = Step(begin, h, start, end, coefficients)
+        fraction = (t - edges[row]) / h
         u = step.inputs(fraction, steps.inputs.functions)
         packed = self.packed
         if self.own is not None:
