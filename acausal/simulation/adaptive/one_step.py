@@ -22,9 +22,9 @@ SAFETY, SHORTER, LONGER = 0.9, 0.2, 10.0
 STIFF_RATIO = 2.0
 """The step times the fastest mode, beyond which stability and not accuracy limits the steps.
 
-Tsit5 and its like are stable up to 3.3 on the negative real axis. Steps at that limit are rejected now and then, and the
-next ones are shorter: with a threshold of 3.25 a clutch that sticks took 1113 steps until that was seen, with 2.0 it is
-61. An oscillator, which is not stiff, stays below at tolerances from 1e-2 to 1e-6.
+Tsit5 and its like are stable up to 3.3 on the negative real axis. Steps at that limit are rejected now and then, and
+the next ones are shorter: with a threshold of 3.25 a clutch that sticks took 1113 steps until that was seen, with 2.0
+it is 61. An oscillator, which is not stiff, stays below at tolerances from 1e-2 to 1e-6.
 """
 
 STIFF_AFTER = 15
