@@ -29,7 +29,7 @@ def tearing_pays(
         vanishing: see `Equations.vanishing`. ``parameters``: the model's own values.
     """
     block = block_of(system, equations, unknowns, vanishing)
-    torn = torn_block(block.equations, block.ranks)
+    torn = torn_block(system, [block])
     if len(torn.tears) > FEW:
         return False
     point = Point(random_values(len(system.structure.derivative)), parameters)

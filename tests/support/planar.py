@@ -41,6 +41,7 @@ class Body(ac.Component):
     frame = Frame()
     m = ac.Parameter(unit="kg")
     J = ac.Parameter(unit="kg.m2")
+    phi = ac.Variable(unit="rad")
     v_x = ac.Variable(unit="m/s")
     v_y = ac.Variable(unit="m/s")
     w = ac.Variable(unit="rad/s")
@@ -49,6 +50,7 @@ class Body(ac.Component):
     z = ac.Variable(unit="rad/s2")
 
     def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.phi, self.frame.phi)
         yield ac.Eq(self.v_x, ac.der(self.frame.x))
         yield ac.Eq(self.v_y, ac.der(self.frame.y))
         yield ac.Eq(self.w, ac.der(self.frame.phi))
@@ -137,10 +139,14 @@ class Arm(ac.Component):
 
 
 class Linkage(Arm):
-    """An arm whose end is hinged to a second fixed frame: a crank, links, a rocker."""
+    """An arm whose end is hinged to a second fixed frame; ``start`` has guesses of its links' angles."""
 
-    def __init__(self, lengths: Sequence[float], base: float = 1.0) -> None:
+    def __init__(
+        self, lengths: Sequence[float], start: Sequence[float] = (), base: float = 1.0
+    ) -> None:
         super().__init__(len(lengths), lengths)
+        for body, angle in zip(self.body, start, strict=False):
+            body.modify(phi=ac.Start(angle))
         self.end, self.pin = Fixed(x0=base), Pin()
         self.connect(self.outer[-1].frame_b, self.pin.frame_a)
         self.connect(self.pin.frame_b, self.end.frame)
