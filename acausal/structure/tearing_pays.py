@@ -12,6 +12,8 @@ from acausal.structure.tearing import Torn
 
 FEW = 12
 """The most tearing variables of a large loop: as many as are eliminated without a library."""
+COST = 1000
+"""The most unknowns times tearing variables: XLA compiles that many formulas one by one, half a minute at most."""
 LOST = 1e-9
 """The largest error of a torn loop's linear equations. In a long row of equations it may grow with each of them."""
 
@@ -30,7 +32,7 @@ def tearing_pays(
     """
     block = block_of(system, equations, unknowns, vanishing)
     torn = torn_block(system, [block])
-    if len(torn.tears) > FEW:
+    if len(torn.tears) > min(FEW, COST // len(unknowns)):
         return False
     point = Point(random_values(len(system.structure.derivative)), parameters)
     return _error(torn, _jacobian(system, equations, unknowns, point)) < LOST

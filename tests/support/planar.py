@@ -118,9 +118,13 @@ class Pin(ac.Component):
 
 
 class Arm(ac.Component):
-    """Links of two rods with a body between them, each hinged to the one before, from a fixed frame."""
+    """Links of two rods with a body between them, each hinged to the one before, from a fixed frame.
 
-    def __init__(self, n: int, lengths: Sequence[float] = ()) -> None:
+    Arguments:
+        load: how many more rods, each with a body, are rigidly fixed to its end.
+    """
+
+    def __init__(self, n: int, lengths: Sequence[float] = (), load: int = 0) -> None:
         super().__init__()
         lengths = lengths or [1.0] * n
         self.base = Fixed()
@@ -136,6 +140,12 @@ class Arm(ac.Component):
             self.connect(joint.frame_b, inner.frame_a)
             self.connect(inner.frame_b, body.frame, outer.frame_a)
             end = outer.frame_b
+        self.rod = [Rod(L=0.1) for _ in range(load)]
+        self.load = [Body(m=0.2, J=0.01) for _ in range(load)]
+        for rod, body in zip(self.rod, self.load, strict=True):
+            self.connect(end, rod.frame_a)
+            self.connect(rod.frame_b, body.frame)
+            end = rod.frame_b
 
 
 class Linkage(Arm):
