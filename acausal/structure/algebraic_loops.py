@@ -131,7 +131,7 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
     """
     equations, n_unknowns = blocks[0].equations, len(blocks[0].unknowns)
     loop = TornLoop(
-        BlockShape(equations, n_unknowns, torn_block(equations, blocks[0].ranks)),
+        BlockShape(equations, n_unknowns, torn_block(system, blocks)),
         matrix([b.unknowns for b in blocks]),
         matrix([b.externals for b in blocks]),
         matrix([b.parameters for b in blocks]),
@@ -143,8 +143,9 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
     return loop
 
 
-def torn_block(equations: Sequence[BlockEquation], ranks: Sequence[int]) -> Torn:
-    """How a block is torn; ``ranks`` has the preference of each unknown as in `Equations.tear_rank`."""
+def torn_block(system: Equations, blocks: Sequence[Block]) -> Torn:
+    """How equal blocks are torn."""
+    equations, ranks = blocks[0].equations, blocks[0].ranks
     incidence = [[v for v in e.variables if v >= 0] for e in equations]
 
     def solvable(equation: int, unknown: int) -> bool:
@@ -161,7 +162,8 @@ def torn_block(equations: Sequence[BlockEquation], ranks: Sequence[int]) -> Torn
 
     def preference(unknown: int) -> Preference:
         rank = ranks[unknown]
-        return Preference(rank, rank == ALWAYS, unknown in nonlinear)
+        guessed = bool(nonlinear) and any(system.has_start(b.unknowns[unknown]) for b in blocks)
+        return Preference(rank, rank == ALWAYS, guessed, unknown in nonlinear)
 
     return tear(incidence, solvable, len(ranks), preference)
 

@@ -104,6 +104,15 @@ class Equations:
         """How much a node is preferred as a tearing variable: from -2 "never" to 2 "always"."""
         return self._tear.get(node, 0)
 
+    @cached_property
+    def _started(self) -> set[int]:
+        given = np.flatnonzero(self.model.start_given)
+        return set(self.aliases.representative[given].tolist())
+
+    def has_start(self, node: int) -> bool:
+        """Whether the model's author has given a start value of a node, by any of its names."""
+        return node in self._started
+
     def unknowns(self) -> list[int]:
         """All representatives that are not known."""
         n = len(self.aliases.representative)

@@ -34,11 +34,13 @@ class Preference:
     Attributes:
         rank: those of a higher rank are torn before others, whatever follows from them.
         required: it is torn in any case.
+        guessed: there is a good guess of it: of those from which equally many others follow, it is torn.
         better: it is torn where another one would do as well.
     """
 
     rank: int = 0
     required: bool = False
+    guessed: bool = False
     better: bool = False
 
 
@@ -150,7 +152,7 @@ class _Block:
 def _greedy(block: _Block, preferences: Sequence[Preference]) -> list[int]:
     """Tear what is required, then again and again the variable from which most others follow.
 
-    Of equals, the one whose equations are nearest to be used.
+    Of equals, one with a good guess, then the one whose equations are nearest to be used.
     """
     block.reset()
     tears = [v for v, p in enumerate(preferences) if p.required]
@@ -161,7 +163,7 @@ def _greedy(block: _Block, preferences: Sequence[Preference]) -> list[int]:
     for rank in ranks:
         candidates = [v for v, p in enumerate(preferences) if -p.rank == rank]
         while candidates := [v for v in candidates if not block.known[v]]:
-            candidates.sort(key=lambda v: (-_nearness(block, v), not preferences[v].better, v))
+            candidates.sort(key=lambda v: _worse(block, preferences[v], v))
             chosen, most = candidates[0], 0
             for v in candidates if block.work < WORK else ():
                 found = block.learn(v)
@@ -171,6 +173,12 @@ def _greedy(block: _Block, preferences: Sequence[Preference]) -> list[int]:
             tears.append(chosen)
             block.learn(chosen)
     return tears
+
+
+def _worse(block: _Block, preference: Preference, variable: int) -> tuple[bool, float, bool, int]:
+    """Puts candidates in order, the best one first."""
+    nearness = _nearness(block, variable)
+    return not preference.guessed, -nearness, not preference.better, variable
 
 
 def _nearness(block: _Block, variable: int) -> float:

@@ -12,6 +12,8 @@ from acausal.structure.tearing import Torn
 
 FEW = 12
 """The most tearing variables of a large loop: as many as are eliminated without a library."""
+COST = 1000
+"""The most unknowns times tearing variables: with 138 and 6, XLA compiles a gradient for half a minute."""
 LOST = 1e-9
 """The largest error of a torn loop's linear equations. In a long row of equations it may grow with each of them."""
 
@@ -29,8 +31,8 @@ def tearing_pays(
         vanishing: see `Equations.vanishing`. ``parameters``: the model's own values.
     """
     block = block_of(system, equations, unknowns, vanishing)
-    torn = torn_block(block.equations, block.ranks)
-    if len(torn.tears) > FEW:
+    torn = torn_block(system, [block])
+    if len(torn.tears) > min(FEW, COST // len(unknowns)):
         return False
     point = Point(random_values(len(system.structure.derivative)), parameters)
     return _error(torn, _jacobian(system, equations, unknowns, point)) < LOST

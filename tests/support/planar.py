@@ -41,6 +41,7 @@ class Body(ac.Component):
     frame = Frame()
     m = ac.Parameter(unit="kg")
     J = ac.Parameter(unit="kg.m2")
+    phi = ac.Variable(unit="rad")
     v_x = ac.Variable(unit="m/s")
     v_y = ac.Variable(unit="m/s")
     w = ac.Variable(unit="rad/s")
@@ -49,6 +50,7 @@ class Body(ac.Component):
     z = ac.Variable(unit="rad/s2")
 
     def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.phi, self.frame.phi)
         yield ac.Eq(self.v_x, ac.der(self.frame.x))
         yield ac.Eq(self.v_y, ac.der(self.frame.y))
         yield ac.Eq(self.w, ac.der(self.frame.phi))
@@ -116,9 +118,13 @@ class Pin(ac.Component):
 
 
 class Arm(ac.Component):
-    """Links of two rods with a body between them, each hinged to the one before, from a fixed frame."""
+    """Links of two rods with a body between them, each hinged to the one before, from a fixed frame.
 
-    def __init__(self, n: int, lengths: Sequence[float] = ()) -> None:
+    Arguments:
+        load: how many more rods, each with a body, are rigidly fixed to its end.
+    """
+
+    def __init__(self, n: int, lengths: Sequence[float] = (), load: int = 0) -> None:
         super().__init__()
         lengths = lengths or [1.0] * n
         self.base = Fixed()
@@ -134,13 +140,23 @@ class Arm(ac.Component):
             self.connect(joint.frame_b, inner.frame_a)
             self.connect(inner.frame_b, body.frame, outer.frame_a)
             end = outer.frame_b
+        self.rod = [Rod(L=0.1) for _ in range(load)]
+        self.load = [Body(m=0.2, J=0.01) for _ in range(load)]
+        for rod, body in zip(self.rod, self.load, strict=True):
+            self.connect(end, rod.frame_a)
+            self.connect(rod.frame_b, body.frame)
+            end = rod.frame_b
 
 
 class Linkage(Arm):
-    """An arm whose end is hinged to a second fixed frame: a crank, links, a rocker."""
+    """An arm whose end is hinged to a second fixed frame; ``start`` has guesses of its links' angles."""
 
-    def __init__(self, lengths: Sequence[float], base: float = 1.0) -> None:
+    def __init__(
+        self, lengths: Sequence[float], start: Sequence[float] = (), base: float = 1.0
+    ) -> None:
         super().__init__(len(lengths), lengths)
+        for body, angle in zip(self.body, start, strict=False):
+            body.modify(phi=ac.Start(angle))
         self.end, self.pin = Fixed(x0=base), Pin()
         self.connect(self.outer[-1].frame_b, self.pin.frame_a)
         self.connect(self.pin.frame_b, self.end.frame)
