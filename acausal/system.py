@@ -19,6 +19,7 @@ from acausal._jax import check_time, floating, is_real, need_double_precision
 from acausal.by_name import names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import (
+    Field,
     Packed,
     ParameterLayout,
     Program,
@@ -135,7 +136,7 @@ class System(LeavesCaches):
     @cached_property
     def state_jacobian(self) -> StateJacobian:
         """The pattern of ``d(dx/dt)/dx``, how to compute its entries, and how to solve equations with them."""
-        return StateJacobian.of(self.reduced)
+        return StateJacobian.of(self.reduced, self.program)
 
     def unit(self, name: str) -> str:
         """Unit of a variable or parameter; of a derivative, the unit per second."""
@@ -242,6 +243,10 @@ class System(LeavesCaches):
     def rates(self, values: Values) -> Float[Array, " n_states"]:
         """Derivatives of the states, shape (n_states,)."""
         return rates(self.program, values)
+
+    def field(self, t: ArrayLike, u: Array, packed: Packed) -> Field:
+        """`rates` as a function of the states alone, shape (n_states,), for `state_jacobian`."""
+        return Field(self.program, t, u, packed)
 
     def read(self, names: Sequence[str], values: Values) -> Float[Array, " n_names"]:
         """Variables by dotted name, shape (len(names),)."""

@@ -96,6 +96,7 @@ def test_a_copied_system_computes_the_same(make, again):
 
 def test_a_copied_system_with_a_sparse_loop(monkeypatch):
     monkeypatch.setattr(blocks, "LARGE", 4)
+    monkeypatch.setattr(blocks, "WRITTEN", 4)
     net = ac.Component()
     net.source, net.ground = el.ConstantVoltage(V=1.0), el.Ground()
     net.r, net.d = [el.Resistor(R=1.0 + k) for k in range(6)], el.Resistor(R=2.0)

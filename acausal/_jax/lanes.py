@@ -225,6 +225,7 @@ def _scan(equation: Equation, inputs: list[Value], width: int) -> list[Array]:
 
 
 RULES: dict[str, LaneRule] = {
+    primitives.BARRIER: _same_axes,
     primitives.BROADCAST: _broadcast,
     primitives.DOT: _dot,
     primitives.PAD: _pad,

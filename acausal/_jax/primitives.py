@@ -42,10 +42,12 @@ ELEMENTWISE = _names(
 """Operations on each element of arrays of one shape; some of their arguments may be single numbers."""
 
 AXES_FROM_THE_FRONT = _names(
-    "concatenate reduce_and reduce_max reduce_min reduce_or reduce_prod reduce_sum rev split squeeze stack unstack"
+    "argmax concatenate reduce_and reduce_max reduce_min reduce_or reduce_prod reduce_sum rev split squeeze stack "
+    "unstack"
 )
 """Operations whose parameters count axes from the front, so that a further axis at the end changes nothing."""
 
+BARRIER = "optimization_barrier"
 BROADCAST, DOT, PAD, RESHAPE = "broadcast_in_dim", "dot_general", "pad", "reshape"
 SCAN, SLICE, TRANSPOSE, WHILE = "scan", "slice", "transpose", "while"
 
@@ -69,7 +71,7 @@ COMPILED = (
     | PARAMETERS.keys()
     | LOOPS
     | CALLS
-    | {"custom_linear_solve", "dynamic_slice", "gather", "iota"}
+    | {BARRIER, "custom_linear_solve", "dynamic_slice", "gather", "iota"}
 )
 """Operations that XLA compiles itself; for others, and for products of two matrices, it calls libraries."""
 

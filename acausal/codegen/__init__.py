@@ -5,6 +5,7 @@ It knows nothing of initial values, time integration or data.
 """
 
 from acausal.codegen.equations import explicit_equations as explicit_equations
+from acausal.codegen.field import Field as Field
 from acausal.codegen.generator import generate as generate
 from acausal.codegen.instructions import Evaluate as Evaluate
 from acausal.codegen.interpreter import (

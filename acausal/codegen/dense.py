@@ -8,7 +8,11 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from acausal.codegen.elimination import eliminate
 from acausal.codegen.newton import Dense, Residual, root
+
+FEW = 12
+"""The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
 
 Block = Callable[[Array], tuple[Array, Array]]
 """From tearing variables (m,) to all unknowns (n,) and residuals (m,)."""
@@ -20,9 +24,11 @@ def solve_linear(
     """Unknowns of a block that is affine in its tearing variables; ``guess`` gives their number."""
     del scale
     origin = jnp.zeros_like(guess)
-    constant = block(origin)[1]
-    matrix = jax.jacfwd(lambda tears: block(tears)[1])(origin)
-    return block(-_solve(matrix, constant))[0]
+
+    def solve(residual: Residual, start: Array) -> Array:
+        return -_solve(jax.jacfwd(residual)(start), residual(start))
+
+    return block(jax.lax.custom_root(lambda z: block(z)[1], origin, solve, _tangent))[0]
 
 
 def solve_nonlinear(
@@ -40,10 +46,7 @@ def solve_nonlinear(
         found, converged = root(Dense(function, _solve), start, scale)
         return jnp.where(converged, found, jnp.nan)
 
-    def tangent(linear: Residual, y: Array) -> Array:
-        return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
-
-    return block(jax.lax.custom_root(residual, guess, solve, tangent))[0]
+    return block(jax.lax.custom_root(residual, guess, solve, _tangent))[0]
 
 
 def nearest(
@@ -51,6 +54,11 @@ def nearest(
 ) -> Float[Array, " m"]:
     """Tearing variables where the search for a root of a nonlinear block ends, whether or not they are a root."""
     return root(Dense(lambda tears: block(tears)[1], _solve), guess, scale)[0]
+
+
+def _tangent(linear: Residual, y: Float[Array, " m"]) -> Float[Array, " m"]:
+    """Where a linear function is ``y``: its derivatives are those of a root, by the implicit function theorem."""
+    return _solve(jax.jacfwd(linear)(jnp.zeros_like(y)), y)
 
 
 def _solve(a: Float[Array, "m m"], b: Float[Array, " m"]) -> Float[Array, " m"]:
@@ -63,5 +71,7 @@ def _solve(a: Float[Array, "m m"], b: Float[Array, " m"]) -> Float[Array, " m"]:
             first = a[1, 1] * b[0] - a[0, 1] * b[1]
             second = a[0, 0] * b[1] - a[1, 0] * b[0]
             return jnp.stack([first, second]) / determinant
+        case n if n <= FEW:
+            return eliminate(a, b)
         case _:
             return jnp.linalg.solve(a, b)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import equinox as eqx
@@ -22,23 +23,52 @@ SlotValues = dict[sp.Symbol, Any]
 
 def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> list[Array]:
     """The unknowns, one array each over the loops."""
-    filled = read_arguments(loop.arguments, values, arrays)
-    t = filled.pop(time)
     solve = solve_linear if loop.is_linear else solve_nonlinear
 
-    def one(guess: Array, scale: Array, named: dict[str, Any]) -> Array:
-        known = {sp.Symbol(name): value for name, value in named.items()}
+    def one(t: Any, known: SlotValues, guess: Array, scale: Array) -> Array:
         return solve(lambda tears: _torn(loop, tears, t, known), guess, scale)
 
-    named = {s.name: v for s, v in filled.items()}
     dtype = values.x.dtype
     guess, scale = jnp.asarray(loop.guess, dtype), jnp.asarray(loop.scale, dtype)
+    return _for_each(loop, values, arrays, one, guess, scale)
+
+
+def matched_residuals_of_torn_loops(
+    loop: SolveTornLoop, values: Values, arrays: Arrays, unknowns: list[Array]
+) -> list[Array]:
+    """For given unknowns the residuals of the equations matched to them, one array each over the loops."""
+
+    def one(t: Any, known: SlotValues, own: Array) -> Array:
+        equations = [loop.equations[e] for e in loop.matched]
+        filled = [_filled(f, list(own), t, known) for f in equations]
+        return jnp.stack(
+            [evaluate(f.expression, v) for f, v in zip(equations, filled, strict=True)]
+        )
+
+    rows = jnp.stack(unknowns, axis=-1).reshape(loop.size, loop.outputs)
+    return _for_each(loop, values, arrays, one, rows)
+
+
+def _for_each(
+    loop: SolveTornLoop,
+    values: Values,
+    arrays: Arrays,
+    function: Callable[..., Array],
+    *rows: Array,
+) -> list[Array]:
+    """What a function of time, slots and rows gives for each of the loops; one array over the loops for each result."""
+    filled = read_arguments(loop.arguments, values, arrays)
+    t = filled.pop(time)
+
+    def one(named: dict[str, Any], *own: Array) -> Array:
+        return function(t, {sp.Symbol(name): value for name, value in named.items()}, *own)
+
+    named = {s.name: v for s, v in filled.items()}
     if loop.size == 1:
-        return list(one(guess[0], scale[0], named))
+        return list(one(named, *(r[0] for r in rows)))
     if any(isinstance(v, ModuleValue) and isinstance(v.module, tuple) for v in named.values()):
-        rows = [{k: _row(v, i) for k, v in named.items()} for i in range(loop.size)]
-        each = [one(*row) for row in zip(guess, scale, rows, strict=True)]
-        return list(jnp.stack(each).T)
+        each = [{k: _row(v, i) for k, v in named.items()} for i in range(loop.size)]
+        return list(jnp.stack([one(*own) for own in zip(each, *rows, strict=True)]).T)
     shared = {k: v for k, v in named.items() if isinstance(v, ModuleValue) and not v.stacked}
     parts = {
         k: eqx.partition(v.module if isinstance(v, ModuleValue) else v, eqx.is_array)
@@ -50,11 +80,11 @@ def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> lis
         for k, (v, _) in parts.items()
     }
 
-    def row(guess: Array, scale: Array, arrays: dict[str, Any]) -> Array:
-        own = {k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}
-        return one(guess, scale, {**shared, **own})
+    def row(arrays: dict[str, Any], *own: Array) -> Array:
+        combined = {k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}
+        return one({**shared, **combined}, *own)
 
-    return list(jax.vmap(row)(guess, scale, batched).T)
+    return list(jax.vmap(row)(batched, *rows).T)
 
 
 def nearest_of_torn_loop(

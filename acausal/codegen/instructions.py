@@ -112,6 +112,7 @@ class SolveTornLoop:
         equations: ``expression = 0`` of the loop, in order; ``residual_rows`` are those that give residuals.
         assigned: in order of computation, an unknown and the expression that gives it.
         tears: the tearing variables, as numbers of unknowns.
+        matched: for every unknown an equation of its own that contains it.
         arguments: what fills `external`, `parameter` and `module` slots.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
         origins: the equations that give residuals, as they were written.
@@ -121,6 +122,7 @@ class SolveTornLoop:
     residual_rows: tuple[int, ...]
     assigned: tuple[tuple[int, BlockFormula], ...]
     tears: tuple[int, ...]
+    matched: tuple[int, ...]
     is_linear: bool
     arguments: Arguments
     guess: np.ndarray
@@ -185,12 +187,14 @@ class SolveSparseLoop(LeavesCaches):
     Attributes:
         formulas: equations in order of rows, then the ``balances``.
         pattern: where the Jacobian's entries are, in the same order.
+        matched: for every unknown the equation that it is matched to.
         guess, scale: start values and magnitudes of the unknowns, shape (size,).
     """
 
     formulas: tuple[SparseFormula, ...]
     balances: Balances
     pattern: Pattern
+    matched: Integers
     is_linear: bool
     guess: np.ndarray
     scale: np.ndarray

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from acausal.codegen.dense_loop import solve_torn_loops
+from acausal.codegen.dense_loop import matched_residuals_of_torn_loops, solve_torn_loops
 from acausal.codegen.instructions import (
     Accumulate,
     Evaluate,
@@ -19,7 +19,10 @@ from acausal.codegen.instructions import (
 from acausal.codegen.lower import evaluate
 from acausal.codegen.program import INPUTS, STATES, ZERO, Program
 from acausal.codegen.reading import Arrays, read_arguments, read_elements
-from acausal.codegen.sparse_loop import solve_sparse_loop
+from acausal.codegen.sparse_loop import (
+    matched_residuals_of_sparse_loop,
+    solve_sparse_loop,
+)
 from acausal.codegen.values import Values
 
 
@@ -43,6 +46,32 @@ def rates_and_read(
     arrays = _run(program, {*wanted.sources, *program.rate_sources}, values)
     found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
     return _rates(program, values, arrays), found
+
+
+def results(program: Program, values: Values, numbers: Sequence[int]) -> list[Array]:
+    """The results of some instructions, one array after the other."""
+    wanted = [program.first[i] + k for i in numbers for k in range(program.instructions[i].outputs)]
+    arrays = _run(program, wanted, values)
+    return [arrays[array] for array in wanted]
+
+
+def rates_and_residuals(
+    program: Program, values: Values, given: Mapping[int, list[Array]]
+) -> tuple[Float[Array, " n_states"], list[Array]]:
+    """Derivatives of the states where the unknowns of some loops are given, and residuals of the loops' equations.
+
+    Arguments:
+        given: the unknowns, array by array, by the number of the instruction that solves for them otherwise.
+    """
+    arrays = _known(program, values)
+    residuals: list[Array] = []
+    for i in program.needed(program.rate_sources):
+        instruction = program.instructions[i]
+        if i in given:
+            residuals += _RESIDUALS[type(instruction)](instruction, values, arrays, given[i])
+        found = given[i] if i in given else execute(instruction, values, arrays)
+        _fill(program, arrays, i, found)
+    return _rates(program, values, arrays), residuals
 
 
 def steps(
@@ -112,4 +141,9 @@ _EXECUTE: dict[type, Callable[[Any, Values, Arrays], list[Array]]] = {
     Accumulate: _accumulate,
     SolveTornLoop: solve_torn_loops,
     SolveSparseLoop: solve_sparse_loop,
+}
+
+_RESIDUALS: dict[type, Callable[[Any, Values, Arrays, list[Array]], list[Array]]] = {
+    SolveTornLoop: matched_residuals_of_torn_loops,
+    SolveSparseLoop: matched_residuals_of_sparse_loop,
 }

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import jax.numpy as jnp
-import numpy as np
 from jax.lax.linalg import lu, triangular_solve
 from jaxtyping import Array, Float
 
@@ -90,29 +89,40 @@ def _triangular(factors: Array, b: Array, *, lower: bool, transposed: bool = Fal
 
 @dataclass(frozen=True, eq=False)
 class SparseIterationMatrix(IterationMatrix):
-    """By SuperLU on the host; the matrix's entries are kept, and the host remembers the factors that belong to them."""
+    """By SuperLU on the host; the matrix's entries are kept, and the host remembers the factors that belong to them.
 
+    Attributes:
+        n: number of states. matrix: the further rows and columns are those of open loops.
+    """
+
+    n: int
     matrix: SparseMatrix
 
     @classmethod
-    def of(cls, n: int, rows: Integers, columns: Integers) -> SparseIterationMatrix:
+    def of(cls, n: int, size: int, rows: Integers, columns: Integers) -> SparseIterationMatrix:
         """With an order of elimination found here; the whole diagonal must be among the entries."""
-        return cls(SparseMatrix(analyse_diagonal(rows, columns, n)))
+        return cls(n, SparseMatrix(analyse_diagonal(rows, columns, size)))
 
     def factorize(
         self, entries: Float[Array, " n_entries"], c: Float[Array, ""] | float
     ) -> Float[Array, " n_entries"]:
         """See `IterationMatrix`; the factorization is made when it is first needed."""
         pattern = self.matrix.pattern
-        identity = np.equal(pattern.rows, pattern.columns)
-        return jnp.asarray(identity, entries.dtype) - c * entries
+        of_states = pattern.rows < self.n
+        identity = (pattern.rows == pattern.columns) & of_states
+        factors = jnp.where(of_states, c, -1.0).astype(entries.dtype)
+        return jnp.asarray(identity, entries.dtype) - factors * entries
 
     def solve(self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]) -> Float[Array, " n"]:
         """See `IterationMatrix`."""
-        return self.matrix.solve(kept, b)
+        return self.matrix.solve(kept, self._padded(b))[: self.n]
 
     def solve_transposed(
         self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]
     ) -> Float[Array, " n"]:
         """See `IterationMatrix`."""
-        return self.matrix.solve_transposed(kept, b)
+        return self.matrix.solve_transposed(kept, self._padded(b))[: self.n]
+
+    def _padded(self, b: Array) -> Array:
+        """The right side, and zeros for the equations of open loops."""
+        return jnp.pad(b, (0, len(self.matrix.pattern.row_order) - self.n))

@@ -40,6 +40,13 @@ def nearest_of_sparse_loop(
     return found, equations.residual(found)
 
 
+def matched_residuals_of_sparse_loop(
+    loop: SolveSparseLoop, values: Values, arrays: Arrays, unknowns: list[Array]
+) -> list[Array]:
+    """For given unknowns the residuals of the equations matched to them, as one array each."""
+    return [_equations(loop, values, arrays).residual(unknowns[0])[loop.matched]]
+
+
 def _equations(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> _Sparse:
     """The equations with all that is known filled in."""
     known = [read_arguments(f.arguments, values, arrays) for f in loop.formulas]

@@ -1,4 +1,13 @@
-"""The Jacobian ``d(dx/dt)/dx`` of a model, with a pattern that is known from its structure."""
+"""The Jacobian ``J = d(dx/dt)/dx`` of a model, with a pattern that is known from its structure.
+
+Where large algebraic loops make every state depend on every other, ``J`` is full, and yet ``(I - c J) x = b`` is a
+sparse system in ``x`` and the change ``z`` of the loops' unknowns:
+
+    (I - c f_x) x - c f_z z = b,    g_x x + g_z z = 0
+
+with the derivatives ``f`` of the states for given unknowns, and the residuals ``g`` of the loops' equations. The loops
+are then called open, and the entries are those of ``f_x, f_z, g_x, g_z``.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +21,16 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.caches import LeavesCaches
+from acausal.codegen.colored_pattern import ColoredPattern
+from acausal.codegen.field import Field
 from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix,
     IterationMatrix,
     SparseIterationMatrix,
 )
+from acausal.codegen.program import Program
 from acausal.flattening import Integers
-from acausal.structure import ReducedModel, color_columns, jacobian_pattern, long_rows
+from acausal.structure import ReducedModel, SparseLoop, TornLoop, jacobian_pattern
 
 FEW = 32
 """Up to so many states a Jacobian is dense: one product with a matrix of directions finds all columns."""
@@ -26,8 +38,15 @@ FEW = 32
 DENSE = 0.2
 """The share of entries from which on a Jacobian is dense."""
 
+LISTED = 1_000_000, 10_000_000
+"""How many dependences are listed at least and at most, before a Jacobian is taken for dense: up to about a second."""
+
 SMALL = 100
 """Up to so many states LAPACK is faster than a sparse factorization on the host."""
+
+
+WIDE = 32
+"""Torn loops of more unknowns may be opened."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,102 +55,107 @@ class StateJacobian(LeavesCaches):
 
     Attributes:
         n: number of states.
-        positions: rows and columns of the entries, row by row, the whole diagonal among them; None if all n * n
-            entries are present.
-        long_rows: rows that are found by a reverse derivative each.
-        colors: of every column, shape (n,); columns of one colour share none of the other rows.
+        pattern: positions of the entries, the whole diagonal of the states among them; None if all n * n entries are
+            present, row by row. Open loops have rows and columns behind those of the states.
+        open_loops: numbers of the instructions that solve open loops.
     """
 
     n: int
-    positions: tuple[Integers, Integers] | None
-    long_rows: Integers
-    colors: Integers
+    pattern: ColoredPattern | None
+    open_loops: tuple[int, ...] = ()
 
     @classmethod
-    def of(cls, reduced: ReducedModel) -> StateJacobian:
-        """The pattern of a model's Jacobian, with a colouring of its columns."""
+    def of(cls, reduced: ReducedModel, program: Program) -> StateJacobian:
+        """The pattern of a model's Jacobian, with a colouring of its columns; with open loops if that saves entries."""
         n = len(reduced.states)
-        found = jacobian_pattern(reduced) if n > FEW else None
-        if found is not None:
-            diagonal = np.arange(n) * (n + 1)
-            places = np.union1d(found[0] * n + found[1], diagonal)
-            if len(places) <= DENSE * n**2:
-                rows, columns = np.divmod(places, n)
-                above = long_rows(rows, n)
-                short = ~np.isin(rows, above)
-                colors = color_columns(rows[short], columns[short], n, n)
-                return cls(n, (rows, columns), above, colors)
-        return cls(n, None, np.zeros(0, dtype=np.int64), np.arange(n))
+        if n <= FEW:
+            return cls(n, None)
+        most = int(np.clip(2 * DENSE * n**2, *LISTED))
+        needed = program.needed(program.rate_sources) if n > SMALL else []
+        loops = tuple(i for i in needed if _is_wide(reduced.steps[i]))
+        ways = ((), loops) if loops else ((),)
+        choices = [(jacobian_pattern(reduced, most, opened), opened) for opened in ways]
+        listed = [(*pattern, opened) for pattern, opened in choices if pattern is not None]
+        if not listed:
+            return cls(n, None)
+        size, rows, columns, opened = min(listed, key=lambda choice: len(choice[1]))
+        if len(rows) > DENSE * n**2:
+            return cls(n, None)
+        return cls(n, ColoredPattern.of(size, *_with_diagonal(rows, columns, n, size)), opened)
 
     @property
     def is_dense(self) -> bool:
         """Whether all entries are present, so that they are a matrix of shape (n, n), row by row."""
-        return self.positions is None
+        return self.pattern is None
 
     @property
     def n_entries(self) -> int:
         """How many entries there are."""
-        return self.n**2 if self.positions is None else len(self.positions[0])
+        return self.n**2 if self.pattern is None else len(self.pattern.rows)
 
     @property
     def rows(self) -> Integers:
         """The row of every entry."""
-        return np.repeat(np.arange(self.n), self.n) if self.positions is None else self.positions[0]
+        return np.repeat(np.arange(self.n), self.n) if self.pattern is None else self.pattern.rows
 
     @property
     def columns(self) -> Integers:
         """The column of every entry."""
-        return np.tile(np.arange(self.n), self.n) if self.positions is None else self.positions[1]
+        return np.tile(np.arange(self.n), self.n) if self.pattern is None else self.pattern.columns
 
-    @cached_property
+    @property
     def n_colors(self) -> int:
         """How many products with a vector give all entries but those of long rows."""
-        return int(self.colors.max(initial=-1)) + 1
+        return self.n if self.pattern is None else self.pattern.n_colors
 
     def entries(
         self, field: Callable[[Float[Array, " n"]], Float[Array, " n"]], x: Float[Array, " n"]
     ) -> Float[Array, " n_entries"]:
-        """The entries of the Jacobian of ``field`` at ``x``, by a forward derivative for each colour.
-
-        They are computed in turn: side by side they take longer to compile and are slower for many states.
+        """The entries of the Jacobian of ``field`` at ``x``.
 
         Arguments:
-            field: derivatives of the states as a function of the states, with this pattern. x: states.
+            field: derivatives of the states as a function of the states, with this pattern; a `Field` if there are
+                open loops.
+            x: states.
         """
         if self.n <= FEW:
             return jax.jacfwd(field)(x).ravel()
-        push = jax.linearize(field, x)[1]
-        if self.positions is None:
+        if self.pattern is None:
+            push = jax.linearize(field, x)[1]
             columns = jax.lax.map(push, jnp.eye(self.n, dtype=x.dtype), batch_size=FEW)
             return columns.T.ravel()
+        if not self.open_loops:
+            return self.pattern.entries(field, x)
+        if not isinstance(field, Field):
+            raise TypeError("a Jacobian with open loops needs a Field, from System.field.")
 
-        def column_sum(color: Array) -> Array:
-            return push((self.colors == color).astype(x.dtype))
+        def opened(both: Array) -> Array:
+            return field.with_open_loops(self.open_loops, both[: self.n], both[self.n :])
 
-        found = jax.lax.map(column_sum, jnp.arange(self.n_colors)).ravel()
-        if len(self.long_rows):
-            pull = jax.linear_transpose(push, x)
-
-            def row(number: Array) -> Array:
-                return pull(jax.nn.one_hot(number, self.n, dtype=x.dtype))[0]
-
-            rows = jax.lax.map(row, jnp.asarray(self.long_rows))
-            found = jnp.concatenate([found, rows.ravel()])
-        return jnp.take(found, self._places, unique_indices=True, mode="clip")
-
-    @cached_property
-    def _places(self) -> Integers:
-        """Where each entry lies among the derivatives."""
-        rows, columns = self.rows, self.columns
-        above = np.full(self.n, -1)
-        above[self.long_rows] = np.arange(len(self.long_rows))
-        forward = self.colors[columns] * self.n + rows
-        reverse = (self.n_colors + above[rows]) * self.n + columns
-        return np.where(above[rows] < 0, forward, reverse)
+        unknowns = field.loop_unknowns(self.open_loops, x)
+        return self.pattern.entries(opened, jnp.concatenate([x, unknowns]))
 
     @cached_property
     def iteration_matrix(self) -> IterationMatrix:
         """How to solve equations with ``I - c J``: with LAPACK for few states or a full matrix, else with SuperLU."""
-        if self.positions is None or self.n <= SMALL:
-            return DenseIterationMatrix(self.n, self.positions)
-        return SparseIterationMatrix.of(self.n, *self.positions)
+        if self.pattern is None:
+            return DenseIterationMatrix(self.n, None)
+        positions = self.pattern.rows, self.pattern.columns
+        if self.n <= SMALL and not self.open_loops:
+            return DenseIterationMatrix(self.n, positions)
+        return SparseIterationMatrix.of(self.n, self.pattern.size, *positions)
+
+
+def _is_wide(step: object) -> bool:
+    """Whether a step is an algebraic loop that may join many states."""
+    if isinstance(step, TornLoop):
+        return step.shape.n_unknowns > WIDE
+    return isinstance(step, SparseLoop)
+
+
+def _with_diagonal(
+    rows: Integers, columns: Integers, n: int, size: int
+) -> tuple[Integers, Integers]:
+    """Positions row by row, the first n of the diagonal among them."""
+    places = np.union1d(rows * size + columns, np.arange(n) * (size + 1))
+    return places // size, places % size

@@ -1,4 +1,4 @@
-"""Attributes of variables: start, fixed, nominal and state, as declared and as modified."""
+"""Attributes of variables: start, fixed, nominal, state and tear, as declared and as modified."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ import sympy as sp
 from acausal.errors import DeclarationError, shown
 from acausal.flattening.bindings import Binding, bind, is_bound, shifted
 from acausal.flattening.layout import Flags, Form, Layout, Numbers, tiled
-from acausal.modeling import STATE_SELECT, Component, Start, Variable
+from acausal.flattening.template import Integers
+from acausal.modeling import STATE_SELECT, TEAR_SELECT, Component, Start, Variable
 
 T = TypeVar("T", bound=np.generic)
 
@@ -25,12 +26,13 @@ class VariableAttributes:
     fixed: Flags
     nominal: Numbers
     state: Numbers
+    tear: Integers
     start_given: Flags
     start_bindings: tuple[Binding, ...]
 
 
 def variable_attributes(layout: Layout) -> VariableAttributes:
-    """Start, fixed, nominal and state attributes of all variables: declared ones, then those of modifiers.
+    """Start, fixed, nominal, state and tear attributes of all variables: declared ones, then those of modifiers.
 
     Raises:
         DeclarationError: for a start that has too few elements, or refers to something outside of the model.
@@ -89,12 +91,14 @@ def _declared_attributes(layout: Layout) -> VariableAttributes:
         return tiled(layout, base, numbers, dtype)
 
     rank = [[_state_rank(form.prototype, d) for _, d in form.variables] for form in layout.forms]
+    tear = [[TEAR_SELECT.index(d.tear) for _, d in form.variables] for form in layout.forms]
     start = spread("start", np.float64)
     return VariableAttributes(
         start=start,
         fixed=spread("fixed", np.bool_),
         nominal=spread("nominal", np.float64),
         state=tiled(layout, base, rank, np.float64),
+        tear=tiled(layout, base, tear, np.int64),
         start_given=np.zeros(len(start), dtype=np.bool_),
         start_bindings=(),
     )

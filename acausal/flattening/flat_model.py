@@ -30,6 +30,7 @@ class FlatModel(LeavesCaches):
         inputs: indices of the variables that are the model's inputs.
         start, fixed, nominal, state: (n_variables,) attributes; ``state`` counts from 0 "never" to 4 "always",
             plus 0.5 where the model's author, not the library, set it.
+        tear: (n_variables,) how much they are preferred as tearing variables, from 0 "never" to 4 "always".
         start_given: (n_variables,) whether a modifier gave the start.
         starts: start values that are expressions of parameters.
         value: (n_parameters,) values (nan where bound); ``bindings``: the bound ones.
@@ -46,6 +47,7 @@ class FlatModel(LeavesCaches):
     fixed: Flags
     nominal: Numbers
     state: Numbers
+    tear: Integers
     start_given: Flags
     starts: tuple[Binding, ...]
     value: Numbers
@@ -100,6 +102,7 @@ def _flat(model: Component) -> FlatModel:
         fixed=attributes.fixed,
         nominal=attributes.nominal,
         state=attributes.state,
+        tear=attributes.tear,
         start_given=attributes.start_given,
         starts=attributes.start_bindings,
         value=parameters.value,

@@ -35,6 +35,7 @@ from acausal.modeling.component import Component as Component
 from acausal.modeling.connector import Connector as Connector
 from acausal.modeling.declarations import (
     STATE_SELECT as STATE_SELECT,
+    TEAR_SELECT as TEAR_SELECT,
     Declaration as Declaration,
     Flow as Flow,
     InitialParameter as InitialParameter,

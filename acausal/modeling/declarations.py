@@ -11,10 +11,12 @@ from typing import Any, Literal, overload
 
 import numpy as np
 
-from acausal.errors import DeclarationError
+from acausal.errors import DeclarationError, shown
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")
+TearSelect = Literal["never", "avoid", "default", "prefer", "always"]
+TEAR_SELECT: tuple[TearSelect, ...] = ("never", "avoid", "default", "prefer", "always")
 DeclaredShape = int | str | tuple[int | str, ...] | None
 
 
@@ -107,6 +109,10 @@ class Variable(Declaration):
 
     Each may name another attribute of the component instead: ``start="y_start"`` a parameter,
     ``state="stateSelect"``, ``fixed="T0fixed"`` or ``nominal="s_nominal"`` an option.
+
+    ``tear`` says how much the variable is preferred as a tearing variable, where it is part of an algebraic loop: if it
+    is guessed, the loop's other unknowns follow one by one. ``"prefer"`` is torn before, ``"avoid"`` after all
+    others; ``"always"`` is torn in any case, ``"never"`` only if the loop cannot be solved without.
     """
 
     def __init__(
@@ -117,12 +123,16 @@ class Variable(Declaration):
         fixed: bool | str = False,
         nominal: float | str = 1.0,
         state: StateSelect | str = "default",
+        tear: TearSelect = "default",
         shape: DeclaredShape = None,
         when: str | None = None,
         doc: str = "",
     ) -> None:
         super().__init__(unit=unit, shape=shape, when=when, doc=doc)
+        if tear not in TEAR_SELECT:
+            raise DeclarationError(f"tear={shown(tear)} must be one of {', '.join(TEAR_SELECT)}")
         self.start, self.fixed, self.nominal, self.state = start, fixed, nominal, state
+        self.tear = tear
 
 
 class InitialParameter(Variable):

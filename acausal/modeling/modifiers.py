@@ -81,15 +81,15 @@ def _is_whole(value: Any) -> bool:
 
 def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start | sp.Expr) -> None:
     """Turn a parameter into an unknown: initialization determines it, or it depends on such a parameter."""
-    kept = {"unit": declared.unit, "doc": declared.doc}
+    unit, doc = declared.unit, declared.doc
     attributes = vars(node.component)
     attributes.pop(name, None)
     if isinstance(value, Start):
         guess = declared.default if value.value is None else value.value
-        attributes[name] = node.declare(name, InitialParameter(0.0, **kept))
+        attributes[name] = node.declare(name, InitialParameter(0.0, unit=unit, doc=doc))
         _merge_start(node, name, start_of(f"{node.label}.{name}", Start(guess, fixed=False)))
     else:
-        attributes[name] = node.declare(name, DependentParameter(**kept))
+        attributes[name] = node.declare(name, DependentParameter(unit=unit, doc=doc))
         owner = next(r.owner for r in value.free_symbols if isinstance(r, Reference))
         owner.bindings.append(Eq(attributes[name], value))
         node.modifiers[name] = value

@@ -4,6 +4,11 @@ In: a `System`, inputs, parameters. Out: a `Solution`, any variable of it by nam
 It knows nothing of training; it calls `acausal.reporting` to draw.
 """
 
+from acausal.simulation.adaptive import (
+    Adaptive as Adaptive,
+    check_tolerances as check_tolerances,
+    integrate_adaptively as integrate_adaptively,
+)
 from acausal.simulation.fixed_steps import (
     Integrated as Integrated,
     Runs as Runs,
@@ -23,8 +28,10 @@ from acausal.simulation.sampled_inputs import (
 from acausal.simulation.simulate import simulate as simulate
 from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
+    BDF as BDF,
     EXPLICIT as EXPLICIT,
     Solver as Solver,
+    for_adaptive_steps as for_adaptive_steps,
     for_fixed_steps as for_fixed_steps,
     solver_named as solver_named,
 )

@@ -213,7 +213,7 @@ def integrate(
     return Integrated(xs, ys, end)
 
 
-def inner_fractions(solver: Solver, substeps: int) -> tuple[float, ...] | None:
+def inner_fractions(solver: object, substeps: int) -> tuple[float, ...] | None:
     """The fractions of a step, besides its ends, at which a scheme looks at inputs; ``None`` if it does not say."""
     if not isinstance(solver, EXPLICIT):
         return None

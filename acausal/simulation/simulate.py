@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -72,15 +73,13 @@ def simulate(
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
-            it is Kvaerno5 if the Jacobian at the start has damped modes so fast that stability
-            would cost Tsit5 more than 5000 steps, or if Tsit5 does not reach the end within ``max_steps`` (neither
-            is checked while JAX traces, or for more than 300 states).
+            it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
-        adjoint: how diffrax differentiates adaptive steps; by default in reverse mode with checkpoints, and in forward
-            mode (`jax.jvp`, `jax.jacfwd`) beside another run without derivatives. `diffrax.ForwardMode()` allows
-            forward mode alone, without that run, and for fixed steps, too.
+        adjoint: ``diffrax.ForwardMode()`` allows derivatives in forward mode (`jax.jvp`, `jax.jacfwd`) for fixed steps,
+            and second ones for adaptive steps, which have first ones in both modes without it. Any other is of no use
+            for adaptive steps, and deprecated there.
         dtype: precision of time, states and parameters in the steps, float64 or float32. Single precision takes
             half the time in large batches; in adaptive steps ``rtol`` should not be below 1e-5.
 
@@ -122,6 +121,12 @@ def simulate(
     ts = np.linspace(start, end, POINTS) if saved is None else saved
     chosen = None if solver == "auto" else solvers.solver_named(solver)
     forward = isinstance(adjoint, dfx.ForwardMode)
+    if adjoint is not None and not forward:
+        warnings.warn(
+            "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
+            DeprecationWarning,
+            stacklevel=2,
+        )
     return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, kind, forward=forward)
 
 

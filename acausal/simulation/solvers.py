@@ -104,6 +104,8 @@ def for_adaptive_steps(solver: Solver) -> Solver:
     Raises:
         SimulationError: for a solver without an error estimate.
     """
+    if isinstance(solver, BDF):
+        return solver
     if isinstance(solver, RK4) or not isinstance(solver, dfx.AbstractAdaptiveSolver):
         name = type(solver).__name__
         raise SimulationError(

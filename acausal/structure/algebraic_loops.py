@@ -9,10 +9,13 @@ import numpy as np
 
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Statement
-from acausal.structure import graph
+from acausal.modeling import TEAR_SELECT
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, is_constant, partials
 from acausal.structure.rank import singular
+from acausal.structure.tearing import Preference, Torn, tear
+
+ALWAYS = TEAR_SELECT.index("always") - TEAR_SELECT.index("default")
 
 
 @dataclass(frozen=True)
@@ -35,7 +38,20 @@ class BlockShape:
 
     equations: tuple[BlockEquation, ...]
     n_unknowns: int
-    torn: graph.Torn
+    torn: Torn
+
+    @property
+    def matched(self) -> tuple[int, ...]:
+        """For every unknown an equation of its own that contains it."""
+        contained = [[(c, v) for c, v in enumerate(e.variables) if v >= 0] for e in self.equations]
+        certain = [
+            [v for c, v in own if c not in e.vanishing]
+            for own, e in zip(contained, self.equations, strict=True)
+        ]
+        variable_of = graph.match(certain, self.n_unknowns)
+        if min(variable_of) < 0:
+            variable_of = graph.match([[v for _, v in own] for own in contained], self.n_unknowns)
+        return tuple(np.argsort(variable_of).tolist())
 
     @property
     def is_linear(self) -> bool:
@@ -64,10 +80,11 @@ class TornLoop:
 
 @dataclass(frozen=True)
 class Block:
-    """One algebraic loop: its equations in local numbers, and what fills them."""
+    """One algebraic loop: its equations in local numbers, its unknowns' ranks for tearing, and what fills them."""
 
     stated: tuple[int, ...]
     equations: tuple[BlockEquation, ...]
+    ranks: tuple[int, ...]
     unknowns: list[int]
     externals: list[int]
     parameters: list[int]
@@ -100,7 +117,9 @@ def block_of(
                 tuple(c for c, v in enumerate(codes) if v >= 0 and (e, c) in vanishing),
             )
         )
-    return Block(tuple(equations), tuple(stated), unknowns, list(externals), parameters, modules)
+    ranks = tuple(system.tear_rank(v) for v in unknowns)
+    own = list(externals), parameters, modules
+    return Block(tuple(equations), tuple(stated), ranks, unknowns, *own)
 
 
 def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray) -> TornLoop:
@@ -110,6 +129,21 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
         StructureError: if a loop is singular for the model's own ``parameters``.
     """
     equations, n_unknowns = blocks[0].equations, len(blocks[0].unknowns)
+    loop = TornLoop(
+        BlockShape(equations, n_unknowns, torn_block(equations, blocks[0].ranks)),
+        matrix([b.unknowns for b in blocks]),
+        matrix([b.externals for b in blocks]),
+        matrix([b.parameters for b in blocks]),
+        matrix([b.modules for b in blocks]),
+    )
+    wrong = _singular(loop, parameters)
+    if wrong is not None:
+        raise StructureError(_explain(system, blocks[wrong]))
+    return loop
+
+
+def torn_block(equations: Sequence[BlockEquation], ranks: Sequence[int]) -> Torn:
+    """How a block is torn; ``ranks`` has the preference of each unknown as in `Equations.tear_rank`."""
     incidence = [[v for v in e.variables if v >= 0] for e in equations]
 
     def solvable(equation: int, unknown: int) -> bool:
@@ -123,21 +157,12 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
         for column, code in enumerate(e.variables)
         if code >= 0 and not e.template.is_solvable(column)
     }  # Newton's method finds these best where it moves them itself
-    loop = TornLoop(
-        BlockShape(
-            equations,
-            n_unknowns,
-            graph.tear(incidence, solvable, n_unknowns, nonlinear.__contains__),
-        ),
-        matrix([b.unknowns for b in blocks]),
-        matrix([b.externals for b in blocks]),
-        matrix([b.parameters for b in blocks]),
-        matrix([b.modules for b in blocks]),
-    )
-    wrong = _singular(loop, parameters)
-    if wrong is not None:
-        raise StructureError(_explain(system, blocks[wrong]))
-    return loop
+
+    def preference(unknown: int) -> Preference:
+        rank = ranks[unknown]
+        return Preference(rank, rank == ALWAYS, unknown in nonlinear)
+
+    return tear(incidence, solvable, len(ranks), preference)
 
 
 def _explain(system: Equations, block: Block) -> str:

@@ -18,7 +18,11 @@ from acausal.flattening import Integers, Template
 from acausal.structure import graph
 from acausal.structure.algebraic_loops import TornLoop, block_of, matrix, torn_loop
 from acausal.structure.equations import Equations
-from acausal.structure.sparse_loops import LARGE, SparseLoop, sparse_loop
+from acausal.structure.sparse_loops import SparseLoop, sparse_loop
+from acausal.structure.tearing_pays import tearing_pays
+
+LARGE, WRITTEN = 100, 200
+"""A loop of more unknowns is torn only where that pays, or not at all: XLA compiles a torn one equation by equation."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +99,11 @@ def order_steps(
         unknowns = [variable_of[e] for e in equations]
         e = equations[0]
         template, column = system.template[e], system.variables[e].index(unknowns[0])
-        if len(equations) > LARGE:
+        is_large = len(equations) > LARGE
+        if is_large and not (
+            len(equations) <= WRITTEN
+            and tearing_pays(system, equations, unknowns, vanishing, values)
+        ):
             pairs = zip(equations, unknowns, strict=True)
             make = partial(sparse_loop, system, parameters=values)
             _collect(large, level, None, make, *pairs)
@@ -104,7 +112,7 @@ def order_steps(
                 _collect(sums, level, len(outside.terms), _accumulation, outside)
             block = block_of(system, equations, unknowns, vanishing)
             make = partial(torn_loop, system, parameters=values)
-            _collect(formulas, level, (block.equations, len(equations)), make, block)
+            _collect(formulas, level, (block.equations, block.ranks), make, block)
         elif (weights := template.weights(column)) is not None:
             terms = [v for i, v in enumerate(system.variables[e]) if i != column]
             _collect(sums, level, len(terms), _accumulation, _Sum(unknowns[0], terms, weights))

@@ -10,9 +10,6 @@ import numpy as np
 
 from acausal.structure.elimination_order import Integers
 
-MOST = 10_000_000
-"""The most dependences that are written down: about a second and 0.5 GB."""
-
 
 class TooManyError(Exception):
     """There are more dependences than are worth writing down."""
@@ -54,7 +51,7 @@ def dependence(
     sources: Integers,
     wanted: Integers,
     n_nodes: int,
-    most: int = MOST,
+    most: int,
 ) -> tuple[Integers, Integers]:
     """The pairs (i, j) for which ``wanted[i]`` depends on ``sources[j]``, in order.
 

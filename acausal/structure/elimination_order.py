@@ -75,6 +75,15 @@ def analyse_diagonal(rows: Integers, columns: Integers, n: int) -> Pattern:
     return Pattern(rows, columns, order, order)
 
 
+def match_rows(rows: Integers, columns: Integers, values: np.ndarray, n: int) -> Integers:
+    """For every column a row of its own, so that the product of the entries there is as large as can be.
+
+    Raises:
+        LinAlgError: if the matrix is singular, whatever its entries are.
+    """
+    return np.argsort(_diagonal(csr_array((values, (rows, columns)), shape=(n, n))))
+
+
 SparseColumns = dict[int, dict[int, float]]
 """Entries by column and row."""
 

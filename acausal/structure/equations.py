@@ -10,6 +10,7 @@ import numpy as np
 
 from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers, Statement
+from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
 from acausal.structure.jacobian import Point, is_constant, parameter_values, partials
@@ -86,6 +87,22 @@ class Equations:
     def parameter_values(self) -> np.ndarray:
         """The model's own values of all parameters."""
         return parameter_values(self.model)
+
+    @cached_property
+    def _tear(self) -> dict[int, int]:
+        """By node, how much it is preferred as a tearing variable; only those with a preference.
+
+        Of a node's names, the one whose preference is farthest from the default counts.
+        """
+        given = self.model.tear - TEAR_SELECT.index("default")
+        stated = np.flatnonzero(given)
+        order = stated[np.lexsort((given[stated], abs(given[stated])))]
+        nodes = self.aliases.representative[order]
+        return dict(zip(nodes.tolist(), given[order].tolist(), strict=True))
+
+    def tear_rank(self, node: int) -> int:
+        """How much a node is preferred as a tearing variable: from -2 "never" to 2 "always"."""
+        return self._tear.get(node, 0)
 
     def unknowns(self) -> list[int]:
         """All representatives that are not known."""

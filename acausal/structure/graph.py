@@ -1,4 +1,4 @@
-"""Graph algorithms of the compiler, on integers alone: matching, index reduction, blocks, tearing.
+"""Graph algorithms of the compiler, on integers alone: matching, index reduction, blocks, diagnosis.
 
 Equations and variables are numbers; ``incidence[e]`` lists the unknowns of equation ``e``. These algorithms do not
 depend on the content of an equation.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -216,72 +215,6 @@ def _levels(n: int, later: np.ndarray, earlier: np.ndarray) -> np.ndarray:
         ready = touched[waiting[touched] == 0]
         depth += 1
     return level
-
-
-@dataclass(frozen=True)
-class Torn:
-    """A torn block: guess ``tears``, compute ``assigned`` in order as (equation, variable), check ``residuals``."""
-
-    tears: tuple[int, ...]
-    assigned: tuple[tuple[int, int], ...]
-    residuals: tuple[int, ...]
-
-
-def tear(
-    incidence: Incidence,
-    solvable: Callable[[int, int], bool],
-    n_variables: int,
-    better: Callable[[int], bool] = lambda variable: False,
-) -> Torn:
-    """Choose tearing variables of a block greedily (Cellier & Kofman 2006, section 7.6).
-
-    Equations that can be solved for their one remaining unknown are assigned; when there are none, the variable that
-    occurs in most open equations is torn. Ties go to a variable that is ``better``.
-    """
-    equations_of: list[list[int]] = [[] for _ in range(n_variables)]
-    for e, row in enumerate(incidence):
-        for v in dict.fromkeys(row):
-            equations_of[v].append(e)
-    open_variables = [len(set(row)) for row in incidence]
-    open_equations = [len(equations) for equations in equations_of]
-    known = [False] * n_variables
-    used = [False] * len(incidence)
-    ready = [e for e, count in enumerate(open_variables) if count == 1]
-    heapify(ready)
-    later = [not better(v) for v in range(n_variables)]
-    candidates = [(-count, later[v], v) for v, count in enumerate(open_equations)]
-    heapify(candidates)
-    tears: list[int] = []
-    assigned: list[tuple[int, int]] = []
-
-    def compute(variable: int) -> None:
-        known[variable] = True
-        for e in equations_of[variable]:
-            open_variables[e] -= 1
-            if open_variables[e] == 1 and not used[e]:
-                heappush(ready, e)
-
-    while len(tears) + len(assigned) < n_variables:
-        while ready:
-            e = heappop(ready)
-            rest = [v for v in incidence[e] if not known[v]]
-            if used[e] or len(set(rest)) != 1 or not solvable(e, rest[0]):
-                continue
-            used[e] = True
-            for v in dict.fromkeys(incidence[e]):
-                open_equations[v] -= 1
-                if not known[v]:
-                    heappush(candidates, (-open_equations[v], later[v], v))
-            assigned.append((e, rest[0]))
-            compute(rest[0])
-        while candidates:
-            count, _, variable = heappop(candidates)
-            if not known[variable] and -count == open_equations[variable]:
-                tears.append(variable)
-                compute(variable)
-                break
-    residuals = tuple(e for e in range(len(incidence)) if not used[e])
-    return Torn(tuple(tears), tuple(assigned), residuals)
 
 
 @dataclass(frozen=True)

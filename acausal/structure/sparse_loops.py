@@ -10,12 +10,9 @@ import numpy as np
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Statement
 from acausal.structure.algebraic_loops import matrix
-from acausal.structure.elimination_order import Pattern, analyse
+from acausal.structure.elimination_order import Pattern, analyse, match_rows
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, partials, random_values
-
-LARGE = 100
-"""A loop of more unknowns is neither torn nor written out."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +51,14 @@ class SparseLoop:
     Attributes:
         groups: equations in order of rows; ``sums``: those that come after, by row among them.
         pattern: positions of the Jacobian's entries: group by group and slot by slot, then those of the sums.
+        matched: for every unknown an equation in which its factor is large.
     """
 
     unknowns: Integers
     groups: tuple[SparseGroup, ...]
     sums: LinearRows
     pattern: Pattern
+    matched: Integers
 
     @property
     def results(self) -> tuple[Integers, ...]:
@@ -117,10 +116,10 @@ def sparse_loop(
     values.append(sums.factors[inside >= 0])
     entries = np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
     try:
-        pattern = analyse(*entries, len(nodes))
+        pattern, matched = analyse(*entries, len(nodes)), match_rows(*entries, len(nodes))
     except np.linalg.LinAlgError:
         raise StructureError(_singular(system, equations, unknowns)) from None
-    return SparseLoop(nodes, groups, sums, pattern)
+    return SparseLoop(nodes, groups, sums, pattern, matched)
 
 
 def _places(unknowns: Integers, nodes: Integers) -> Integers:

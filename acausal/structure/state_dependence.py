@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -17,17 +17,39 @@ from acausal.structure.reduced_model import ReducedModel
 from acausal.structure.sparse_loops import SparseLoop
 
 
-def jacobian_pattern(reduced: ReducedModel) -> tuple[Integers, Integers] | None:
-    """Rows and columns of the entries that may differ from zero, row by row; None if there are too many to list.
+def jacobian_pattern(
+    reduced: ReducedModel, most: int, opened: Collection[int] = ()
+) -> tuple[int, Integers, Integers] | None:
+    """Number of rows, and rows and columns of the entries that may differ from zero; None if there are too many.
 
-    Every unknown of an algebraic loop depends on all that the equations of its loop read.
+    Every unknown of an algebraic loop depends on all that the equations of its loop read. Where loops are opened, their
+    unknowns are columns behind the states, and the equations matched to them are rows.
+
+    Arguments:
+        most: how many dependences may be listed, also of variables that are not states.
+        opened: numbers of steps that are algebraic loops.
     """
-    computations = [_COMPUTATION[type(step)](step) for step in reduced.steps]
+    computations: list[Computation] = []
+    sources, wanted = [reduced.states], [reduced.rates]
     n_nodes = len(reduced.derivative)
+    for i, step in enumerate(reduced.steps):
+        if i in opened:
+            assert isinstance(step, SparseLoop | TornLoop)
+            sources.append(np.concatenate(step.results))
+            wanted.append(n_nodes + np.arange(len(sources[-1])))
+            rows = _matched_torn(step) if isinstance(step, TornLoop) else _matched_sparse(step)
+            computations.append(
+                Computation(len(wanted[-1]), wanted[-1] - n_nodes, wanted[-1], *rows)
+            )
+            n_nodes += len(wanted[-1])
+        else:
+            computations.append(_COMPUTATION[type(step)](step))
+    columns = np.concatenate(sources)
     try:
-        return dependence(computations, reduced.states, reduced.rates, n_nodes)
+        found = dependence(computations, columns, np.concatenate(wanted), n_nodes, most)
     except TooManyError:
         return None
+    return len(columns), *found
 
 
 def _table(results: Integers, reads: Integers) -> Computation:
@@ -60,23 +82,46 @@ def _torn_loop(loop: TornLoop) -> Computation:
 
 def _sparse_loop(loop: SparseLoop) -> Computation:
     """Loops of one level are solved together, but each depends on its own equations only."""
+    rows, nodes = _reads(loop)
     n = len(loop.unknowns)
     shape = (2 * n, 2 * n)  # unknowns, then equations
     edges = loop.pattern.columns, n + loop.pattern.rows
     n_loops, member = connected_components(coo_array((np.ones(len(edges[0])), edges), shape=shape))
-    equation, offset = member[n:], 0
+    outside = loop.places(nodes) < 0
+    reading = member[n:][rows[outside]]
+    return Computation(n_loops, member[:n], loop.unknowns, reading, nodes[outside])
+
+
+def _matched_sparse(loop: SparseLoop) -> tuple[Integers, Integers]:
+    """Pairs of an unknown and a node that the equation matched to it reads."""
+    rows, nodes = _reads(loop)
+    return np.argsort(loop.matched)[rows], nodes
+
+
+def _matched_torn(loop: TornLoop) -> tuple[Integers, Integers]:
+    """The same; loops of one shape lie side by side, the first unknown of all before the second of all."""
+    size = len(loop.unknowns)
+    known = np.concatenate(
+        [loop.unknowns, loop.externals[:, ::-1]], axis=1
+    )  # by code, also negative
+    read = [known[:, list(loop.shape.equations[e].variables)] for e in loop.shape.matched]
+    rows = [np.repeat(k * size + np.arange(size), r.shape[1]) for k, r in enumerate(read)]
+    return np.concatenate(rows), np.concatenate([r.ravel() for r in read])
+
+
+def _reads(loop: SparseLoop) -> tuple[Integers, Integers]:
+    """Pairs of an equation and a node that it reads."""
+    offset = 0
     rows: list[Integers] = []
     nodes: list[Integers] = []
     for group in loop.groups:
         size, slots = group.variables.shape
-        rows.append(np.repeat(equation[offset : offset + size], slots))
+        rows.append(np.repeat(np.arange(offset, offset + size), slots))
         nodes.append(group.variables.ravel())
         offset += size
-    rows.append(equation[offset + loop.sums.rows])
+    rows.append(offset + loop.sums.rows)
     nodes.append(loop.sums.nodes)
-    reading, read = np.concatenate(rows), np.concatenate(nodes)
-    outside = loop.places(read) < 0
-    return Computation(n_loops, member[:n], loop.unknowns, reading[outside], read[outside])
+    return np.concatenate(rows), np.concatenate(nodes)
 
 
 _COMPUTATION: dict[type, Callable[[Any], Computation]] = {

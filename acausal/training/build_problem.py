@@ -12,9 +12,18 @@ import numpy as np
 from acausal._jax import precision
 from acausal.by_name import names_in
 from acausal.data import Data, check_resolution
-from acausal.errors import DataError, TrainingError, listing, nearest
+from acausal.errors import DataError, TrainingError, listing, nearest, shown
 from acausal.networks import networks
-from acausal.simulation import announce_derivatives, for_fixed_steps, solver_named
+from acausal.simulation import (
+    BDF,
+    Adaptive,
+    Solver,
+    announce_derivatives,
+    check_tolerances,
+    for_adaptive_steps,
+    for_fixed_steps,
+    solver_named,
+)
 from acausal.training.objective.context import context, states_before_training
 from acausal.training.objective.initial_state import by_record, first_states
 from acausal.training.objective.lay_out import check_step, lay_out
@@ -79,7 +88,7 @@ def build_problem(
         check_resolution(record.time, dtype, where)
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
-    solver = for_fixed_steps(solver_named(options.solver), dtype)
+    solver = _solver(options, dtype)
     records, substeps = lay_out(
         data, system.inputs, targets, system.states, options.dt, solver=solver, timing=times
     )
@@ -126,6 +135,23 @@ def build_problem(
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
     return replace(problem, context=context(problem)) if options.penalties else problem
+
+
+def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Solver | Adaptive:
+    """The steps of the integration: adaptive ones where tolerances or a solver ask for them."""
+    chosen = None if options.solver == "auto" else solver_named(options.solver)
+    by_tolerance = options.rtol is not None or options.atol is not None
+    if chosen is not None and not isinstance(chosen, BDF) and not by_tolerance:
+        return for_fixed_steps(chosen, dtype)
+    if options.dt is not None:
+        raise TrainingError(
+            f"dt={options.dt:g} is for fixed steps, but solver={shown(options.solver)}"
+            f"{' with rtol or atol' if by_tolerance else ''} chooses its own: leave one of them out."
+        )
+    rtol = 1e-6 if options.rtol is None else options.rtol
+    atol = 1e-8 if options.atol is None else options.atol
+    check_tolerances(rtol, atol, 0)
+    return Adaptive(None if chosen is None else for_adaptive_steps(chosen), rtol, atol)
 
 
 def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:

@@ -91,6 +91,8 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "strategy": (_are_texts, "a strategy, nor several: give their names"),
     "epochs": (lambda v: _is_number(v) or _are(_is_number, v), "a number of updates, nor several"),
     "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
+    "rtol": (_is_number, "a number"),
+    "atol": (_is_number, "a number"),
     "x0": (lambda v: isinstance(v, str | Mapping), "a text, nor values by name"),
     "devices": (_are_many, "devices; give some of jax.devices()"),
     "evaluate_every": (_is_count, "a whole number of updates"),
@@ -132,6 +134,8 @@ class FitKeywords(TypedDict, total=False):
     optimizer: optax.GradientTransformation | None
     dt: float | None
     solver: str | Solver
+    rtol: float | None
+    atol: float | None
     x0: InitialState
     dtype: DTypeLike
     devices: Sequence[Device] | None
@@ -199,7 +203,11 @@ class FitOptions:
         optimizer: of sequences: any optax optimizer; by default Adam, its rate falling from 0.01 to 0.0001 as a
             cosine.
         dt: step of the integration in seconds, a whole part of the sample time (the default).
-        solver: of the fixed steps, by name or a diffrax solver.
+        solver: of the fixed steps, by name or a diffrax solver. ``"auto"`` and ``"bdf"`` choose their steps, and any
+            solver with an error estimate does if ``rtol`` or ``atol`` is given. Such steps end at every sample of a
+            model with inputs.
+        rtol: relative tolerance of adaptive steps, 1e-6 by default.
+        atol: absolute tolerance of adaptive steps in the states' units, 1e-8 by default.
         x0: state at a record's start, for sequences that begin there and for the loss over the whole record:
             ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start,
             or values by name that replace the measured ones. By record: ``{"run 1": "data", "run 2": {...}}``.
@@ -244,6 +252,8 @@ class FitOptions:
     optimizer: optax.GradientTransformation | None = None
     dt: float | None = None
     solver: str | Solver = "heun"
+    rtol: float | None = None
+    atol: float | None = None
     x0: InitialState = "data"
     dtype: DTypeLike = np.float64
     devices: Sequence[Device] | None = None

@@ -48,7 +48,7 @@ from tests.structure.test_sparse_loops import MODELS, arguments
 road = np.sin(np.arange(101.0))
 ride = ac.simulate(plain(), (0, 1), dt=0.01, inputs={n: road for n in plain().inputs})
 print(float(ride.x[-1, 0]))
-blocks.LARGE = 10
+blocks.LARGE = blocks.WRITTEN = 10
 mesh = ac.compile(MODELS["nonlinear"]())
 print(float(jax.jit(mesh.vector_field)(0.3, *arguments(mesh))[0]))
 """

@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from acausal.codegen.dense import solve_linear, solve_nonlinear
+from acausal.codegen.dense import FEW, solve_linear, solve_nonlinear
 
 
 def plain(residual):
@@ -13,7 +13,7 @@ def plain(residual):
     return lambda z: (z, residual(z))
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 5])
+@pytest.mark.parametrize("n", [1, 2, 3, FEW, FEW + 1])
 def test_linear(n):
     rng = np.random.default_rng(n)
     a, b = rng.normal(size=(n, n)), rng.normal(size=n)

@@ -28,8 +28,8 @@ def full():
     params=[
         (lambda n, *positions: DenseIterationMatrix(n, positions), scattered),
         (lambda n, *_: DenseIterationMatrix(n, None), full),
-        (SparseIterationMatrix.of, scattered),
-        (SparseIterationMatrix.of, full),
+        (lambda n, *positions: SparseIterationMatrix.of(n, n, *positions), scattered),
+        (lambda n, *positions: SparseIterationMatrix.of(n, n, *positions), full),
     ],
     ids=["dense, scattered", "dense, full", "sparse, scattered", "sparse, full"],
 )
@@ -115,7 +115,7 @@ def test_a_singular_matrix_has_no_finite_solution(case):
     matrix, entries, b, _ = case
     kept = matrix.factorize(jnp.full_like(entries, jnp.nan), C)
     assert not jnp.isfinite(matrix.solve(kept, b)).any()
-    diagonal = SparseIterationMatrix.of(2, np.arange(2), np.arange(2))
+    diagonal = SparseIterationMatrix.of(2, 2, np.arange(2), np.arange(2))
     kept = diagonal.factorize(jnp.asarray([1.0, 2.0]), 1.0)
     assert not jnp.isfinite(diagonal.solve(kept, jnp.ones(2))).all()
 

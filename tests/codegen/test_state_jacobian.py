@@ -9,7 +9,9 @@ import pytest
 
 import acausal as ac
 from acausal.codegen import DenseIterationMatrix, SparseIterationMatrix, state_jacobian
-from tests.support.stiff import Bridge, Chain, DiodeAndResistor, Ladder, Plate
+from acausal.components import electrical as el
+from acausal.structure import SparseLoop, TornLoop, blocks, jacobian_pattern
+from tests.support.stiff import Bridge, Chain, DiodeAndResistor, Ladder, Pack, Plate
 
 MODELS = {
     "plate": (lambda: Plate(7), 7),
@@ -85,13 +87,94 @@ def test_a_row_that_reads_all_states_needs_one_derivative_more():
     system = ac.compile(Thermostat(40))
     jacobian, packed = system.state_jacobian, system.pack()
     assert jacobian.n_colors <= 4
-    assert [system.states[i] for i in jacobian.long_rows] == ["heat"]
+    assert [system.states[i] for i in jacobian.pattern.long_rows] == ["heat"]
     x = jnp.linspace(0.5, 2.0, 41)
     field = lambda x: system.rates(system.values(0.0, x, None, packed))  # noqa: E731
     found, expected = jax.jit(lambda x: (jacobian.entries(field, x), jax.jacfwd(field)(x)))(x)
     filled = np.zeros((41, 41))
     filled[jacobian.rows, jacobian.columns] = found
     np.testing.assert_allclose(filled, expected, rtol=1e-12, atol=1e-12)
+
+
+class Hardening(el.OnePort):
+    """A resistor whose voltage grows faster than its current: ``v = R i + K i**3``."""
+
+    R = ac.Parameter(1.0, unit="Ohm")
+    K = ac.Parameter(0.5, unit="V/A3")
+
+    def equations(self):
+        yield from super().equations()
+        yield ac.Eq(self.v, self.R * self.i + self.K * self.i**3)
+
+
+def open_always(monkeypatch):
+    """Models with few states and small loops are treated as large ones, whose closed loops make too many entries."""
+
+    def too_many_if_closed(reduced, most, opened):
+        return jacobian_pattern(reduced, most, opened) if opened else None
+
+    monkeypatch.setattr(state_jacobian, "jacobian_pattern", too_many_if_closed)
+    for name, limit in (("FEW", 5), ("SMALL", 5), ("WIDE", 0), ("DENSE", 9.0)):
+        monkeypatch.setattr(state_jacobian, name, limit)
+
+
+@pytest.mark.parametrize("large", [10, 10**6], ids=["sparse", "torn"])
+@pytest.mark.parametrize("resistor", [el.Resistor, Hardening])
+def test_loops_that_join_all_states_are_opened(resistor, large, monkeypatch):
+    monkeypatch.setattr(blocks, "LARGE", large)
+    open_always(monkeypatch)
+    system = ac.compile(Pack(4, 2, lambda k: resistor(R=1.0 + 0.1 * k)))
+    assert any(isinstance(s, SparseLoop if large == 10 else TornLoop) for s in system.reduced.steps)
+    jacobian, packed = system.state_jacobian, system.pack()
+    n = len(system.states)
+    assert n < jacobian.pattern.size
+    assert len(jacobian.open_loops) == 1
+    x, b, u = jnp.linspace(0.5, 1.5, n), jnp.cos(jnp.arange(1.0 * n)), jnp.zeros(0)
+
+    @jax.jit
+    def run(x, packed):
+        field, matrix = system.field(0.0, u, packed), jacobian.iteration_matrix
+        kept = matrix.factorize(jacobian.entries(field, x), 0.3)
+        found = matrix.solve(kept, b), matrix.solve_transposed(kept, b)
+        return *found, jnp.eye(n) - 0.3 * jax.jacfwd(field)(x)
+
+    once, transposed, dense = run(x, packed)
+    np.testing.assert_allclose(dense @ once, b, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(dense.T @ transposed, b, rtol=1e-9, atol=1e-9)
+    with pytest.raises(TypeError, match="open loops needs a Field"):
+        jacobian.entries(lambda x: x, x)
+
+
+def test_equal_loops_are_opened_side_by_side(monkeypatch):
+    open_always(monkeypatch)
+    system = ac.compile(Ladder(6, DiodeAndResistor))
+    assert any(isinstance(s, TornLoop) and len(s.unknowns) > 1 for s in system.reduced.steps)
+    jacobian, packed = system.state_jacobian, system.pack()
+    assert jacobian.open_loops
+    x, b, u = jnp.linspace(0.5, 1.5, 6), jnp.cos(jnp.arange(6.0)), jnp.zeros(0)
+
+    @jax.jit
+    def run(x, packed):
+        field, matrix = system.field(0.0, u, packed), jacobian.iteration_matrix
+        kept = matrix.factorize(jacobian.entries(field, x), 0.3)
+        return matrix.solve(kept, b), jnp.eye(6) - 0.3 * jax.jacfwd(field)(x)
+
+    found, dense = run(x, packed)
+    np.testing.assert_allclose(dense @ found, b, rtol=1e-9, atol=1e-9)
+
+
+def test_loops_stay_closed_where_the_jacobian_is_small():
+    system = ac.compile(Pack(12, 3, lambda k: el.Resistor(R=1.0)))
+    assert system.state_jacobian.open_loops == ()
+    assert system.state_jacobian.is_dense
+
+
+def test_loops_are_opened_where_that_saves_entries(monkeypatch):
+    system = ac.compile(Pack(40, 3, lambda k: el.Resistor(R=1.0)))
+    jacobian = system.state_jacobian
+    assert jacobian.n == 120
+    assert jacobian.open_loops
+    assert jacobian.n_entries < 0.1 * 120**2
 
 
 def test_the_way_to_solve_follows_from_size_and_pattern(monkeypatch):

@@ -200,9 +200,7 @@ PATHS: dict[str, Path] = {
     "adaptive, forward by the default adjoint": Path(
         simulated(solver="tsit5", **TIGHT), ADAPTIVE, "forward"
     ),
-    "adaptive, implicit": Path(
-        simulated(solver="kvaerno5", adjoint=diffrax.DirectAdjoint(), **TIGHT), ADAPTIVE
-    ),
+    "adaptive, implicit": Path(simulated(solver="kvaerno5", **TIGHT), ADAPTIVE),
 }
 
 

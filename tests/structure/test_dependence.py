@@ -39,7 +39,7 @@ def test_like_products_of_boolean_matrices(seed):
         computations.append(table(results, reads))
         known += 6
     wanted = generator.integers(0, n_nodes, 10)
-    found = pairs(computations, sources, wanted, n_nodes)
+    found = pairs(computations, sources, wanted, n_nodes, most=10_000)
     assert found == list(zip(*(a.tolist() for a in np.nonzero(expected[wanted])), strict=True))
 
 
@@ -55,5 +55,5 @@ def test_what_is_not_wanted_costs_nothing():
 
 def test_without_sources_there_are_no_dependences():
     nothing = np.zeros(0, dtype=int)
-    assert pairs([table([[0]], [[]])], nothing, nothing, 1) == []
-    assert pairs([table([[0]], [[]])], nothing, np.asarray([0]), 1) == []
+    assert pairs([table([[0]], [[]])], nothing, nothing, 1, 10) == []
+    assert pairs([table([[0]], [[]])], nothing, np.asarray([0]), 1, 10) == []

@@ -1,4 +1,4 @@
-"""Matching, index reduction, blocks, tearing and diagnosis on integers."""
+"""Matching, index reduction, blocks and diagnosis on integers."""
 
 import itertools
 import subprocess
@@ -18,7 +18,6 @@ from acausal.structure.graph import (
     order_blocks,
     pantelides,
     singularity,
-    tear,
 )
 
 incidences = st.integers(1, 6).flatmap(
@@ -246,48 +245,6 @@ def test_the_order_does_not_depend_on_scipys_numbers(monkeypatch):
     assert again.level.tolist() == blocks.level.tolist()
 
 
-# -- tearing --------------------------------------------------------------------------------------------------
-
-
-def check_torn(torn, incidence, n):
-    known = set(torn.tears)
-    for e, v in torn.assigned:
-        assert set(incidence[e]) - known == {v}
-        known.add(v)
-    assert known == set(range(n))
-    used = [e for e, _ in torn.assigned]
-    assert sorted([*used, *torn.residuals]) == list(range(n))
-    assert len(torn.tears) == len(torn.residuals)
-
-
-@given(incidences, st.booleans())
-def test_tearing_leaves_assignments_in_order(incidence, some):
-    n = len(incidence)
-    incidence = [sorted({*row, i}) for i, row in enumerate(incidence)]
-    torn = tear(incidence, lambda e, v: not (some and (e + v) % 3 == 0), n)
-    check_torn(torn, incidence, n)
-
-
-def test_a_ring_is_torn_once():
-    n = 50
-    torn = tear([[i, (i + 1) % n] for i in range(n)], lambda e, v: True, n)
-    assert len(torn.tears) == 1
-
-
-def test_of_equals_the_better_one_is_torn():
-    n = 5
-    for wanted in range(n):
-        ring = [[i, (i + 1) % n] for i in range(n)]
-        torn = tear(ring, lambda e, v: True, n, wanted.__eq__)
-        assert torn.tears == (wanted,)
-
-
-def test_what_cannot_be_solved_is_torn():
-    torn = tear([[0, 1], [0, 1]], lambda e, v: False, 2)
-    assert torn.tears == (0, 1)
-    assert torn.assigned == ()
-
-
 # -- diagnosis ------------------------------------------------------------------------------------------------
 
 
@@ -318,7 +275,7 @@ import sys, types
 for name in ("acausal", "acausal.structure"):
     package = sys.modules[name] = types.ModuleType(name)
     package.__path__ = [name.replace(".", "/")]
-import acausal.structure.elimination_order, acausal.structure.graph, acausal.structure.rank
+import acausal.structure.elimination_order, acausal.structure.graph, acausal.structure.rank, acausal.structure.tearing
 print([m for m in ("sympy", "jax") if m in sys.modules])
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

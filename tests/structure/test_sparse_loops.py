@@ -78,6 +78,7 @@ def both(request):
     for large in (10, 10**6):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(steps, "LARGE", large)
+            patch.setattr(steps, "WRITTEN", large)
             compiled.append(ac.compile(MODELS[request.param]()))
     mesh, dense = compiled
     assert any(isinstance(s, SparseLoop) for s in mesh.reduced.steps)
@@ -182,6 +183,7 @@ def ring(formula, n=12):
 def mesh_from_ten(monkeypatch):
     """Loops of more than ten unknowns become meshes."""
     monkeypatch.setattr(steps, "LARGE", 10)
+    monkeypatch.setattr(steps, "WRITTEN", 10)
 
 
 @pytest.mark.usefixtures("mesh_from_ten")

@@ -94,6 +94,34 @@ class Chain(ac.Component):
                 self.connect(element.flange_b, mass.flange_a)
 
 
+class Pack(ac.Component):
+    """Cells in ``series`` groups of ``parallel``: capacitors behind what ``resistor(k)`` makes.
+
+    Potentials join all cells to one loop of algebraic equations.
+    """
+
+    def __init__(self, series, parallel, resistor):
+        super().__init__()
+        n = series * parallel
+        self.load, self.ground = el.ConstantCurrent(I=2.0), el.Ground()
+        self.r = [resistor(k) for k in range(n)]
+        self.c = [el.Capacitor(C=10.0 + k % 3, v=ac.Start(1.0, fixed=True)) for k in range(n)]
+        for r, c in zip(self.r, self.c, strict=True):
+            self.connect(r.n, c.p)
+        ends = [
+            [
+                member
+                for r, c in zip(self.r[k : k + parallel], self.c[k:], strict=False)
+                for member in (r.p, c.n)
+            ]
+            for k in range(0, n, parallel)
+        ]
+        for upper, lower in pairwise(ends):
+            self.connect(*upper[1::2], *lower[::2])
+        self.connect(self.load.p, *ends[0][::2])
+        self.connect(self.load.n, self.ground.p, *ends[-1][1::2])
+
+
 class Trains(ac.Component):
     """Shafts of geared inertias, each held by a spring: rigidly joined, so that torques follow from a loop."""
 

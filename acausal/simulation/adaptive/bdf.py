@@ -164,7 +164,9 @@ class BDF(eqx.Module):
             lambda: (self.matrix.renewed(problem.field, end, predicted, c), c),
             lambda: (m.matrix, m.c),
         )
-        newton = self._solve(problem, matrix, 2 / (1 + c / made_for), end, predicted, known, c, constant, x_before)
+        newton = self._solve(
+            problem, matrix, 2 / (1 + c / made_for), end, predicted, known, c, constant, x_before
+        )
         x = newton.x
         states = memory.states
         error = constant * problem.size(x - predicted, x_before, x)
@@ -172,15 +174,11 @@ class BDF(eqx.Module):
         accepted = error < 1
         if self.tangents:
             x = self._with_tangent(whole, end, x, c, all_known)
-        solved = m._replace(
-            matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted)
-        )
+        solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))
         after = self._after(problem, solved, h, end, newton.x, error, s)
         after = after._replace(states=jnp.concatenate([x[None], states[:-1]]))
         before = self._before(solved, newton, renew, h, error)._replace(states=states)
-        counts = Counts.of(
-            rates=newton.count, jacobians=renew, corrections=newton.count
-        )
+        counts = Counts.of(rates=newton.count, jacobians=renew, corrections=newton.count)
         dense = Dense(
             jnp.concatenate([x[None], states]), jnp.concatenate([jnp.zeros((1,), s.dtype), s]), q
         )
@@ -194,7 +192,9 @@ class BDF(eqx.Module):
             counts,
         )
 
-    def _with_tangent(self, problem: Problem, end: Array, x: State, c: Array, known: State) -> State:
+    def _with_tangent(
+        self, problem: Problem, end: Array, x: State, c: Array, known: State
+    ) -> State:
         """The solution of a step's equation, with its derivative by the implicit function theorem."""
         residual = x - known - c * problem.field(end, x)
         matrix = self.matrix.renewed(lax.stop_gradient(problem.field), end, x, c)
@@ -257,8 +257,12 @@ class BDF(eqx.Module):
         free = (wait <= 0) & (m.failures == 0)
         can_fall = free & (q > 1)
         can_rise = free & (q < MOST) & (m.known >= q + 2)
-        lower = lax.cond(can_fall, lambda: longer(size(q) / q, q - 1, CAUTIOUS), lambda: jnp.zeros_like(h))
-        upper = lax.cond(can_rise, lambda: longer(size(q + 2) / (q + 2), q + 1, BOLD), lambda: jnp.zeros_like(h))
+        lower = lax.cond(
+            can_fall, lambda: longer(size(q) / q, q - 1, CAUTIOUS), lambda: jnp.zeros_like(h)
+        )
+        upper = lax.cond(
+            can_rise, lambda: longer(size(q + 2) / (q + 2), q + 1, BOLD), lambda: jnp.zeros_like(h)
+        )
         best = jnp.maximum(same, jnp.maximum(lower, upper))
         is_worth = best >= WORTH
         order = jnp.where(best == upper, q + 1, jnp.where(best == lower, q - 1, q))
@@ -277,9 +281,7 @@ class BDF(eqx.Module):
             stale=jnp.array(False),
         )
 
-    def _before(
-        self, m: Memory, newton: _Newton, renewed: Array, h: Array, error: Array
-    ) -> Memory:
+    def _before(self, m: Memory, newton: _Newton, renewed: Array, h: Array, error: Array) -> Memory:
         """What is known where a step does not count: a matrix to renew, or a shorter length."""
         unsolved, q = ~newton.done, m.order
         failures = m.failures + jnp.where(unsolved & ~renewed, 0, 1)
@@ -308,7 +310,7 @@ class BDF(eqx.Module):
         of_moved: Any,
         own: list[Array],
         row: Any,
-        end: State,
+        begin: State,
         adjoint: Float[Array, "points_1 n_states"],
         to_saved: Float[Array, "n_saved n_states"],
         which: tuple[Array, Array],
@@ -325,11 +327,11 @@ class BDF(eqx.Module):
 
         if len(problem.ts):
             _, adjoint = lax.while_loop(lambda a: a[0] < which[1], add, (which[0], adjoint))
-        matrix = self.matrix.renewed(problem.field, equation.t, end, equation.c)
+        matrix = self.matrix.renewed(problem.field, equation.t, row.x, equation.c)
         multiplier = self.matrix.solve_transposed(matrix, adjoint[0])
 
         def rates(own: list[Array]) -> State:
-            return of_moved(own)[1].field(equation.t, end)
+            return of_moved(own)[1].field(equation.t, row.x)
 
         by_own = jax.vjp(rates, own)[1](equation.c * multiplier)[0]
         before = adjoint[1:] + equation.weights[:, None] * multiplier

@@ -6,9 +6,9 @@ from typing import Any, TypeAlias
 
 import diffrax as dfx
 import equinox as eqx
-import jax
 import optimistix as optx
 
+from acausal.codegen import StateJacobian
 from acausal.simulation import solvers
 from acausal.simulation.adaptive.bdf import BDF
 from acausal.simulation.adaptive.newton_matrix import NewtonMatrix
@@ -23,20 +23,20 @@ def explicit() -> Explicit:
     return Explicit(dfx.Tsit5())
 
 
-def stiff(problem: Problem) -> BDF:
+def stiff(jacobian: StateJacobian) -> BDF:
     """The method for stiff models."""
-    return BDF(NewtonMatrix(problem.field.system.state_jacobian))
+    return BDF(NewtonMatrix(jacobian))
 
 
-def method_of(solver: solvers.Solver, problem: Problem) -> Method:
+def method_of(solver: solvers.Solver, problem: Problem, jacobian: StateJacobian) -> Method:
     """The method by which a solver's steps are made.
 
     Raises:
         SimulationError: for a solver without an error estimate.
     """
-    if isinstance(solver, solvers.BDF):
-        return stiff(problem)
     solver = solvers.for_adaptive_steps(solver)
+    if isinstance(solver, solvers.BDF):
+        return stiff(jacobian)
     if isinstance(solver, dfx.AbstractERK):
         return Explicit(solver)
     return Foreign(_with_tolerances(solver, problem))
@@ -56,4 +56,4 @@ def _with_tolerances(solver: dfx.AbstractSolver[Any], problem: Problem) -> dfx.A
 
 
 def _anything(node: object) -> bool:
-    return node is getattr(dfx.with_stepsize_controller_tols(optx.Newton)(), "rtol")
+    return node is dfx.with_stepsize_controller_tols(optx.Newton)().rtol

@@ -110,7 +110,9 @@ class OneStep(eqx.Module):
         factor = SAFETY * error ** (-1 / self._order)
         least, most = jnp.where(accepted, 1.0, SHORTER), jnp.where(accepted, LONGER, SAFETY)
         longer = h * jnp.clip(factor, least, most).astype(h.dtype)
-        longer = jnp.where(accepted, jnp.maximum(longer, memory.h), longer)  # h may be what was left
+        longer = jnp.where(
+            accepted, jnp.maximum(longer, memory.h), longer
+        )  # h may be what was left
         is_limited = h * lax.stop_gradient(made.fastest) > STIFF_RATIO
         free = jnp.where(is_limited, 0, memory.free + 1)
         limited = jnp.where(free >= RELEASED, 0, memory.limited + is_limited)
@@ -144,7 +146,7 @@ class OneStep(eqx.Module):
         of_moved: Any,
         own: list[Array],
         row: Any,
-        end: State,
+        begin: State,
         adjoint: State,
         to_saved: Float[Array, "n_saved n_states"],
         which: tuple[Array, Array],
@@ -153,7 +155,7 @@ class OneStep(eqx.Module):
 
         Arguments:
             of_moved: what moves -> (method, problem, start). own: what moves.
-            row: the step, one of `Rows`. end: the state at its end.
+            row: the step, one of `Rows`. begin: the state at its start.
             adjoint: behind it. to_saved: cotangents of the states saved; those in the range ``which`` lie in the step.
         """
         t, h = row.t, row.h
@@ -164,7 +166,7 @@ class OneStep(eqx.Module):
             made = self.make(field, t, h, x, self.first(field, t, h, x, field(t, x)))
             return made.x, made.dense
 
-        (_, dense), pull = jax.vjp(step, own, row.x)
+        (_, dense), pull = jax.vjp(step, own, begin)
 
         def add(state: tuple[Array, Any]) -> tuple[Array, Any]:
             j, total = state
@@ -181,7 +183,9 @@ class OneStep(eqx.Module):
 
     @property
     def _order(self) -> float:
-        return float(cast(float, self.solver.order(None)))  # of the local error of the embedded scheme
+        return float(
+            cast(float, self.solver.order(None))
+        )  # of the local error of the embedded scheme
 
 
 class Explicit(OneStep):
@@ -219,9 +223,7 @@ class Explicit(OneStep):
         other = _sum(x, h, tableau.a_lower[-2], stages)
         change, apart = stages[-1] - stages[-2], end - other
         size = jnp.sqrt(jnp.sum(apart**2))
-        return lax.stop_gradient(
-            jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf)
-        )
+        return lax.stop_gradient(jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf))
 
 
 class Foreign(OneStep):

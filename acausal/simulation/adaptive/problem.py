@@ -2,33 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import Values
-from acausal.simulation.inputs import TimeFunction, evaluate
-
-
-class Field(eqx.Module):
-    """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
-
-    Attributes:
-        constant: the values that do not change on the way.
-        inputs: functions of time.
-        system: the model.
-    """
-
-    constant: Values
-    inputs: tuple[TimeFunction, ...]
-    system: Any = eqx.field(static=True)
-
-    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
-        """The derivatives of the states."""
-        values = self.constant._replace(t=t, x=x, u=evaluate(self.inputs, t))
-        return self.system.rates(values)
+Field = Callable[[Float[Array, ""], Float[Array, " n_states"]], Float[Array, " n_states"]]
+"""The right-hand side: (time, state) -> derivative."""
 
 
 class Problem(eqx.Module):
@@ -42,6 +24,7 @@ class Problem(eqx.Module):
         breaks: times between begin and end at which steps end, increasing. jumps: where the field jumps there.
         rtol, atol: tolerances of a step.
         max_steps: limit of steps, those that are repeated included.
+        restarts: at which breaks another run begins, if any do. first: with which state.
     """
 
     field: Field
@@ -54,6 +37,8 @@ class Problem(eqx.Module):
     rtol: Float[Array, "*n_states"]
     atol: Float[Array, "*n_states"]
     max_steps: int = eqx.field(static=True)
+    restarts: Bool[Array, " n_breaks"] | None = None
+    first: Float[Array, "n_breaks n_states"] | None = None
 
     def size(
         self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]

@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 from jax import lax
 from jax.custom_derivatives import SymbolicZero
-from jaxtyping import Array, Bool, Float, Int, PyTree
+from jaxtyping import Array, Float, Int
 
 from acausal.simulation.adaptive.problem import Problem
 from acausal.simulation.adaptive.search import (
@@ -31,7 +31,7 @@ Task = tuple[Any, Problem, Start]
 
 
 MEMORY = 2**23
-"""Numbers that the states of a run may take in memory before it is made part by part again."""
+"""Numbers that the steps of a run may take in memory before it is made part by part again."""
 
 
 class Kept(eqx.Module):
@@ -41,7 +41,6 @@ class Kept(eqx.Module):
         values: all arrays of the task. moved: those whose derivatives are needed.
         parts: where each part of the run began, with a leading axis. count: how many parts there are.
         rows: the steps of the last part. n: how many.
-        last: the state after them.
     """
 
     values: list[Array]
@@ -49,13 +48,10 @@ class Kept(eqx.Module):
     count: Int[Array, ""]
     rows: Rows
     n: Int[Array, ""]
-    last: Float[Array, " n_states"]
     moved: tuple[bool, ...] = eqx.field(static=True)
 
 
-def reverse(
-    method: Any, problem: Problem, start: Start, *, until_stiff: bool = False
-) -> Found:
+def reverse(method: Any, problem: Problem, start: Start, *, until_stiff: bool = False) -> Found:
     """`search`, with derivatives in reverse mode.
 
     The states of all steps are kept, as far as `MEMORY` allows. Of a longer run they are kept part by part: the
@@ -86,7 +82,9 @@ def reverse(
                 [next(filled) if m else v for v, m in zip(kept.values, kept.moved, strict=True)]
             )
 
-        pulled = _back(of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x), until_stiff)
+        pulled = _back(
+            of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x), until_stiff
+        )
         by_moved = iter(pulled)
         return ([next(by_moved) if m else None for m in kept.moved],)
 
@@ -99,25 +97,29 @@ def _kept(
 ) -> tuple[Found, Kept]:
     """The result of a run, and what its derivative needs."""
     method, problem, start = task
-    size = min(problem.max_steps, max(MEMORY // max(len(start.x), 1), 1))
-    most = -(-problem.max_steps // size)
     progress, saved = begin(method, problem, start)
+    numbers = sum(a.size for a in jax.tree.leaves(room(method, problem, progress, 1)))
+    size = min(problem.max_steps, max(MEMORY // numbers, 1))
+    most = -(-problem.max_steps // size)
     rows = room(method, problem, progress, size)
     parts = jax.tree.map(lambda a: jnp.zeros((most, *a.shape), a.dtype), progress)
 
     def one(carry: tuple[Any, ...]) -> tuple[Any, ...]:
         i, progress, saved, parts, rows, _ = carry
         parts = jax.tree.map(lambda a, v: a.at[i].set(v), parts, progress)
-        last, saved, rows = advance(
-            method, problem, progress, saved, rows, until_stiff=until_stiff
-        )
+        last, saved, rows = advance(method, problem, progress, saved, rows, until_stiff=until_stiff)
         return i + 1, last, saved, parts, rows, last.counts.steps - progress.counts.steps
 
     zero = jnp.zeros((), jnp.int32)
     state = zero, progress, saved, parts, rows, zero
     state = lax.while_loop(lambda s: s[1].why < 0, one, state) if most > 1 else one(state)
     count, last, saved, parts, rows, n = state
-    return found(last, saved), Kept(values, parts, count, rows, n, last.x, moved)
+    return found(last, saved), Kept(values, parts, count, rows, n, moved)
+
+
+def _row(rows: Rows, k: Array) -> Any:
+    """One of the rows."""
+    return jax.tree.map(lambda a: a[k], rows)
 
 
 def _filled(cotangent: Any) -> Array:
@@ -136,43 +138,51 @@ def _back(
     """The cotangents of what moves."""
     own = [v for v, m in zip(kept.values, kept.moved, strict=True) if m]
     method, problem, start = of_moved(own)
-    size = len(kept.rows.t)
+    size, parts = len(kept.rows.t), kept.parts.t.shape[0]
 
     def part(carry: tuple[Any, ...]) -> tuple[Any, ...]:
         """One part of the run; ``rows`` are its own only where it is the last."""
-        i, rows, n, last, adjoint, totals = carry
+        i, rows, n, *sums = carry
         progress = jax.tree.map(lambda a: a[i], kept.parts)
-        if kept.parts.t.shape[0] > 1:
+        if parts > 1:
 
-            def again() -> tuple[Rows, Array, Array]:
-                reached, _, made = advance(
-                    method, problem, progress, None, rows, until_stiff=until_stiff
-                )
-                return made, jnp.asarray(size, n.dtype), reached.x
+            def again() -> tuple[Rows, Array]:
+                made = advance(method, problem, progress, None, rows, until_stiff=until_stiff)[2]
+                assert made is not None
+                return made, jnp.asarray(size, n.dtype)
 
-            rows, n, last = lax.cond(i < kept.count - 1, again, lambda: (rows, n, last))
+            rows, n = lax.cond(i < kept.count - 1, again, lambda: (rows, n))
 
-        def step(carry: tuple[Array, PyTree, list[Array]]) -> tuple[Array, PyTree, list[Array]]:
-            k, adjoint, totals = carry
-            which = jnp.where(k > 0, rows.next[jnp.maximum(k - 1, 0)], progress.next), rows.next[k]
-            end = jnp.where(k + 1 < n, rows.x[jnp.minimum(k + 1, size - 1)], last)
-            row = jax.tree.map(lambda a: a[k], rows)
-            adjoint, by_own = method.back(of_moved, own, row, end, adjoint, to_saved, which)
-            return k - 1, adjoint, [a + b for a, b in zip(totals, by_own, strict=True)]
+        def step(carry: tuple[Any, ...]) -> tuple[Any, ...]:
+            k, adjoint, totals, to_first = carry
+            row, before = _row(rows, k), _row(rows, jnp.maximum(k - 1, 0))
+            begin = jnp.where(k > 0, before.x, progress.x)
+            if problem.first is not None:
+                begin = jnp.where(row.begins >= 0, problem.first[row.begins], begin)
+            which = jnp.where(k > 0, before.next, progress.next), row.next
+            adjoint, by_own = method.back(of_moved, own, row, begin, adjoint, to_saved, which)
+            if to_first is not None:  # where another run began, the one before feels nothing of it
+                at_first = jnp.where(row.begins >= 0, method.at_start(adjoint), 0)
+                to_first = to_first.at[row.begins].add(at_first)
+                adjoint = jnp.where(row.begins >= 0, 0, adjoint)
+            totals = [a + b for a, b in zip(totals, by_own, strict=True)]
+            return k - 1, adjoint, totals, to_first
 
-        _, adjoint, totals = lax.while_loop(lambda c: c[0] >= 0, step, (n - 1, adjoint, totals))
-        return i - 1, rows, n, last, adjoint, totals
+        _, *sums = lax.while_loop(lambda c: c[0] >= 0, step, (n - 1, *sums))
+        return i - 1, rows, n, *sums
 
     totals = [jnp.zeros_like(v) for v in own]
-    state = kept.count - 1, kept.rows, kept.n, kept.last, method.adjoint(to_last), totals
-    state = (
-        lax.while_loop(lambda s: s[0] >= 0, part, state)
-        if kept.parts.t.shape[0] > 1
-        else part(state)
-    )
-    adjoint, totals = state[-2:]
+    to_first = None if problem.first is None else jnp.zeros_like(problem.first)
+    state = kept.count - 1, kept.rows, kept.n, method.adjoint(to_last), totals, to_first
+    state = lax.while_loop(lambda s: s[0] >= 0, part, state) if parts > 1 else part(state)
+    adjoint, totals, to_first = state[3:]
     to_start = method.at_start(adjoint)
     if len(to_saved):
         to_start = to_start + jnp.where(saves_start(problem, start), to_saved[0], 0)
-    _, pull = jax.vjp(lambda some: of_moved(some)[2].x, own)
-    return [a + b for a, b in zip(totals, pull(to_start)[0], strict=True)]
+
+    def states(some: list[Array]) -> tuple[Array, Array | None]:
+        _, problem, start = of_moved(some)
+        return start.x, problem.first
+
+    pulled = jax.vjp(states, own)[1]((to_start, to_first))[0]
+    return [a + b for a, b in zip(totals, pulled, strict=True)]

@@ -13,7 +13,7 @@ from jaxtyping import Array, Bool, Float, Int
 from acausal.simulation.adaptive.problem import Counts, Problem
 
 REACHED, STIFF, EXHAUSTED, TOO_SHORT = range(4)
-"""Why a loop stopped: at the end, since the model is stiff, at the limit of steps, or with steps that became too short."""
+"""Why a loop stopped: at the end; as the model is stiff; at the limit of steps; with steps that became too short."""
 
 LEFT = 1.0001
 """A step that would end so near before a time at which steps must end goes up to it."""
@@ -49,7 +49,8 @@ class Rows(NamedTuple):
 
     Attributes:
         t, h: start and length of each, shape (n,). next: the first of the times to save beyond it.
-        own: what the method needs. x: the states at the starts, shape (n, n_states).
+        own: what the method needs. x: the states at the ends, shape (n, n_states).
+        begins: the break at which another run began with the step, or -1.
     """
 
     t: Float[Array, " n"]
@@ -57,6 +58,7 @@ class Rows(NamedTuple):
     next: Int[Array, " n"]
     own: Any
     x: Float[Array, "n n_states"]
+    begins: Int[Array, " n"]
 
 
 class Progress(NamedTuple):
@@ -65,6 +67,7 @@ class Progress(NamedTuple):
     Attributes:
         t, x: time and state. next: the next of the times to save. ahead: the next time at which steps must end.
         memory: the method's. why: it stopped (-1: it goes on). counts: what it has cost.
+        begins: the break at which another run has just begun, or -1.
     """
 
     t: Float[Array, ""]
@@ -74,6 +77,7 @@ class Progress(NamedTuple):
     memory: Any
     why: Int[Array, ""]
     counts: Counts
+    begins: Int[Array, ""]
 
 
 def search(method: Any, problem: Problem, start: Start, *, until_stiff: bool = False) -> Found:
@@ -107,7 +111,8 @@ def begin(method: Any, problem: Problem, start: Start) -> tuple[Progress, Array]
     goes_on = jnp.where(start.t < problem.end, -1, REACHED)
     ahead = jnp.searchsorted(problem.breaks, start.t, side="right")
     following, ahead, goes_on = (n.astype(jnp.int32) for n in (following, ahead, goes_on))
-    return Progress(start.t, start.x, following, ahead, memory, goes_on, counts), saved
+    none = jnp.full((), -1, jnp.int32)
+    return Progress(start.t, start.x, following, ahead, memory, goes_on, counts, none), saved
 
 
 def saves_start(problem: Problem, start: Start) -> Bool[Array, ""]:
@@ -156,17 +161,24 @@ def advance(
         x = jnp.where(ok, made.x, c.x)
         saved, following = _save(method, problem.ts, saved, c.next, made.dense, c.t, h, t)
         memory, ahead, counts = made.memory, c.ahead, c.counts.plus(made.counts)
+        begins = jnp.where(ok, -1, c.begins)
         if n_breaks:
-            ahead = c.ahead + (ok & to_stop & (c.ahead < n_breaks))
+            at_break = ok & to_stop & (c.ahead < n_breaks)
+            ahead = c.ahead + at_break
+            if problem.restarts is not None and problem.first is not None:
+                at = jnp.minimum(c.ahead, n_breaks - 1)
+                again = at_break & problem.restarts[at]
+                x = jnp.where(again, problem.first[at], x)
+                begins = jnp.where(again, at, begins).astype(jnp.int32)
             memory, cost = lax.cond(
-                ok & to_stop & jumps[c.ahead],
+                at_break & jumps[c.ahead],
                 lambda: method.begin(problem, t, x),
                 lambda: (made.memory, Counts.of()),
             )
             counts = counts.plus(cost)
         if rows is not None:
             k = jnp.where(ok, c.counts.steps - before, len(rows.t))  # beyond the last: dropped
-            row = Rows(c.t, h, following, made.row, c.x)
+            row = Rows(c.t, h, following, made.row, made.x, c.begins)
             rows = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), rows, row)
         counts = counts.plus(Counts.of(steps=ok, rejected=~ok))
         why = jnp.where(counts.steps + counts.rejected >= problem.max_steps, EXHAUSTED, -1)
@@ -174,7 +186,7 @@ def advance(
         if until_stiff:
             why = jnp.where(made.stiff, STIFF, why)
         why = jnp.where(t >= problem.end, REACHED, why).astype(jnp.int32)
-        return Progress(t, x, following, ahead, memory, why, counts), saved, rows
+        return Progress(t, x, following, ahead, memory, why, counts, begins), saved, rows
 
     return lax.while_loop(goes_on, body, (progress, saved, rows))
 
@@ -183,7 +195,7 @@ def room(method: Any, problem: Problem, progress: Progress, n: int) -> Rows:
     """Room for n rows."""
     p = progress
     made = eqx.filter_eval_shape(method.attempt, problem, p.memory, p.t, p.memory.h)
-    like = Rows(p.t, p.t, p.next, made.row, p.x)
+    like = Rows(p.t, p.t, p.next, made.row, p.x, p.begins)
     return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
 
 

@@ -2,38 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
-import diffrax as dfx
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float, PyTree
+from jaxtyping import Array, Float
 
-from acausal._jax import cast, known, traced, two_modes
+from acausal._jax import cast, known, traced
+from acausal.codegen import Values
 from acausal.errors import SimulationError, StepLimitError
 from acausal.simulation import solvers
-from acausal.simulation.adaptive.methods import Method, explicit, method_of, stiff
-from acausal.simulation.adaptive.problem import Field, Problem
-from acausal.simulation.adaptive.replay import reverse
-from acausal.simulation.adaptive.search import (
-    EXHAUSTED,
-    REACHED,
-    STIFF,
-    Found,
-    Start,
-    search,
-)
+from acausal.simulation.adaptive.problem import Problem
+from acausal.simulation.adaptive.search import EXHAUSTED, REACHED, Found
+from acausal.simulation.adaptive.solve import solve
 from acausal.simulation.adaptive.tolerances import Tolerance
-from acausal.simulation.inputs import breaks, evaluate_all
+from acausal.simulation.inputs import TimeFunction, breaks, evaluate, evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
 
-AUTO = "Tsit5, then BDF"
-"""The method that changes on its way."""
+
+class _ModelField(eqx.Module):
+    """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
+
+    Attributes:
+        constant: the values that do not change on the way.
+        inputs: functions of time.
+        system: the model.
+    """
+
+    constant: Values
+    inputs: tuple[TimeFunction, ...]
+    system: Any = eqx.field(static=True)
+
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+        """The derivatives of the states."""
+        values = self.constant._replace(t=t, x=x, u=evaluate(self.inputs, t))
+        return self.system.rates(values)
 
 
 def simulate_adaptive(
@@ -65,7 +71,7 @@ def simulate_adaptive(
     ends = breaks(run.inputs, run.begin, run.end)
     constant = run.start._replace(t=None, x=None, u=None)
     problem = Problem(
-        Field(constant, run.inputs, run.system),
+        _ModelField(constant, run.inputs, run.system),
         run.start.x,
         *map(jnp.asarray, (run.begin, run.end)),
         jnp.asarray(saved),
@@ -75,67 +81,16 @@ def simulate_adaptive(
         max_steps,
     )
     problem = cast(problem, dtype)
-    start = Start(problem.begin, problem.x, jnp.asarray(0))
-    if solver is None:
-        found, stiff_from = _automatic(problem, start, forward)
-        name = AUTO
-    else:
-        method = method_of(solver, problem)
-        found = _solve(method, problem, start, False, forward)
-        name, stiff_from = method.name, jnp.asarray(jnp.nan)
+    solved = solve(problem, solver, run.system.state_jacobian, forward=forward)
+    found, c = solved.found, solved.found.counts
     if (why := known(found.why)) is not None and not traced(found.saved):
-        name = _name(name, stiff_from)
-        _check(run, saved, found, int(why), max_steps, name, solver is None)
-    c = found.counts
+        _check(run, saved, found, int(why), max_steps, solved.method, solver is None)
     statistics = Statistics(
-        name, c.steps, c.rejected, c.rates, c.jacobians, c.corrections, stiff_from
+        solved.method, c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
     )
     u = evaluate_all(run.inputs, problem.ts)
     values = cast(run.start, dtype)._replace(t=problem.ts, x=found.saved, u=u)
     return Solution(values, run.system, statistics)
-
-
-def _automatic(problem: Problem, start: Start, forward: bool) -> tuple[Found, Float[Array, ""]]:
-    """Explicit steps, and implicit ones from where the model turns out to be stiff; and the time there."""
-    first = _solve(explicit(), problem, start, True, forward)
-    why = known(first.why)
-    if why is not None and int(why) not in (STIFF, EXHAUSTED):
-        return first, jnp.full_like(first.t, jnp.inf)
-    goes_on = (first.why == STIFF) | (first.why == EXHAUSTED)
-    begin = jnp.where(goes_on, first.t, problem.end)  # nothing is left to do where it is not stiff
-    rest = _solve(stiff(problem), problem, Start(begin, first.x, first.next), False, forward)
-    earlier = jnp.arange(len(problem.ts)) < first.next
-    joined = Found(
-        jnp.where(earlier[:, None], first.saved, rest.saved),
-        rest.t,
-        rest.x,
-        rest.next,
-        jnp.where(goes_on, rest.why, first.why),
-        first.counts.plus(rest.counts),
-    )
-    return joined, jnp.where(goes_on, first.t, jnp.inf)
-
-
-@eqx.filter_jit
-def _solve(
-    method: Method, problem: Problem, start: Start, until_stiff: bool, forward: bool
-) -> Found:
-    arrays, rest = eqx.partition((method, problem, start), eqx.is_array)
-
-    def forwards(arrays: PyTree) -> Found:
-        method, problem, start = eqx.combine(arrays, rest)
-        return search(method.with_tangents(), problem, start, until_stiff=until_stiff)
-
-    def backwards(arrays: PyTree) -> Found:
-        return reverse(*eqx.combine(arrays, rest), until_stiff=until_stiff)
-
-    return forwards(arrays) if forward else two_modes(backwards, forwards)(arrays)
-
-
-def _name(name: str, stiff_from: Float[Array, ""]) -> str:
-    """The methods that made steps."""
-    at = known(stiff_from)
-    return "Tsit5" if name == AUTO and at is not None and np.isinf(at) else name
 
 
 def _check(

@@ -14,6 +14,7 @@ from acausal._jax import is_number
 from acausal.data import Data
 from acausal.errors import DataError, TrainingError, shown
 from acausal.simulation import (
+    Adaptive,
     Samples,
     Solver,
     Steps,
@@ -49,7 +50,7 @@ def lay_out(
     states: tuple[str, ...] | None,
     longest: float | None = None,
     *,
-    solver: Solver | None = None,
+    solver: Solver | Adaptive | None = None,
     timing: Timing | None = None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.

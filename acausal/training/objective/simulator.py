@@ -12,7 +12,15 @@ from jaxtyping import Array, Float, Int
 
 from acausal._jax import Restarts, cast
 from acausal.codegen import Packed, Values
-from acausal.simulation import Integrated, Runs, Solver, Steps, integrate
+from acausal.simulation import (
+    Adaptive,
+    Integrated,
+    Runs,
+    Solver,
+    Steps,
+    integrate,
+    integrate_adaptively,
+)
 from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.per_record import PerRecord, for_records
@@ -50,7 +58,7 @@ class Simulator(eqx.Module):
         records: the data.
         first_states: the states at which records start, where they are not trained.
         shooting: the states at which sequences begin, where they are trained, too.
-        solver, substeps: the scheme, and the number of its steps from sample to sample.
+        solver, substeps: the scheme, and the number of its steps from sample to sample; or adaptive steps.
         dtype: the precision of steps; of weights and losses it is double.
     """
 
@@ -61,7 +69,7 @@ class Simulator(eqx.Module):
     records: Records
     first_states: FirstStates
     shooting: ShootingStates | None
-    solver: Solver = eqx.field(static=True)
+    solver: Solver | Adaptive = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
     dtype: np.dtype = eqx.field(static=True)
 
@@ -161,14 +169,12 @@ class Simulator(eqx.Module):
         """States and targets at every step, and the state at the end."""
         packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
         first: Any = steps.t[0]
-        found = integrate(
-            self.system,
-            Values(first, x0, steps.inputs.start[0], packed),
-            steps,
-            self.solver,
-            outputs=self.targets,
-            substeps=self.substeps,
-            direct=direct,
-            runs=runs,
-        )
+        start = Values(first, x0, steps.inputs.start[0], packed)
+        by_steps = {"outputs": self.targets, "runs": runs, "direct": direct}
+        if isinstance(self.solver, Adaptive):
+            found = integrate_adaptively(self.system, start, steps, self.solver, **by_steps)
+        else:
+            found = integrate(
+                self.system, start, steps, self.solver, substeps=self.substeps, **by_steps
+            )
         return cast(found, float)

@@ -1,0 +1,65 @@
+"""Whether a large loop is torn: if few guesses are enough, and what follows from them keeps their digits."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import solve_triangular
+
+from acausal.structure.algebraic_loops import block_of, torn_block
+from acausal.structure.equations import Equations
+from acausal.structure.jacobian import Point, random_values
+from acausal.structure.tearing import Torn
+
+FEW = 12
+"""The most tearing variables of a large loop: as many as are eliminated without a library."""
+LOST = 1e-9
+"""The largest error of a torn loop's linear equations. In a long row of equations it may grow with each of them."""
+
+
+def tearing_pays(
+    system: Equations,
+    equations: list[int],
+    unknowns: list[int],
+    vanishing: set[tuple[int, int]],
+    parameters: np.ndarray,
+) -> bool:
+    """Whether a loop is better torn than solved with its sparse Jacobian.
+
+    Arguments:
+        vanishing: see `Equations.vanishing`. ``parameters``: the model's own values.
+    """
+    block = block_of(system, equations, unknowns, vanishing)
+    torn = torn_block(block.equations, block.ranks)
+    if len(torn.tears) > FEW:
+        return False
+    point = Point(random_values(len(system.structure.derivative)), parameters)
+    return _error(torn, _jacobian(system, equations, unknowns, point)) < LOST
+
+
+def _jacobian(
+    system: Equations, equations: list[int], unknowns: list[int], point: Point
+) -> np.ndarray:
+    """The Jacobian (n, n) of a loop at a point."""
+    place = np.full(len(system.structure.derivative), -1)
+    place[unknowns] = np.arange(len(unknowns))
+    rows, nodes, values = system.jacobian(equations, point)
+    inside = place[nodes] >= 0
+    matrix = np.zeros((len(unknowns),) * 2)
+    np.add.at(matrix, (rows[inside], place[nodes[inside]]), values[inside])
+    return matrix
+
+
+def _error(torn: Torn, jacobian: np.ndarray) -> float:
+    """The largest error where the equations are solved in the order of the tearing, for a solution of ones."""
+    rows = [*(e for e, _ in torn.assigned), *torn.residuals]
+    columns = [*(v for _, v in torn.assigned), *torn.tears]
+    matrix, k = jacobian[np.ix_(rows, columns)], len(torn.assigned)
+    right = np.column_stack([matrix.sum(axis=1), matrix[:, k:]])
+    try:
+        first = solve_triangular(matrix[:k, :k], right[:k], lower=True)
+        rest = right[k:] - matrix[k:, :k] @ first
+        tears = np.linalg.solve(rest[:, 1:], rest[:, 0])
+    except np.linalg.LinAlgError:
+        return np.inf
+    found = np.append(first[:, 0] - first[:, 1:] @ tears, tears)
+    return float(np.abs(found - 1.0).max())

@@ -1,0 +1,82 @@
+"""Elimination in array operations, compared with LAPACK."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from acausal._jax.batching import batched, is_small
+from acausal.codegen.elimination import eliminate
+
+rng = np.random.default_rng(0)
+
+
+def equations(n, *batch):
+    return jnp.asarray(rng.normal(size=(*batch, n, n))), jnp.asarray(rng.normal(size=(*batch, n)))
+
+
+@pytest.mark.parametrize("n", [1, 2, 5, 12])
+def test_the_solution_is_that_of_lapack(n):
+    a, b = equations(n)
+    np.testing.assert_allclose(eliminate(a, b), np.linalg.solve(a, b), rtol=1e-11)
+
+
+def test_rows_are_exchanged():
+    a = jnp.asarray([[0.0, 1.0, 0.0], [0.0, 1e-20, 1.0], [1.0, 0.0, 1e20]])
+    b = jnp.asarray([2.0, 3.0, 0.0])
+    np.testing.assert_allclose(eliminate(a, b), [-3e20, 2.0, 3.0], rtol=1e-14)
+    assert (
+        float(
+            jnp.max(jnp.abs(eliminate(jnp.eye(4)[::-1], jnp.arange(4.0)) - jnp.arange(4.0)[::-1]))
+        )
+        == 0
+    )
+
+
+def test_the_residual_is_as_small_as_lapacks():
+    a, b = equations(12, 200)
+    found = jax.jit(jax.vmap(eliminate))(a, b)
+    theirs = np.linalg.solve(a, b[..., None])[..., 0]
+
+    def residual(x):
+        size = np.abs(a).sum(-1) * np.abs(x).max(-1)[:, None]
+        return np.max(np.abs(np.einsum("kij,kj->ki", a, x) - b) / size)
+
+    assert residual(found) < 10 * residual(theirs)
+
+
+@pytest.mark.parametrize("a", [np.zeros((3, 3)), np.ones((3, 3)), np.diag([1.0, 0.0, 2.0])])
+def test_a_singular_matrix_has_no_finite_solution(a):
+    assert not np.isfinite(eliminate(jnp.asarray(a), jnp.ones(3))).all()
+
+
+def test_nan_is_passed_on():
+    a, b = equations(4)
+    assert np.isnan(eliminate(a.at[2, 1].set(jnp.nan), b)).any()
+    assert np.isnan(eliminate(a, b.at[3].set(jnp.nan))).any()
+
+
+def test_derivatives_in_both_modes_and_of_second_order():
+    a, b = equations(4)
+    for derivative in (jax.jacrev, jax.jacfwd):
+        for argument in (0, 1):
+            ours = jax.jit(derivative(eliminate, argument))(a, b)
+            theirs = jax.jacfwd(jnp.linalg.solve, argument)(a, b)
+            np.testing.assert_allclose(ours, theirs, rtol=1e-9, atol=1e-11)
+    both = [
+        jax.jit(jax.hessian(lambda s, solve=solve: jnp.sum(solve(a + s * jnp.eye(4), s * b) ** 2)))
+        for solve in (eliminate, jnp.linalg.solve)
+    ]
+    np.testing.assert_allclose(both[0](0.3), both[1](0.3), rtol=1e-9)
+
+
+def test_a_loop_around_it_is_compiled_as_a_whole_and_side_by_side():
+    a, b = equations(5, 11)
+
+    def run(a, b):
+        return [jax.lax.scan(lambda x, _: (eliminate(a, x), None), b, None, length=3)[0]]
+
+    assert is_small(jax.make_jaxpr(run)(a[0], b[0]).jaxpr)
+    found = jax.jit(jax.vmap(batched(run)))(a, b)[0]
+    expected = np.linalg.solve(np.linalg.matrix_power(a, 3), b[..., None])[..., 0]
+    np.testing.assert_allclose(found, expected, rtol=1e-8)
