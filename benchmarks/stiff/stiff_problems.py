@@ -95,7 +95,7 @@ class Hires(StiffProblem):
 class E5(StiffProblem):
     """A pyrolysis, whose concentrations reach down to 1e-20."""
 
-    start, end, scale = (1.76e-3, 0.0, 0.0, 0.0), 1e11, 1e-17
+    start, end, scale = (1.76e-3, 0.0, 0.0, 0.0), 1e6, 1e-17
 
     def rates(self) -> Sequence[Any]:
         a, b, c, d = self.y

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -33,6 +34,23 @@ class Entropy(eqx.Module):
         return 2e-4 * jnp.tanh(6 * (soc - 0.4))
 
 
+class Resistance(el.interfaces.OnePort, battery.PartialDepending):
+    """`battery.SeriesResistance`, written for the current: ``i = v/R_actual``.
+
+    Cells in parallel share a voltage. With their currents given by it, the one voltage is all that a row has to
+    solve for; ``v = R_actual i`` could be solved for a current only where no resistance is zero, which nobody knows.
+    """
+
+    R = ac.Parameter(unit="Ohm", min=0, doc="resistance at T_ref")
+    G_actual = ac.Variable(unit="S", start=50.0, nominal=50.0, doc="actual conductance")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.G_actual, 1 / (self.R * self._slowing))
+        yield ac.Eq(self.i, self.G_actual * self.v)
+        yield ac.Eq(self.LossPower, self.v * self.i)
+
+
 class Cell(ac.Component):
     """A cell of 5 A.h: a voltage over charge, a learned resistance over charge and temperature, a relaxation, a heat.
 
@@ -56,9 +74,7 @@ class Cell(ac.Component):
         self.charge = battery.ChargeStorage(
             Q=18e3 * (1 - spread), soc=ac.Start(soc - spread / 5, fixed=True)
         )
-        self.resistance = battery.SeriesResistance(
-            R=0.02 * (1 + spread), E_a=15e3, useHeatPort=True, **law
-        )
+        self.resistance = Resistance(R=0.02 * (1 + spread), E_a=15e3, useHeatPort=True, **law)
         self.relaxation = battery.Relaxation(
             R=0.01, tau=20.0, E_a=20e3, v=ac.Start(0.0, fixed=True), learned=False, useHeatPort=True, **law
         )
