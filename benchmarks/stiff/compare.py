@@ -100,7 +100,11 @@ def against_cvode(task: Task, rounds: int = ROUNDS, *, reference: bool = True) -
         found["difference"] = difference(system, np.asarray(sol.x), exact)
         found["cvode_difference"] = difference(system, theirs, exact)
     told = f"{found['ratio']:6.2f} x CVODE ({found['ours_seconds']:.3f} s, {found['cvode_seconds']:.3f} s)"
-    apart = f"; off by {found['difference']:.1e}, CVODE {found['cvode_difference']:.1e}" if reference else ""
+    apart = (
+        f"; off by {found['difference']:.1e}, CVODE {found['cvode_difference']:.1e}"
+        if reference
+        else ""
+    )
     print(
         f"{task.name:12} {told}; first result {first:.1f} s{apart}; {found['memory_gb']:.2f} GB\n"
         f"{'':12} {found['statistics']}; CVODE {found['cvode_rates']} right-hand sides",

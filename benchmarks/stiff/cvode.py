@@ -55,9 +55,7 @@ class Cvode:
 
         if sparsity is not None:
             options |= {"linsolver": "sparse", "sparsity": sparsity}
-        self.solver = sksundae.cvode.CVODE(
-            rhs, method="BDF", max_num_steps=10_000_000, **options
-        )
+        self.solver = sksundae.cvode.CVODE(rhs, method="BDF", max_num_steps=10_000_000, **options)
 
     def __call__(
         self, ts: Float[np.ndarray, " n_ts"], x0: Float[np.ndarray, " n"]

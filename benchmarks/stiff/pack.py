@@ -18,6 +18,4 @@ def pack(rows: int = ROWS, cells: int = CELLS, seconds: float = HOUR) -> dict[st
     task = Task("pack", driven.system, driven.t, driven.inputs)
     found = against_cvode(task, ROUNDS)
     law = driven.system.parameters()[LAW]
-    return found | gradient_cost(
-        "pack", lambda law: warmth(driven, law), (law,), rounds=ROUNDS
-    )
+    return found | gradient_cost("pack", lambda law: warmth(driven, law), (law,), rounds=ROUNDS)

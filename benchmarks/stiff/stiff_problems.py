@@ -147,7 +147,7 @@ POLLUTION = tuple(
         (3.12, (20,), (19, 1)),
     )
 )
-"""The reactions in which what pollutes the air forms. What a reaction consumes counts, unless section IV.10 omits it."""
+"""The reactions by which the air is polluted."""
 
 
 class Pollution(StiffProblem):

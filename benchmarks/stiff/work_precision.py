@@ -5,6 +5,7 @@ from __future__ import annotations
 import statistics
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -94,9 +95,7 @@ def measure(problem: type[StiffProblem], tolerances: tuple[float, ...] = TOLERAN
     curves: Curves = {name: [] for name in solvers}
     for rtol in tolerances:
         found = {name: solve(rtol) for name, solve in solvers.items()}
-        taken = in_turns(
-            {name: lambda solve=solve: solve(rtol) for name, solve in solvers.items()}, ROUNDS
-        )
+        taken = in_turns({name: partial(solve, rtol) for name, solve in solvers.items()}, ROUNDS)
         for name, (x, count) in found.items():
             median = statistics.median(taken[name])
             curves[name].append(Point(rtol, error(x, exact, problem.scale), median, count))

@@ -39,7 +39,7 @@ def speed() -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]]:
 
 
 def current(voltage: float) -> ac.Signal:
-    """The current into a pack of a nominal voltage in A, negative while the car drives: linear between samples at 1 Hz."""
+    """The current into a pack of a nominal voltage in A, at 1 Hz: negative while it drives the car."""
     t, v = speed()
     force = MASS * np.gradient(v, t) + DRAG * v**2 + ROLLING * 9.81 * MASS * (v > 0)
     driving = force * v

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 
 from acausal.reporting import LEARNED, TRUTH
 from examples.battery_pack.cycle import speed
-from examples.battery_pack.model import CURRENT
 from examples.battery_pack.study import Study, places
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -68,15 +67,19 @@ class Cell(ac.Component):
             else (lambda _: OpenCircuit(), lambda _: Entropy(), {})
         )
         self.p, self.n = el.PositivePin(), el.NegativePin()
-        self.ocv = battery.OpenCircuitVoltage(
-            net=curve, entropy=entropy, useHeatPort=True
-        )
+        self.ocv = battery.OpenCircuitVoltage(net=curve, entropy=entropy, useHeatPort=True)
         self.charge = battery.ChargeStorage(
             Q=18e3 * (1 - spread), soc=ac.Start(soc - spread / 5, fixed=True)
         )
         self.resistance = Resistance(R=0.02 * (1 + spread), E_a=15e3, useHeatPort=True, **law)
         self.relaxation = battery.Relaxation(
-            R=0.01, tau=20.0, E_a=20e3, v=ac.Start(0.0, fixed=True), learned=False, useHeatPort=True, **law
+            R=0.01,
+            tau=20.0,
+            E_a=20e3,
+            v=ac.Start(0.0, fixed=True),
+            learned=False,
+            useHeatPort=True,
+            **law,
         )
         self.body = thermal.HeatCapacitor(C=70.0, T=ac.Start(298.15, fixed=True))
         self.connect(self.p, self.resistance.p)

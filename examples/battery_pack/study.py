@@ -48,7 +48,9 @@ class Drive:
         )
 
 
-def drive(rows: int = ROWS, cells: int = CELLS, seconds: float = HOUR, every: float = 10.0) -> Drive:
+def drive(
+    rows: int = ROWS, cells: int = CELLS, seconds: float = HOUR, every: float = 10.0
+) -> Drive:
     """A drive of a pack whose cells bear the same currents, however many they are."""
     inputs = {CURRENT: current(NOMINAL * ROWS * CELLS / cells), COOLANT: 293.15}
     times = np.arange(0.0, seconds + every / 2, every)
