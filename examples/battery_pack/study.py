@@ -57,10 +57,10 @@ def drive(
     return Drive(rows, cells, ac.compile(Pack(rows, cells)), inputs, times)
 
 
-def warmth(driven: Drive, law: Any) -> Float[Array, ""]:
+def warmth(driven: Drive, law: Any, **options: Any) -> Float[Array, ""]:
     """The mean temperature of the cells at the end, in K, for a network of the resistance."""
     params = {**driven.system.parameters(), LAW: law}
-    return jnp.mean(driven.simulate(params).x[-1, np.asarray(places(driven, "body.T"))])
+    return jnp.mean(driven.simulate(params, **options).x[-1, np.asarray(places(driven, "body.T"))])
 
 
 def places(driven: Drive, state: str) -> list[int]:

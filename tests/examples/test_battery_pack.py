@@ -72,7 +72,7 @@ def test_the_voltage_is_the_sum_of_the_rows(sol) -> None:
 
 def test_the_gradient_by_the_weights_is_that_of_differences(driven) -> None:
     law = driven.system.parameters()[LAW]
-    value = jax.jit(lambda law: warmth(driven, law))
+    value = jax.jit(lambda law: warmth(driven, law, solver="tsit5"))
     slope = jax.jit(jax.grad(value))(law)
     size = jnp.sqrt(sum(jnp.sum(a**2) for a in jax.tree.leaves(slope)))
     h = 1e-2
