@@ -10,6 +10,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 if TYPE_CHECKING:
     from benchmarks.stiff.work_precision import Curves
@@ -35,6 +36,7 @@ def draw(curves: dict[str, Curves]) -> Figure:
                 (rows[1, i], [p.rates for p in points]),
             ):
                 ax.loglog(work, errors, ms=4, lw=1.2, **STYLES[solver])
+                ax.xaxis.set_minor_formatter(NullFormatter())
                 ax.grid(alpha=0.25)
         rows[0, i].set_title(name, fontsize=10)
         rows[0, i].set_xlabel("seconds")
