@@ -163,6 +163,8 @@ class System(LeavesCaches):
         Raises:
             DataError: for what is neither.
         """
+        if key is None and not self.layout.module_names:
+            return default_parameters(self.layout, None)  # to make a key takes a moment
         key = 0 if key is None else key
         if _is_seed(key):
             key = jax.random.key(key)

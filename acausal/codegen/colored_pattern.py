@@ -69,7 +69,7 @@ class ColoredPattern(LeavesCaches):
 
             rows = jax.lax.map(row, jnp.asarray(self.long_rows))
             found = jnp.concatenate([found, rows.ravel()])
-        return jnp.take(found, self._places, unique_indices=True, mode="clip")
+        return found.at[self._places].get(mode="promise_in_bounds", unique_indices=True)
 
     @cached_property
     def _places(self) -> Integers:

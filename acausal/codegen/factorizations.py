@@ -16,13 +16,13 @@ from acausal.flattening import Integers
 from acausal.structure import SETTINGS, THRESHOLD
 
 PANEL = 1
-"""Columns that SuperLU factorizes together: more were slower for every pattern measured."""
+"""Columns that SuperLU factorizes together: more were slower for plates, and no faster for bands and blocks."""
 
 MOST = 64
 """The most factorizations that are kept, as where the members of a batch have a matrix each."""
 
 BUDGET = 1 << 23
-"""The most entries of all factors that are kept, but for those of the latest matrix: 100 MB."""
+"""The most entries of all factors that are kept, but for those of the latest matrix: about 100 MB."""
 
 
 @dataclass(frozen=True, eq=False)

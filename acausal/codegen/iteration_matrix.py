@@ -93,6 +93,9 @@ class SparseIterationMatrix(IterationMatrix):
 
     Attributes:
         n: number of states. matrix: the further rows and columns are those of open loops.
+
+    Right sides may go on with those of the open loops' equations, which are zero otherwise; then the solution goes on
+    with the changes of the loops' unknowns. So Newton's method can find states and unknowns together.
     """
 
     n: int
@@ -115,14 +118,14 @@ class SparseIterationMatrix(IterationMatrix):
 
     def solve(self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]) -> Float[Array, " n"]:
         """See `IterationMatrix`."""
-        return self.matrix.solve(kept, self._padded(b))[: self.n]
+        return self.matrix.solve(kept, self._padded(b))[: len(b)]
 
     def solve_transposed(
         self, kept: Float[Array, " n_entries"], b: Float[Array, " n"]
     ) -> Float[Array, " n"]:
         """See `IterationMatrix`."""
-        return self.matrix.solve_transposed(kept, self._padded(b))[: self.n]
+        return self.matrix.solve_transposed(kept, self._padded(b))[: len(b)]
 
     def _padded(self, b: Array) -> Array:
-        """The right side, and zeros for the equations of open loops."""
-        return jnp.pad(b, (0, len(self.matrix.pattern.row_order) - self.n))
+        """The right side, with zeros where it is too short."""
+        return jnp.pad(b, (0, len(self.matrix.pattern.row_order) - len(b)))

@@ -23,11 +23,11 @@ from acausal.codegen.values import Packed
 from acausal.errors import DataError, DeclarationError, listing, shown
 
 
-def default_parameters(layout: ParameterLayout, key: Array) -> dict[str, Any]:
-    """The model's own parameter values; modules are made with keys split from ``key``."""
+def default_parameters(layout: ParameterLayout, key: Array | None) -> dict[str, Any]:
+    """The model's own parameter values; modules are made with keys split from ``key`` (``None``: there are none)."""
     values: dict[str, Any] = dict(zip(layout.names, layout.model.value[layout.free], strict=True))
     own = layout.own_modules
-    keys = jax.random.split(key, max(len(own), 1))
+    keys = [] if key is None or not len(own) else jax.random.split(key, len(own))
     for name, index, k in zip(layout.module_names, own, keys, strict=False):
         values[name] = _make(name, layout.model.module_values[index], k)
     return values

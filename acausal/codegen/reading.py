@@ -81,7 +81,7 @@ def _take(gather: Take, arrays: Arrays) -> Array:
     pieces = [jnp.atleast_1d(arrays[s]) for s in gather.sources]
     whole = pieces[0] if len(pieces) == 1 else jnp.concatenate(pieces)
     unique = len(np.unique(gather.index)) == len(gather.index)
-    return jnp.take(whole, gather.index, axis=0, unique_indices=unique)
+    return whole.at[gather.index].get(mode="promise_in_bounds", unique_indices=unique)
 
 
 _READ: dict[type, Callable[[Any, Arrays], Array]] = {

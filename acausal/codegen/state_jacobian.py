@@ -109,7 +109,10 @@ class StateJacobian(LeavesCaches):
         return self.n if self.pattern is None else self.pattern.n_colors
 
     def entries(
-        self, field: Callable[[Float[Array, " n"]], Float[Array, " n"]], x: Float[Array, " n"]
+        self,
+        field: Callable[[Float[Array, " n"]], Float[Array, " n"]],
+        x: Float[Array, " n"],
+        unknowns: Float[Array, " m"] | None = None,
     ) -> Float[Array, " n_entries"]:
         """The entries of the Jacobian of ``field`` at ``x``.
 
@@ -117,6 +120,7 @@ class StateJacobian(LeavesCaches):
             field: derivatives of the states as a function of the states, with this pattern; a `Field` if there are
                 open loops.
             x: states.
+            unknowns: those of the open loops, if they are known or the loops need not be solved exactly.
         """
         if self.n <= FEW:
             return jax.jacfwd(field)(x).ravel()
@@ -132,7 +136,8 @@ class StateJacobian(LeavesCaches):
         def opened(both: Array) -> Array:
             return field.with_open_loops(self.open_loops, both[: self.n], both[self.n :])
 
-        unknowns = field.loop_unknowns(self.open_loops, x)
+        if unknowns is None:
+            unknowns = field.loop_unknowns(self.open_loops, x)
         return self.pattern.entries(opened, jnp.concatenate([x, unknowns]))
 
     @cached_property

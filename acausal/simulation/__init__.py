@@ -30,6 +30,7 @@ from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
     BDF as BDF,
     EXPLICIT as EXPLICIT,
+    Scheme as Scheme,
     Solver as Solver,
     for_adaptive_steps as for_adaptive_steps,
     for_fixed_steps as for_fixed_steps,

@@ -72,7 +72,7 @@ def simulate_fixed(
 
 @eqx.filter_jit
 def _scan_steps(
-    system: System, start: Values, steps: Steps, solver: solvers.Solver, direct: bool
+    system: System, start: Values, steps: Steps, solver: solvers.Scheme, direct: bool
 ) -> Float[Array, "n_ends n_states"]:
     integrated = integrate(system, start, steps, solver, direct=direct)
     return jnp.concatenate([integrated.x, integrated.end[None]])

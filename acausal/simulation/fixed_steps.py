@@ -21,7 +21,7 @@ from acausal.codegen import Values
 from acausal.data import deviation_from_line
 from acausal.simulation.inputs import TimeFunction
 from acausal.simulation.sampled_inputs import Samples
-from acausal.simulation.solvers import EXPLICIT, Solver
+from acausal.simulation.solvers import EXPLICIT, Scheme
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -137,7 +137,7 @@ def integrate(
     system: System,
     start: Values,
     steps: Steps,
-    solver: Solver,
+    solver: Scheme,
     *,
     outputs: Sequence[str] = (),
     substeps: int = 1,
@@ -236,7 +236,7 @@ class Tableau(NamedTuple):
     weights: Sequence[float]
 
 
-def _tableau(solver: Solver) -> Tableau:
+def _tableau(solver: Scheme) -> Tableau:
     if isinstance(solver, dfx.Euler):
         return Tableau([[]], [0.0], [1.0])
     tableau = cast(dfx.ButcherTableau, cast(dfx.AbstractERK, solver).tableau)
@@ -265,7 +265,7 @@ def _sum(x: State, h: Array, weights: Sequence[float], stages: Sequence[State]) 
     return x
 
 
-def _implicit(solver: Solver) -> Stepper:
+def _implicit(solver: Scheme) -> Stepper:
     """A solver's own `step`, in local time from 0 to h."""
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import diffrax as dfx
 import equinox as eqx
@@ -18,7 +18,10 @@ class BDF(eqx.Module):
     """Backward differentiation formulas of order 1 to 5, for stiff models, in adaptive steps."""
 
 
-Solver = dfx.AbstractSolver | BDF
+Scheme = dfx.AbstractSolver[Any]
+"""A diffrax solver."""
+
+Solver = Scheme | BDF
 """A diffrax solver, or one of our own."""
 
 EXPLICIT = (dfx.AbstractERK, dfx.Euler)
@@ -116,7 +119,7 @@ def for_adaptive_steps(solver: Solver) -> Solver:
 
 def for_fixed_steps(
     solver: Solver, dtype: DTypeLike = np.float64, *, direct: bool = False
-) -> Solver:
+) -> Scheme:
     """The solver for fixed steps: an implicit one gets its own tolerances, as there is no step-size controller.
 
     Arguments:

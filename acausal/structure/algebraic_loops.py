@@ -10,6 +10,7 @@ import numpy as np
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Statement
 from acausal.modeling import TEAR_SELECT
+from acausal.structure import graph
 from acausal.structure.equations import Equations
 from acausal.structure.jacobian import Point, is_constant, partials
 from acausal.structure.rank import singular

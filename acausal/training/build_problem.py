@@ -17,7 +17,7 @@ from acausal.networks import networks
 from acausal.simulation import (
     BDF,
     Adaptive,
-    Solver,
+    Scheme,
     announce_derivatives,
     check_tolerances,
     for_adaptive_steps,
@@ -137,7 +137,7 @@ def build_problem(
     return replace(problem, context=context(problem)) if options.penalties else problem
 
 
-def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Solver | Adaptive:
+def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     """The steps of the integration: adaptive ones where tolerances or a solver ask for them."""
     chosen = None if options.solver == "auto" else solver_named(options.solver)
     by_tolerance = options.rtol is not None or options.atol is not None

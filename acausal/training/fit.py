@@ -31,8 +31,8 @@ def fit(
     """Train networks and parameters of a model so that its outputs follow measured records.
 
     Every update takes a batch of random sequences that start from measured states (or whole records),
-    integrates the model over them in fixed or adaptive steps, and moves along the gradient of the loss. All updates run in one
-    compiled program. A sequence that diverges is left out, noted in the history, and harms nothing.
+    integrates the model over them in fixed or adaptive steps, and moves along the gradient of the loss. All updates
+    run in one compiled program. A sequence that diverges is left out, noted in the history, and harms nothing.
 
     Arguments:
         system: a compiled model.

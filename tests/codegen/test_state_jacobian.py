@@ -145,6 +145,32 @@ def test_loops_that_join_all_states_are_opened(resistor, large, monkeypatch):
         jacobian.entries(lambda x: x, x)
 
 
+def test_states_and_unknowns_are_found_together(monkeypatch):
+    """An implicit Euler step by Newton's method: with the loops solved for each guess, and with open loops."""
+    open_always(monkeypatch)
+    system = ac.compile(Pack(4, 2, lambda k: Hardening(R=1.0 + 0.1 * k)))
+    jacobian, field = system.state_jacobian, system.field(0.0, jnp.zeros(0), system.pack())
+    matrix, loops, n, h = jacobian.iteration_matrix, jacobian.open_loops, jacobian.n, 0.5
+    x = jnp.linspace(0.5, 1.5, n)
+
+    def closed(_, y):
+        kept = matrix.factorize(jacobian.entries(field, y), h)
+        return y - matrix.solve(kept, y - x - h * field(y))
+
+    def opened(_, both):
+        y, z = both[:n], both[n:]
+        kept = matrix.factorize(jacobian.entries(field, y, z), h)
+        found = field.with_open_loops(loops, y, z)
+        return both - matrix.solve(kept, jnp.concatenate([y - x - h * found[:n], found[n:]]))
+
+    @jax.jit
+    def run(x):
+        both = jnp.concatenate([x, field.loop_unknowns(loops, x)])
+        return jax.lax.fori_loop(0, 8, closed, x), jax.lax.fori_loop(0, 8, opened, both)[:n]
+
+    np.testing.assert_allclose(*run(x), rtol=1e-10)
+
+
 def test_equal_loops_are_opened_side_by_side(monkeypatch):
     open_always(monkeypatch)
     system = ac.compile(Ladder(6, DiodeAndResistor))

@@ -102,7 +102,7 @@ class _Newton(NamedTuple):
     x: State
     size: Float[Array, ""]
     rate: Float[Array, ""]
-    count: Int[Array, ""]
+    made: Int[Array, ""]
     done: Bool[Array, ""]
     failed: Bool[Array, ""]
 
@@ -178,7 +178,7 @@ class BDF(eqx.Module):
         after = self._after(problem, solved, h, end, newton.x, error, s)
         after = after._replace(states=jnp.concatenate([x[None], states[:-1]]))
         before = self._before(solved, newton, renew, h, error)._replace(states=states)
-        counts = Counts.of(rates=newton.count, jacobians=renew, corrections=newton.count)
+        counts = Counts.of(rates=newton.made, jacobians=renew, corrections=newton.made)
         dense = Dense(
             jnp.concatenate([x[None], states]), jnp.concatenate([jnp.zeros((1,), s.dtype), s]), q
         )
@@ -226,10 +226,10 @@ class BDF(eqx.Module):
             correction = -scale * self.matrix.solve(matrix, residual)
             x = n.x + correction
             size = problem.size(correction, before, predicted)
-            rate = jnp.where(n.count > 0, jnp.maximum(0.3 * n.rate, size / n.size), n.rate)
+            rate = jnp.where(n.made > 0, jnp.maximum(0.3 * n.rate, size / n.size), n.rate)
             done = jnp.where(size == 0, True, size * jnp.minimum(1.0, rate) * constant < LEFT)
-            count = n.count + 1
-            diverged = (n.count > 0) & (size > DIVERGED * n.size)
+            count = n.made + 1
+            diverged = (n.made > 0) & (size > DIVERGED * n.size)
             failed = ~done & (diverged | (count >= CORRECTIONS)) | ~jnp.isfinite(size)
             return _Newton(x, size, rate, count, done & ~failed, failed)
 

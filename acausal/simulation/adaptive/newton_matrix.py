@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.codegen import StateJacobian
-from acausal.simulation.adaptive.problem import Field
+from acausal.simulation.adaptive.problem import RightHandSide
 
 State = Float[Array, " n_states"]
 
@@ -27,9 +27,9 @@ class NewtonMatrix(eqx.Module):
         """Factors of the identity, in place of those that are not known yet."""
         return self._factorized(jnp.zeros(self.jacobian.n_entries, x.dtype), jnp.zeros((), x.dtype))
 
-    def renewed(self, field: Field, t: Array, x: State, c: Array) -> Any:
+    def renewed(self, field: RightHandSide, t: Array, x: State, c: Array) -> Any:
         """The factors at a point."""
-        return self._factorized(self.jacobian.entries(lambda x: field(t, x), x), c)
+        return self._factorized(self.jacobian.entries(field.at(t), x), c)
 
     def solve(self, factors: Any, b: State) -> State:
         """``x`` with ``(I - c J) x = b``."""

@@ -11,7 +11,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from acausal.codegen import Values
+from acausal.codegen import Field, Packed, Values
 from acausal.simulation.adaptive.problem import Problem
 from acausal.simulation.adaptive.search import REACHED
 from acausal.simulation.adaptive.solve import solve
@@ -46,22 +46,26 @@ class _RowsField(eqx.Module):
     """The right-hand side by a clock that goes on from row to row, through all runs.
 
     Attributes:
-        constant: the values that are constant. steps: the rows. edges: the clock at their starts, and at the end.
+        packed: parameters. steps: the rows. edges: the clock at their starts, and at the end.
         own: numbers that differ from row to row; places: where they lie in `Packed.values`.
     """
 
-    constant: Values
+    packed: Packed
     steps: Steps
     edges: Float[Array, " n_1"]
     own: Float[Array, "n n_own"] | None
     places: tuple[int, ...] = eqx.field(static=True)
     system: Any = eqx.field(static=True)
 
-    def __call__(self, clock: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
+        return self.at(t)(x)
+
+    def at(self, t: Array) -> Field:
+        """It at one time of the clock."""
         steps, edges = self.steps, self.edges
-        row = jnp.clip(jnp.searchsorted(edges, clock, side="right") - 1, 0, len(edges) - 2)
-        t, start, end, coefficients = (
+        row = jnp.clip(jnp.searchsorted(edges, t, side="right") - 1, 0, len(edges) - 2)
+        begin, start, end, coefficients = (
             jax.tree.map(lambda a: a[row], part)
             for part in (
                 steps.t,
@@ -71,13 +75,13 @@ class _RowsField(eqx.Module):
             )
         )
         h = steps.h if steps.h.ndim == 0 else steps.h[row]
-        step = Step(t, h, start, end, coefficients)
-        fraction = (clock - edges[row]) / h
+        step = Step(begin, h, start, end, coefficients)
+        fraction = (t - edges[row]) / h
         u = step.inputs(fraction, steps.inputs.functions)
-        values = self.constant
+        packed = self.packed
         if self.own is not None:
-            values = values._replace(packed=values.packed.replaced(self.places, self.own[row]))
-        return self.system.rates(values._replace(t=step.time(fraction), x=x, u=u))
+            packed = packed.replaced(self.places, self.own[row])
+        return self.system.field(step.time(fraction), u, packed)
 
 
 def integrate_adaptively(
@@ -106,8 +110,7 @@ def integrate_adaptively(
     restarts, own, places = (
         (None, None, ()) if runs is None else (runs.restarts, runs.own, runs.places)
     )
-    constant = start._replace(t=None, x=None, u=None)
-    field = _RowsField(constant, steps, edges, own, places, system)
+    field = _RowsField(start.packed, steps, edges, own, places, system)
     inner = edges[1:-1]
     if system.inputs and n > 1:
         jumps = jnp.any(steps.inputs.end[:-1] != steps.inputs.start[1:], axis=1)

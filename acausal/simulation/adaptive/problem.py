@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-Field = Callable[[Float[Array, ""], Float[Array, " n_states"]], Float[Array, " n_states"]]
-"""The right-hand side: (time, state) -> derivative."""
+from acausal.codegen import Field
+
+
+class RightHandSide(Protocol):
+    """The right-hand side of a model whose parameters and inputs are given."""
+
+    def at(self, t: Array) -> Field:
+        """It at one time, as a function of the states."""
+        ...
+
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+        """The derivatives of the states."""
+        ...
 
 
 class Problem(eqx.Module):
@@ -27,7 +37,7 @@ class Problem(eqx.Module):
         restarts: at which breaks another run begins, if any do. first: with which state.
     """
 
-    field: Field
+    field: RightHandSide
     x: Float[Array, " n_states"]
     begin: Float[Array, ""]
     end: Float[Array, ""]

@@ -123,9 +123,11 @@ def _row(rows: Rows, k: Array) -> Any:
 
 
 def _filled(cotangent: Any) -> Array:
-    if isinstance(cotangent, SymbolicZero):
-        return jnp.zeros(cotangent.shape, cotangent.dtype)
-    return cotangent
+    """A cotangent, where it is zero, too."""
+    if not isinstance(cotangent, SymbolicZero):
+        return cotangent
+    like: Any = cotangent
+    return jnp.zeros(like.shape, like.dtype)
 
 
 def _back(

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import cast, known, traced
-from acausal.codegen import Values
+from acausal.codegen import Field, Packed
 from acausal.errors import SimulationError, StepLimitError
 from acausal.simulation import solvers
 from acausal.simulation.adaptive.problem import Problem
@@ -27,19 +27,22 @@ class _ModelField(eqx.Module):
     """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
 
     Attributes:
-        constant: the values that do not change on the way.
+        packed: parameters.
         inputs: functions of time.
         system: the model.
     """
 
-    constant: Values
+    packed: Packed
     inputs: tuple[TimeFunction, ...]
     system: Any = eqx.field(static=True)
 
+    def at(self, t: Array) -> Field:
+        """It at one time."""
+        return self.system.field(t, evaluate(self.inputs, t), self.packed)
+
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
-        values = self.constant._replace(t=t, x=x, u=evaluate(self.inputs, t))
-        return self.system.rates(values)
+        return self.at(t)(x)
 
 
 def simulate_adaptive(
@@ -69,13 +72,14 @@ def simulate_adaptive(
         SimulationError: if the end is not reached.
     """
     ends = breaks(run.inputs, run.begin, run.end)
-    constant = run.start._replace(t=None, x=None, u=None)
     problem = Problem(
-        _ModelField(constant, run.inputs, run.system),
+        _ModelField(run.start.packed, run.inputs, run.system),
         run.start.x,
-        *map(jnp.asarray, (run.begin, run.end)),
+        jnp.asarray(run.begin),
+        jnp.asarray(run.end),
         jnp.asarray(saved),
-        *map(jnp.asarray, ends),
+        jnp.asarray(ends.ts),
+        jnp.asarray(ends.jumps),
         jnp.asarray(rtol, float),
         jnp.asarray(atol, float),
         max_steps,

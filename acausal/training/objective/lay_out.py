@@ -16,7 +16,7 @@ from acausal.errors import DataError, TrainingError, shown
 from acausal.simulation import (
     Adaptive,
     Samples,
-    Solver,
+    Scheme,
     Steps,
     TimeFunction,
     functions_of_time,
@@ -50,7 +50,7 @@ def lay_out(
     states: tuple[str, ...] | None,
     longest: float | None = None,
     *,
-    solver: Solver | Adaptive | None = None,
+    solver: Scheme | Adaptive | None = None,
     timing: Timing | None = None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.

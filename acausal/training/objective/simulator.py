@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
@@ -16,7 +17,7 @@ from acausal.simulation import (
     Adaptive,
     Integrated,
     Runs,
-    Solver,
+    Scheme,
     Steps,
     integrate,
     integrate_adaptively,
@@ -69,7 +70,7 @@ class Simulator(eqx.Module):
     records: Records
     first_states: FirstStates
     shooting: ShootingStates | None
-    solver: Solver | Adaptive = eqx.field(static=True)
+    solver: Scheme | Adaptive = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
     dtype: np.dtype = eqx.field(static=True)
 
@@ -170,11 +171,9 @@ class Simulator(eqx.Module):
         packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
         first: Any = steps.t[0]
         start = Values(first, x0, steps.inputs.start[0], packed)
-        by_steps = {"outputs": self.targets, "runs": runs, "direct": direct}
         if isinstance(self.solver, Adaptive):
-            found = integrate_adaptively(self.system, start, steps, self.solver, **by_steps)
+            over = partial(integrate_adaptively, adaptive=self.solver)
         else:
-            found = integrate(
-                self.system, start, steps, self.solver, substeps=self.substeps, **by_steps
-            )
+            over = partial(integrate, solver=self.solver, substeps=self.substeps)
+        found = over(self.system, start, steps, outputs=self.targets, direct=direct, runs=runs)
         return cast(found, float)
