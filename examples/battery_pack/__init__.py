@@ -1,0 +1,1 @@
+"""A battery pack of a thousand cells over an hour's drive."""
