@@ -86,7 +86,8 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     modules = {
         i: params[name] for i, name in zip(layout.own_modules, layout.module_names, strict=True)
     }
-    return Packed(values, tuple(modules[int(m)] for m in layout.module_of))
+    # one that many components share stands once, at its own place
+    return Packed(values, tuple(modules.get(i) for i in range(len(layout.module_of))))
 
 
 def _is_number(value: Any) -> bool:

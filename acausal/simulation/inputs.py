@@ -32,6 +32,9 @@ FORMS = "a number, samples, (times, samples), an acausal.Signal, or a function o
 KINKS = 10_000
 """Adaptive steps end at the samples of an input that is interpolated linearly, if these are at most so many."""
 
+STRAIGHT = 1e-9
+"""A change of slope that is no corner, relative to the largest slope."""
+
 REACHES = 0.01
 """Samples reach a time that lies beyond them by less than this part of a sample time: times are rounded."""
 
@@ -314,15 +317,35 @@ def breaks(functions: tuple[TimeFunction, ...], start: float, end: float) -> Bre
     """
     signals = [f for f in functions if isinstance(f, Signal) and not traced(f.ts)]
     jumping = _times([f for f in signals if f.jumps], start, end)
-    bent = _times([f for f in signals if f.interpolation == "linear"], start, end)
+    bent = _times([f for f in signals if f.interpolation == "linear"], start, end, _corners)
     if len(bent) > KINKS:
         bent = bent[:0]
     ts = np.union1d(jumping, bent)
     return Breaks(ts, np.isin(ts, jumping))
 
 
-def _times(signals: list[Signal], start: float, end: float) -> Float[np.ndarray, " n"]:
-    """The samples' times within a span."""
-    known = [np.asarray(f.ts) for f in signals]
+def _all_samples(signal: Signal) -> Float[np.ndarray, " n"]:
+    return np.asarray(signal.ts)
+
+
+def _corners(signal: Signal) -> Float[np.ndarray, " n"]:
+    """The times at which the slope changes; all samples where JAX traces their values."""
+    ts = np.asarray(signal.ts)
+    if traced(signal.values):
+        return ts
+    slopes = np.diff(np.asarray(signal.values)) / np.diff(ts)
+    change = np.abs(np.diff(slopes))
+    corners = change > STRAIGHT * np.max(np.abs(slopes), initial=0.0)
+    return ts[np.concatenate([[True], corners, [True]])]
+
+
+def _times(
+    signals: list[Signal],
+    start: float,
+    end: float,
+    of: Callable[[Signal], Float[np.ndarray, " n"]] = _all_samples,
+) -> Float[np.ndarray, " n"]:
+    """Times of some signals within a span."""
+    known = [of(f) for f in signals]
     ts = np.unique(np.concatenate(known)) if known else np.zeros(0)
     return ts[(ts > start) & (ts < end)]

@@ -30,8 +30,14 @@ Task = tuple[Any, Problem, Start]
 """Method, problem, start."""
 
 
-MEMORY = 2**23
-"""Numbers that the steps of a run may take in memory before it is made part by part again."""
+MEMORY = 2**20
+"""Numbers that the steps of a run may take in memory before it is made part by part again: 8 MB.
+
+All of it is written once for every derivative, which takes longer than the steps of a small model do.
+"""
+
+FEWEST = 512
+"""Steps that are kept in any case, of however many states."""
 
 
 class Kept(eqx.Module):
@@ -99,7 +105,7 @@ def _kept(
     method, problem, start = task
     progress, saved = begin(method, problem, start)
     numbers = sum(a.size for a in jax.tree.leaves(room(method, problem, progress, 1)))
-    size = min(problem.max_steps, max(MEMORY // numbers, 1))
+    size = min(problem.max_steps, max(MEMORY // numbers, FEWEST))
     most = -(-problem.max_steps // size)
     rows = room(method, problem, progress, size)
     parts = jax.tree.map(lambda a: jnp.zeros((most, *a.shape), a.dtype), progress)

@@ -86,6 +86,7 @@ def test_a_long_run_is_made_again_part_by_part(solver: str, monkeypatch: pytest.
     jax.clear_caches()
     whole = jax.grad(functools.partial(loss, solver), (0, 1, 2))(*POINT)
     monkeypatch.setattr(replay, "MEMORY", 500)
+    monkeypatch.setattr(replay, "FEWEST", 1)
     jax.clear_caches()
     parts = jax.grad(functools.partial(loss, solver), (0, 1, 2))(*POINT)
     jax.clear_caches()
