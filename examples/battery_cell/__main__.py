@@ -13,7 +13,7 @@ from examples.battery_cell import engineer, predict, study
 from examples.battery_cell.model import build
 from examples.battery_cell.records import campaign, read
 
-PARAMS = "cell.safetensors"
+PARAMS, LINES = "cell.safetensors", "leave_one_out.jsonl"
 
 
 def main() -> None:
@@ -24,7 +24,8 @@ def main() -> None:
                 trained(given)
             predicted(given)
         elif given.leave_one_out:
-            lines = study.leave_one_out(campaign(given.data), range(given.seeds))
+            path = given.out / LINES
+            lines = study.leave_one_out(campaign(given.data), range(given.seeds), path)
             print(json.dumps(study.summary(lines)))
         else:
             trained(given)
@@ -36,7 +37,11 @@ def arguments() -> argparse.Namespace:
     about = "A battery cell from measured records."
     parser = argparse.ArgumentParser(prog="python -m examples.battery_cell", description=about)
     parser.add_argument("--data", type=Path, help="folder with the campaign's files: trains")
-    parser.add_argument("--leave-one-out", action="store_true", help="each record in turn")
+    parser.add_argument(
+        "--leave-one-out",
+        action="store_true",
+        help="each record in turn; goes on where it was interrupted",
+    )
     parser.add_argument("--seeds", type=int, default=5, help="of --leave-one-out")
     parser.add_argument("--seed", type=int, default=0, help="of one training")
     parser.add_argument("--predict", type=Path, help="a record to predict from its first voltage")

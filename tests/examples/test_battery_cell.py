@@ -134,6 +134,48 @@ def test_training_lowers_the_errors_and_parameters_come_back(made, params, syste
     assert errors.keys() == {"first", "rest", "case", "trained"}
 
 
+def test_a_table_that_was_interrupted_goes_on(made, monkeypatch, tmp_path):
+    tables, path = {"one": made, "two": made}, tmp_path / "out" / "lines.jsonl"
+    calls: list[tuple[str, ...]] = []
+
+    def train(kept, seed, epochs):
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        calls.append(tuple(kept))
+        return seed
+
+    def judge(fit, tables):
+        known = {"first": 1.0 + fit, "rest": 2.0, "case": 0.1, "trained": 0.5}
+        return dict.fromkeys(tables, known)
+
+    monkeypatch.setattr(study, "train", train)
+    monkeypatch.setattr(study, "judge", judge)
+    with pytest.raises(KeyboardInterrupt):
+        study.leave_one_out(tables, range(1), path)
+    assert study.summary(study.lines_of(path))["two"].keys() == {
+        *("trained", "first", "rest", "case")
+    }
+    calls.clear()
+    lines = study.leave_one_out(tables, range(1), path)
+    assert calls == [("one",)]
+    assert [line["out"] for line in lines] == [None, "one", "two"]
+    path.write_text("[1]")
+    with pytest.raises(ac.DataError, match="no results of --leave-one-out"):
+        study.leave_one_out(tables, range(1), path)
+
+
+def test_a_table_has_means_and_spreads_over_seeds():
+    errors = {"trained": 2.0, "first": 3.0, "rest": 4.0, "case": 0.1}
+    lines = [
+        {"out": out, "errors": {"one": {n: e + seed for n, e in errors.items()}}}
+        for seed in (0, 2)
+        for out in (None, "one")
+    ]
+    row = study.summary(lines)["one"]
+    assert row["trained"] == (3.0, pytest.approx(np.sqrt(2)), 2)
+    assert row["left out, first"] == (4.0, pytest.approx(np.sqrt(2)), 2)
+
+
 def test_the_command_says_what_is_missing(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(sys, "argv", ["battery_cell"])
     with pytest.raises(SystemExit):
