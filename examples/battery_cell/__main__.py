@@ -9,9 +9,10 @@ import time
 from pathlib import Path
 
 import acausal as ac
-from examples.battery_cell import engineer, predict, study
+from examples.battery_cell import engineer, figures, predict, study
 from examples.battery_cell.model import build
 from examples.battery_cell.records import campaign, read
+from examples.measured.present import show
 
 PARAMS, LINES = "cell.safetensors", "leave_one_out.jsonl"
 
@@ -61,7 +62,10 @@ def trained(given: argparse.Namespace) -> None:
     study.save(fit, given.out / PARAMS)
     engineer.show(fit.params)
     engineer.write(fit.params, given.out / "laws.csv")
-    print(json.dumps({"seconds": seconds, "errors": study.judge(fit, tables)}))
+    errors = study.judge(fit, tables)
+    show("A battery cell: root mean square errors", figures.COLUMNS, figures.rows(errors))
+    path = figures.page(given.out, fit, tables, errors)
+    print(json.dumps({"seconds": seconds, "errors": errors, "page": str(path)}))
 
 
 def predicted(given: argparse.Namespace) -> None:
@@ -74,8 +78,10 @@ def predicted(given: argparse.Namespace) -> None:
     found = predict.predict(system, params, table)
     path = given.out / f"{given.predict.stem}_predicted.csv"
     predict.write(path, table, found)
-    figures = {"soc_start": found.start, "rms_mV": 1e3 * found.rms, "written": str(path)}
-    print(json.dumps(figures))
+    drawn = path.with_suffix(".png")
+    figures.record(table, found).savefig(drawn, dpi=120)
+    told = {"soc_start": found.start, "rms_mV": 1e3 * found.rms}
+    print(json.dumps({**told, "written": [str(path), str(drawn)]}))
 
 
 if __name__ == "__main__":

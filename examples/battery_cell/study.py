@@ -121,11 +121,14 @@ def judge(fit: ac.Fit, tables: Mapping[str, Table]) -> dict[str, dict[str, float
     for name, table in tables.items():
         at_first = predict(fit.system, fit.params, table)
         at_rest = predict(fit.system, fit.params, table, row=table.first_rest)
-        errors = {"first": 1e3 * at_first.rms, "rest": 1e3 * at_rest.rms, "case": at_rest.rms_case}
+        errors = {"first": 1e3 * at_first.rms, "rest": 1e3 * at_rest.rms}
+        heat = at_rest.rms_case
         if name in fit.records:
             own = fit.records[name].parameters
             known = predict(fit.system, fit.params, table, given=own)
-            errors |= {"trained": 1e3 * known.rms, "case": known.rms_case}
+            errors["trained"], heat = 1e3 * known.rms, known.rms_case
+        if table.measures_the_case:
+            errors["case"] = heat
         found[name] = errors
     return found
 
@@ -155,10 +158,11 @@ def leave_one_out(
         ):
             continue
         kept = {name: table for name, table in tables.items() if name != out}
-        begun = time.time()
+        begun, busy = time.time(), time.process_time()
         fit = train(kept, seed, epochs)
-        took = {"seed": seed, "out": out, "epochs": epochs, "seconds": time.time() - begun}
-        lines.append({**took, "errors": judge(fit, tables)})
+        took = {"seconds": time.time() - begun, "processor_seconds": time.process_time() - busy}
+        about = {"seed": seed, "out": out, "epochs": epochs}
+        lines.append({**about, **took, "errors": judge(fit, tables)})
         text = json.dumps(lines[-1])
         print(text, flush=True)
         with path.open("a", encoding="utf-8") as file:
@@ -193,7 +197,7 @@ def summary(lines: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, tuple[flo
         row: dict[str, tuple[float, float, int]] = {}
         for out, some in zip((None, name), kinds, strict=True):
             errors = [line["errors"][name] for line in lines if line["out"] == out]
-            for kind in some if errors else ():
+            for kind in (k for k in some if errors and k in errors[0]):
                 values = [e[kind] for e in errors]
                 deviation = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
                 title = kind if out is None else f"left out, {kind}"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from examples.battery_cell import __main__ as command, engineer, study
+from examples.battery_cell import __main__ as command, engineer, figures, study
 from examples.battery_cell.laws import RisingSteps
 from examples.battery_cell.model import NETS, build
 from examples.battery_cell.predict import first_charge, predict, write
@@ -118,6 +118,13 @@ def test_laws_are_positive_and_written(params, tmp_path):
     assert len((tmp_path / "laws.csv").read_text().splitlines()) == 1 + len(engineer.CHARGES)
 
 
+def test_pictures_show_records_and_laws(system, params, made):
+    figure = figures.record(made, predict(system, params, made))
+    assert [ax.get_ylabel() for ax in figure.axes] == ["voltage [V]", "error [mV]"]
+    drawn = [len(ax.lines) for ax in figures.laws(params).axes]
+    assert drawn == [1, 1, len(engineer.DEGREES), len(engineer.DEGREES)]
+
+
 @pytest.mark.slow
 def test_training_lowers_the_errors_and_parameters_come_back(made, params, system, tmp_path):
     columns = (getattr(made, name) for name in ROWS)
@@ -131,7 +138,7 @@ def test_training_lowers_the_errors_and_parameters_come_back(made, params, syste
     known = predict(fit.system, fit.params, made)
     assert kept.voltage == pytest.approx(known.voltage, abs=1e-9)
     errors = study.judge(fit, {"one": made})["one"]
-    assert errors.keys() == {"first", "rest", "case", "trained"}
+    assert errors.keys() == {"first", "rest", "trained"}
 
 
 def test_a_table_that_was_interrupted_goes_on(made, monkeypatch, tmp_path):
