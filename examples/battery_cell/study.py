@@ -167,6 +167,7 @@ def leave_one_out(
         print(text, flush=True)
         with path.open("a", encoding="utf-8") as file:
             file.write(text + "\n")
+        jax.clear_caches()  # each training has programs of its own, and a process room for some eight of them
     return [line for line in lines if line["seed"] in seeds and line["epochs"] == epochs]
 
 
