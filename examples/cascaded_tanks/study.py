@@ -29,15 +29,6 @@ SOLVER, STEP, EPOCHS = "rk4", 2.0, 350
 STARTS = 2
 """Of so many starts for each seed the one with the lowest error in training counts."""
 
-TRIED: dict[str, dict[str, Any]] = {
-    "... by maximum likelihood": {"loss": "likelihood"},
-    "... by Huber's loss": {"loss": "huber"},
-    "... by Student's loss": {"loss": "student"},
-    "... and a sensor that is late": {"delays": {OUTPUT: ac.Delay(2.0, min=-8.0, max=20.0)}},
-    "... and a sensor that lags": {"lags": {OUTPUT: ac.Lag(4.0, max=60.0)}},
-}
-"""What else our model was trained with, and validated, without a look at the test record."""
-
 COLUMNS = {"validation": "validation", "test": "test"}
 PUBLISHED = (
     Row("LTI state space", {"test": 0.588}),
@@ -198,11 +189,6 @@ def in_short(
     return Trained.judged(measured, again)
 
 
-def times(fit: ac.Fit) -> dict[str, float]:
-    """The delays and time constants that a training has found [s]."""
-    return {**fit.delays, **fit.lags}
-
-
 def middle(found: Sequence[Trained]) -> Trained:
     """The one that is neither good nor bad, by its error in training."""
     return sorted(found, key=lambda t: t.whole.score)[len(found) // 2]
@@ -213,15 +199,11 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     started = time.time()
     (measured,) = load(folder, "Cascaded_Tanks", ["dataBenchmark.mat"])
     models = {name: train(measured, make, seeds=seeds) for name, make in MODELS.items()}
-    tried = {
-        name: train(measured, MODELS[OURS], seeds=seeds, tested=False, **options)
-        for name, options in TRIED.items()
-    }
     short = in_short(measured, MODELS[OURS], middle(models[OURS]))
     rows: list[Row] = []
-    averages = {n: spread([t.errors for t in found]) for n, found in (models | tried).items()}
+    averages = {name: spread([t.errors for t in found]) for name, found in models.items()}
     for name, (mean, around) in averages.items():
-        rows.append(Row(name, mean, around if len((models | tried)[name]) > 1 else None))
+        rows.append(Row(name, mean, around if len(models[name]) > 1 else None))
         if name == OURS:
             rows.append(Row("... its networks formulas, trained on", short.errors))
     rows += PUBLISHED
@@ -236,8 +218,6 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
         "each_seed": [t.errors for t in models[OURS]],
         "distilled_V": short.errors,
         "formulas": {n: str(short.whole.params[n].net.expression()) for n in short.whole.seen},
-        "tried": {name: averages[name] for name in tried},
-        "times": {n: [times(fit) for t in found for fit in t.parts] for n, found in tried.items()},
         "seeds": seeds,
         "seconds": time.time() - started,
     }
