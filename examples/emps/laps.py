@@ -63,7 +63,7 @@ def left_out(
     return errors
 
 
-def tested(training: study.Measured, test: study.Measured, seed: int = 0) -> dict[str, float]:
+def tested(training: study.Measured, test: study.Measured, seed: int) -> dict[str, float]:
     """Errors of the test record with what the laps have chosen, trained on all of them."""
     kind, options = TRIED[CHOSEN]
     records = {name: study.record(training, span) for name, span in LAPS.items()}
