@@ -25,13 +25,22 @@ def pieces(record: ac.Data, count: int) -> dict[str, ac.Data]:
     }
 
 
-def thinned(record: ac.Data, targets: tuple[str, ...], *, seed: int = 0) -> ac.Data:
-    """A record as a rig may write it: the second target at a tenth of the rate, 20 % of all samples of targets missing
-    at random, and both in a gap of a tenth of the time."""
+def thinned(
+    record: ac.Data, targets: tuple[str, ...], states: tuple[str, ...] = (), *, seed: int = 0
+) -> ac.Data:
+    """A record as a rig may write it: the second target at a tenth of the rate, 20 % of all samples missing at random,
+    and all of them in a gap of a tenth of the time.
+
+    Arguments:
+        record: as measured.
+        targets: what is thinned.
+        states: what else loses samples, at random and in the gap.
+        seed: of what is missing.
+    """
     generator = np.random.default_rng(seed)
     n = len(record)
     signals = {name: values.copy() for name, values in record.signals.items()}
-    for name in targets:
+    for name in (*targets, *states):
         signals[name][generator.random(n) < 0.2] = np.nan
         signals[name][int(0.5 * n) : int(0.6 * n)] = np.nan
     slow = np.arange(n) % 10 != 0

@@ -9,11 +9,12 @@ import time
 from pathlib import Path
 
 import acausal as ac
-from examples.battery_cell import engineer, predict, study
+from examples.battery_cell import engineer, figures, predict, study
 from examples.battery_cell.model import build
 from examples.battery_cell.records import campaign, read
+from examples.measured.present import show
 
-PARAMS = "cell.safetensors"
+PARAMS, LINES = "cell.safetensors", "leave_one_out.jsonl"
 
 
 def main() -> None:
@@ -24,7 +25,8 @@ def main() -> None:
                 trained(given)
             predicted(given)
         elif given.leave_one_out:
-            lines = study.leave_one_out(campaign(given.data), range(given.seeds))
+            path = given.out / LINES
+            lines = study.leave_one_out(campaign(given.data), range(given.seeds), path)
             print(json.dumps(study.summary(lines)))
         else:
             trained(given)
@@ -36,7 +38,11 @@ def arguments() -> argparse.Namespace:
     about = "A battery cell from measured records."
     parser = argparse.ArgumentParser(prog="python -m examples.battery_cell", description=about)
     parser.add_argument("--data", type=Path, help="folder with the campaign's files: trains")
-    parser.add_argument("--leave-one-out", action="store_true", help="each record in turn")
+    parser.add_argument(
+        "--leave-one-out",
+        action="store_true",
+        help="each record in turn; goes on where it was interrupted",
+    )
     parser.add_argument("--seeds", type=int, default=5, help="of --leave-one-out")
     parser.add_argument("--seed", type=int, default=0, help="of one training")
     parser.add_argument("--predict", type=Path, help="a record to predict from its first voltage")
@@ -56,7 +62,10 @@ def trained(given: argparse.Namespace) -> None:
     study.save(fit, given.out / PARAMS)
     engineer.show(fit.params)
     engineer.write(fit.params, given.out / "laws.csv")
-    print(json.dumps({"seconds": seconds, "errors": study.judge(fit, tables)}))
+    errors = study.judge(fit, tables)
+    show("A battery cell: root mean square errors", figures.COLUMNS, figures.rows(errors))
+    path = figures.page(given.out, fit, tables, errors)
+    print(json.dumps({"seconds": seconds, "errors": errors, "page": str(path)}))
 
 
 def predicted(given: argparse.Namespace) -> None:
@@ -69,8 +78,10 @@ def predicted(given: argparse.Namespace) -> None:
     found = predict.predict(system, params, table)
     path = given.out / f"{given.predict.stem}_predicted.csv"
     predict.write(path, table, found)
-    figures = {"soc_start": found.start, "rms_mV": 1e3 * found.rms, "written": str(path)}
-    print(json.dumps(figures))
+    drawn = path.with_suffix(".png")
+    figures.record(table, found).savefig(drawn, dpi=120)
+    told = {"soc_start": found.start, "rms_mV": 1e3 * found.rms}
+    print(json.dumps({**told, "written": [str(path), str(drawn)]}))
 
 
 if __name__ == "__main__":

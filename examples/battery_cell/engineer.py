@@ -9,6 +9,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import Array
 from rich.console import Console
 from rich.table import Table
 
@@ -20,15 +21,17 @@ DEGREES = (10.0, 25.0, 40.0)
 T_REF = 298.15
 
 
-def laws(params: Mapping[str, Any]) -> dict[str, np.ndarray]:
+def laws(params: Mapping[str, Any], charges: np.ndarray = CHARGES) -> dict[str, np.ndarray]:
     """Columns over the state of charge: voltages, entropy, and what depends on temperature at each of `DEGREES`."""
-    soc = jnp.asarray(CHARGES)
+    soc = jnp.asarray(charges)
     curve = params["ocv.U_nominal"] + jax.vmap(params["ocv.net"])(soc)
     entropy = jax.vmap(params["ocv.entropy"])(soc)
-    columns = {"soc": CHARGES, "U [V]": curve, "dU/dT [mV/K]": 1e3 * entropy}
+    columns = {"soc": charges, "U [V]": curve, "dU/dT [mV/K]": 1e3 * entropy}
     for degrees in DEGREES:
         warmth = T_REF / (degrees + KELVIN) - 1
-        series = params["resistance.R"] * _factor(params, "resistance", "resistance.net", warmth)
+        series = params["resistance.R"] * _factor(
+            params, "resistance", "resistance.net", soc, warmth
+        )
         current = params["transfer.I_0"] / _arrhenius(params, "transfer", warmth)
         small = nature.R * (degrees + KELVIN) / nature.F / current
         slow = sum(
@@ -36,7 +39,7 @@ def laws(params: Mapping[str, Any]) -> dict[str, np.ndarray]:
             for name in ("relaxation", "fast")
         )
         tau = params["particle.tau"] * _factor(
-            params, "particle", "particle.diffusion[1].net", warmth
+            params, "particle", "particle.diffusion[1].net", soc, warmth
         )
         columns[f"R {degrees:g} degC [mOhm]"] = 1e3 * (series + small + slow)
         columns[f"tau {degrees:g} degC [s]"] = tau
@@ -47,8 +50,8 @@ def _arrhenius(params: Mapping[str, Any], element: str, warmth: float) -> Any:
     return np.exp(params[f"{element}.E_a"] / (nature.R * T_REF) * warmth)
 
 
-def _factor(params: Mapping[str, Any], element: str, net: str, warmth: float) -> Any:
-    learned = jax.vmap(lambda soc: params[net](soc, warmth))(jnp.asarray(CHARGES))
+def _factor(params: Mapping[str, Any], element: str, net: str, soc: Array, warmth: float) -> Any:
+    learned = jax.vmap(lambda q: params[net](q, warmth))(soc)
     return _arrhenius(params, element, warmth) * np.exp(learned)
 
 
@@ -57,7 +60,7 @@ def formula(params: Mapping[str, Any]) -> list[str]:
     net = params["ocv.net"]
     heights, steepness, places, slope, offset = net.terms
     steps = [
-        f"{float(a):.4g} tanh({float(k):.4g} (soc - {float(c):.4g}))"
+        f"{float(a):.4g} tanh({float(k):.4g} (soc {-float(c):+.4g}))"
         for a, k, c in zip(heights, steepness, places, strict=True)
     ]
     offset, slope = float(params["ocv.U_nominal"] + offset), float(slope)
@@ -76,7 +79,7 @@ def show(params: Mapping[str, Any]) -> None:
     """Print formulas and tables."""
     console = Console(width=160)
     for line in formula(params):
-        console.print(line, highlight=False)
+        console.print(line, highlight=False, soft_wrap=True)
     columns = laws(params)
     table = Table(*columns)
     for row in zip(*columns.values(), strict=True):

@@ -63,6 +63,11 @@ class Table:
         tapers = (after > 0) & (after < before)
         return np.append(False, (np.abs(after - before) > JUMP) & ~tapers)
 
+    @property
+    def measures_the_case(self) -> bool:
+        """Whether the temperature of the case is measured; where it is not, it starts as that of the chamber."""
+        return len(self.case_time) > 2
+
     def guess(self) -> float:
         """The state of charge that the first voltage tells about."""
         return float(np.interp(self.voltage[0] - LOSS * self.current[0], CURVE[1], CURVE[0]))

@@ -6,6 +6,7 @@ import json
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -120,43 +121,88 @@ def judge(fit: ac.Fit, tables: Mapping[str, Table]) -> dict[str, dict[str, float
     for name, table in tables.items():
         at_first = predict(fit.system, fit.params, table)
         at_rest = predict(fit.system, fit.params, table, row=table.first_rest)
-        errors = {"first": 1e3 * at_first.rms, "rest": 1e3 * at_rest.rms, "case": at_rest.rms_case}
+        errors = {"first": 1e3 * at_first.rms, "rest": 1e3 * at_rest.rms}
+        heat = at_rest.rms_case
         if name in fit.records:
             own = fit.records[name].parameters
             known = predict(fit.system, fit.params, table, given=own)
-            errors |= {"trained": 1e3 * known.rms, "case": known.rms_case}
+            errors["trained"], heat = 1e3 * known.rms, known.rms_case
+        if table.measures_the_case:
+            errors["case"] = heat
         found[name] = errors
     return found
 
 
 def leave_one_out(
-    tables: Mapping[str, Table], seeds: Sequence[int], epochs: int = EPOCHS
+    tables: Mapping[str, Table], seeds: Sequence[int], path: Path, epochs: int = EPOCHS
 ) -> list[dict[str, Any]]:
-    """Train with all records, and with each left out in turn, from each seed; a line of JSON each as it is ready."""
-    lines: list[dict[str, Any]] = []
-    for seed in seeds:
-        for out in (None, *tables):
-            kept = {name: table for name, table in tables.items() if name != out}
-            begun = time.time()
-            fit = train(kept, seed, epochs)
-            line = {"seed": seed, "out": out, "seconds": time.time() - begun}
-            lines.append(line | {"errors": judge(fit, tables)})
-            print(json.dumps(lines[-1]), flush=True)
-    return lines
+    """Train with all records, and with each left out in turn, from each seed.
+
+    Every training adds a line of JSON to a file as soon as it is judged. What stands there already is not trained
+    again, so that the table may be interrupted and goes on with the same command.
+
+    Arguments:
+        tables: the records.
+        seeds: of the networks.
+        path: of the file with the lines.
+        epochs: updates of each training.
+
+    Raises:
+        DataError: if the file holds something else.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    lines = lines_of(path)
+    for seed, out in product(seeds, (None, *tables)):
+        if any(
+            (line["seed"], line["out"], line["epochs"]) == (seed, out, epochs) for line in lines
+        ):
+            continue
+        kept = {name: table for name, table in tables.items() if name != out}
+        begun, busy = time.time(), time.process_time()
+        fit = train(kept, seed, epochs)
+        took = {"seconds": time.time() - begun, "processor_seconds": time.process_time() - busy}
+        about = {"seed": seed, "out": out, "epochs": epochs}
+        lines.append({**about, **took, "errors": judge(fit, tables)})
+        text = json.dumps(lines[-1])
+        print(text, flush=True)
+        with path.open("a", encoding="utf-8") as file:
+            file.write(text + "\n")
+        jax.clear_caches()  # each training has programs of its own, and a process room for some eight of them
+    return [line for line in lines if line["seed"] in seeds and line["epochs"] == epochs]
 
 
-def summary(lines: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, tuple[float, float]]]:
-    """By record, mean and standard deviation over seeds: trained with all, and left out."""
-    table: dict[str, dict[str, tuple[float, float]]] = {}
-    kinds = ("trained", "case"), ("first", "rest", "case")
+def lines_of(path: Path) -> list[dict[str, Any]]:
+    """The trainings that a file tells of; none if there is no file.
+
+    Raises:
+        DataError: for a file with other lines.
+    """
+    if not path.is_file():
+        return []
+    try:
+        lines = [json.loads(text) for text in path.read_text(encoding="utf-8").splitlines()]
+        if all({"seed", "out", "epochs", "seconds", "errors"} <= set(line) for line in lines):
+            return lines
+    except (ValueError, TypeError):
+        pass
+    raise ac.DataError(
+        f"{path} holds no results of --leave-one-out: move it, or choose another --out."
+    )
+
+
+def summary(lines: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, tuple[float, float, int]]]:
+    """By record, mean, standard deviation over seeds, and their number: trained with all, and left out."""
+    table: dict[str, dict[str, tuple[float, float, int]]] = {}
+    kinds = ("trained", "first", "rest", "case"), ("first", "rest", "case")
     for name in lines[0]["errors"]:
-        row: dict[str, tuple[float, float]] = {}
+        row: dict[str, tuple[float, float, int]] = {}
         for out, some in zip((None, name), kinds, strict=True):
             errors = [line["errors"][name] for line in lines if line["out"] == out]
-            for kind in some:
+            for kind in (k for k in some if errors and k in errors[0]):
                 values = [e[kind] for e in errors]
+                deviation = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
                 title = kind if out is None else f"left out, {kind}"
-                row[title] = float(np.mean(values)), float(np.std(values))
+                row[title] = float(np.mean(values)), deviation, len(values)
         table[name] = row
     return table
 

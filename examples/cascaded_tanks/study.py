@@ -8,9 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import jax.numpy as jnp
 import numpy as np
-from jax import Array
 
 import acausal as ac
 from acausal.networks import Continued
@@ -49,20 +47,28 @@ class Trained:
     """A model that was trained with each third of the training record held out, and on all of it.
 
     Attributes:
-        parts, fit: the results.
+        parts, fit: the results; ``fit`` is ``None`` where the model was not tested.
         errors: in V; over what was held out, and over the test record.
     """
 
     parts: tuple[ac.Fit, ...]
-    fit: ac.Fit
+    fit: ac.Fit | None
     errors: dict[str, float]
 
     @classmethod
     def judged(cls, measured: Mapping[str, np.ndarray], fits: Sequence[ac.Fit]) -> Trained:
-        """The results of `HELD`, and of the whole record at last, with their errors."""
-        *parts, fit = fits
-        errors = {"validation": held_error(measured, parts), "test": test_error(measured, fit)}
-        return cls(tuple(parts), fit, errors)
+        """The results of `HELD`, and of the whole record at last if there is one, with their errors."""
+        parts = tuple(fits[: len(HELD)])
+        errors = {"validation": held_error(measured, parts)}
+        if len(fits) == len(HELD):
+            return cls(parts, None, errors)
+        return cls(parts, fits[-1], {**errors, "test": test_error(measured, fits[-1])})
+
+    @property
+    def whole(self) -> ac.Fit:
+        """The training on all of the record."""
+        assert self.fit is not None
+        return self.fit
 
 
 def record(u: np.ndarray, y: np.ndarray) -> ac.Data:
@@ -72,34 +78,37 @@ def record(u: np.ndarray, y: np.ndarray) -> ac.Data:
     return ac.Data(times, signals, interpolation={INPUT: "previous"})
 
 
-def without(begin: int, end: int) -> Callable[[Array, Array, Array], Array]:
-    """The loss over a record but for the samples that are held out."""
-    counts = np.ones(SAMPLES)
-    counts[begin:end] = 0.0
-    weights = jnp.asarray(counts / counts.sum())
-
-    def loss(predicted: Array, measured: Array, sigma: Array) -> Array:
-        return jnp.sqrt(weights @ jnp.sum(((predicted - measured) / sigma) ** 2, axis=1))
-
-    return loss
-
-
-LOSSES: tuple[str | Callable[[Array, Array, Array], Array], ...] = (
-    *(without(*held) for held in HELD),
-    "nrmse",
-)
-"""Of the trainings of a model: each with other samples held out, and at last with none."""
+def training_weights(held: tuple[int, int] | None) -> dict[str, Callable[[float], float]] | None:
+    """Weights of the samples in training: none of those that are held out."""
+    if held is None:
+        return None
+    begin, end = (SAMPLE_TIME * (k - 0.5) for k in held)
+    return {OUTPUT: lambda t: 0.0 if begin <= t < end else 1.0}
 
 
 def train(
-    measured: Mapping[str, np.ndarray], make: Callable[[], model.Model], *, seeds: int = 1
+    measured: Mapping[str, np.ndarray],
+    make: Callable[[], model.Model],
+    *,
+    seeds: int = 1,
+    tested: bool = True,
+    **options: Any,
 ) -> list[Trained]:
-    """Train a model from random starts, and judge each."""
+    """Train a model from random starts, and judge each.
+
+    Arguments:
+        measured: the data.
+        make: makes the model.
+        seeds: how many results, each the best of `STARTS` trainings.
+        tested: whether to train on all of the record, too, and use the test record.
+        options: of `acausal.fit`.
+    """
     tanks, moves = make()
     system = ac.compile(tanks)
     learns = any(callable(value) for value in system.parameters().values())
     starts = [system.parameters(seed) for seed in range(seeds * STARTS if learns else 1)]
-    trainings = [fits(measured, system, moves, starts, loss) for loss in LOSSES]
+    spans = (*HELD, None) if tested else HELD
+    trainings = [fits(measured, system, moves, starts, span, **options) for span in spans]
     return [Trained.judged(measured, each) for each in zip(*trainings, strict=True)]
 
 
@@ -108,18 +117,20 @@ def fits(
     system: ac.System,
     moves: Mapping[str, Any],
     starts: Sequence[Mapping[str, Any]],
-    loss: str | Callable[[Array, Array, Array], Array],
+    held: tuple[int, int] | None,
+    **options: Any,
 ) -> list[ac.Fit]:
     """Train from each start; of `STARTS` that follow each other the best."""
     wishes: dict[str, Any] = {
         "modifiers": moves,
         "strategy": "whole_record",
         "x0": "fit",
-        "loss": loss,
+        "sample_weights": training_weights(held),
         "epochs": EPOCHS,
         "dt": STEP,
         "solver": SOLVER,
         "progress": False,
+        **options,
     }
     data = record(measured["uEst"], measured["yEst"])
     if len(starts) == 1:
@@ -170,17 +181,17 @@ def in_short(
     measured: Mapping[str, np.ndarray], make: Callable[[], model.Model], learned: Trained
 ) -> Trained:
     """The networks replaced by formulas in each training, which goes on."""
-    system, moves = learned.fit.system, make()[1]
+    system, moves = learned.whole.system, make()[1]
     again: list[ac.Fit] = []
-    for fit, loss in zip((*learned.parts, learned.fit), LOSSES, strict=True):
+    for fit, held in zip((*learned.parts, learned.whole), (*HELD, None), strict=True):
         start = {**fit.params, **formulas(fit)}
-        again += fits(measured, system, moves, [start], loss)
+        again += fits(measured, system, moves, [start], held)
     return Trained.judged(measured, again)
 
 
 def middle(found: Sequence[Trained]) -> Trained:
     """The one that is neither good nor bad, by its error in training."""
-    return sorted(found, key=lambda t: t.fit.score)[len(found) // 2]
+    return sorted(found, key=lambda t: t.whole.score)[len(found) // 2]
 
 
 def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
@@ -197,8 +208,8 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
             rows.append(Row("... its networks formulas, trained on", short.errors))
     rows += PUBLISHED
     show("Cascaded Tanks: root mean square error in V", COLUMNS, rows)
-    shown = {name: middle(found).fit for name, found in models.items()}
-    figures.page(out / "index.html", measured, rows, shown, short.fit)
+    shown = {name: middle(found).whole for name, found in models.items()}
+    figures.page(out / "index.html", measured, rows, shown, short.whole)
     mean, around = averages[OURS]
     return {
         "test_V": mean["test"],
@@ -206,7 +217,7 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
         "spread_V": around,
         "each_seed": [t.errors for t in models[OURS]],
         "distilled_V": short.errors,
-        "formulas": {n: str(short.fit.params[n].net.expression()) for n in short.fit.seen},
+        "formulas": {n: str(short.whole.params[n].net.expression()) for n in short.whole.seen},
         "seeds": seeds,
         "seconds": time.time() - started,
     }

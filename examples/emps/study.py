@@ -71,18 +71,30 @@ def smooth(measured: Measured) -> dict[str, np.ndarray]:
     }
 
 
-def train(kind: Kind, measured: Measured, span: tuple[int, int] = ALL, seed: int = 0) -> ac.Fit:
-    """Train by accelerations first, which need no simulation, then by simulations of the whole record.
-
-    Accelerations tell the inertia; what drifts does not train it. Of the smoothed signals every second sample will do.
-    """
+def record(measured: Measured, span: tuple[int, int] = ALL) -> ac.Data:
+    """Smoothed signals, of which every second sample will do."""
     rows = slice(span[0] + BORDER, span[1] - BORDER, 2)
     signals = {name: x[rows] for name, x in smooth(measured).items()}
-    data = ac.Data(2 * H * np.arange(len(signals[OUTPUT])), signals)
-    params = None
-    for strategy, parameters, epochs in (
-        ("equation_error", kind.trained, 400),
-        ("whole_record", tuple(n for n in kind.trained if n != "motor.J"), 120),
+    return ac.Data(2 * H * np.arange(len(signals[OUTPUT])), signals)
+
+
+def train(
+    kind: Kind, data: ac.Data | Mapping[str, ac.Data], seed: int = 0, **options: Any
+) -> ac.Fit:
+    """Train by accelerations first, which need no simulation, then by simulations of whole records.
+
+    Accelerations tell the inertia; what drifts does not train it.
+
+    Arguments:
+        kind: of the model.
+        data: smoothed records.
+        seed: of the networks.
+        options: others of `acausal.fit`, of the simulations those that the first part has not: `delays`.
+    """
+    params, delays = None, options.pop("delays", None)
+    for strategy, parameters, epochs, more in (
+        ("equation_error", kind.trained, 400, {}),
+        ("whole_record", tuple(n for n in kind.trained if n != "motor.J"), 120, {"delays": delays}),
     ):
         fit = ac.fit(
             kind.build(model.Axis),
@@ -96,6 +108,8 @@ def train(kind: Kind, measured: Measured, span: tuple[int, int] = ALL, seed: int
             epochs=epochs,
             seed=seed,
             progress=False,
+            **more,
+            **options,
         )
         params = fit.params
     return fit
@@ -174,7 +188,7 @@ def trained(
     """Parameters, and the training if there is something to train."""
     if not kind.trained:
         return kind.build(model.Axis).parameters(), None
-    fit = train(kind, measured, span, seed)
+    fit = train(kind, record(measured, span), seed)
     return fit.params, fit
 
 
@@ -203,7 +217,7 @@ def run(folder: Path | None, seeds: int, out: Path) -> dict[str, Any]:
     net = fits[figures.PHYSICS].params["friction.net"]
     law = ac.distill(lambda v: net(v, MIDDLE), -model.SPEED, model.SPEED, among=TERMS)
     formula = KINDS[OURS].instead(lambda: neural.Resistance(net=law.formula))
-    in_short = judge(formula, train(formula, training).params, test)
+    in_short = judge(formula, train(formula, record(training)).params, test)
     rows.append(Row("... its network a formula of the speed", in_short))
     show("EMPS: root mean square errors in mm, relative errors in %", COLUMNS, [*rows, *PUBLISHED])
     figures.page(out / "index.html", training, test, [*rows, *PUBLISHED], fits, law)

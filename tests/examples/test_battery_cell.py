@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from examples.battery_cell import __main__ as command, engineer, study
+from examples.battery_cell import __main__ as command, engineer, figures, study
 from examples.battery_cell.laws import RisingSteps
 from examples.battery_cell.model import NETS, build
 from examples.battery_cell.predict import first_charge, predict, write
@@ -118,6 +118,13 @@ def test_laws_are_positive_and_written(params, tmp_path):
     assert len((tmp_path / "laws.csv").read_text().splitlines()) == 1 + len(engineer.CHARGES)
 
 
+def test_pictures_show_records_and_laws(system, params, made):
+    figure = figures.record(made, predict(system, params, made))
+    assert [ax.get_ylabel() for ax in figure.axes] == ["voltage [V]", "error [mV]"]
+    drawn = [len(ax.lines) for ax in figures.laws(params).axes]
+    assert drawn == [1, 1, len(engineer.DEGREES), len(engineer.DEGREES)]
+
+
 @pytest.mark.slow
 def test_training_lowers_the_errors_and_parameters_come_back(made, params, system, tmp_path):
     columns = (getattr(made, name) for name in ROWS)
@@ -131,7 +138,49 @@ def test_training_lowers_the_errors_and_parameters_come_back(made, params, syste
     known = predict(fit.system, fit.params, made)
     assert kept.voltage == pytest.approx(known.voltage, abs=1e-9)
     errors = study.judge(fit, {"one": made})["one"]
-    assert errors.keys() == {"first", "rest", "case", "trained"}
+    assert errors.keys() == {"first", "rest", "trained"}
+
+
+def test_a_table_that_was_interrupted_goes_on(made, monkeypatch, tmp_path):
+    tables, path = {"one": made, "two": made}, tmp_path / "out" / "lines.jsonl"
+    calls: list[tuple[str, ...]] = []
+
+    def train(kept, seed, epochs):
+        if len(calls) == 2:
+            raise KeyboardInterrupt
+        calls.append(tuple(kept))
+        return seed
+
+    def judge(fit, tables):
+        known = {"first": 1.0 + fit, "rest": 2.0, "case": 0.1, "trained": 0.5}
+        return dict.fromkeys(tables, known)
+
+    monkeypatch.setattr(study, "train", train)
+    monkeypatch.setattr(study, "judge", judge)
+    with pytest.raises(KeyboardInterrupt):
+        study.leave_one_out(tables, range(1), path)
+    assert study.summary(study.lines_of(path))["two"].keys() == {
+        *("trained", "first", "rest", "case")
+    }
+    calls.clear()
+    lines = study.leave_one_out(tables, range(1), path)
+    assert calls == [("one",)]
+    assert [line["out"] for line in lines] == [None, "one", "two"]
+    path.write_text("[1]")
+    with pytest.raises(ac.DataError, match="no results of --leave-one-out"):
+        study.leave_one_out(tables, range(1), path)
+
+
+def test_a_table_has_means_and_spreads_over_seeds():
+    errors = {"trained": 2.0, "first": 3.0, "rest": 4.0, "case": 0.1}
+    lines = [
+        {"out": out, "errors": {"one": {n: e + seed for n, e in errors.items()}}}
+        for seed in (0, 2)
+        for out in (None, "one")
+    ]
+    row = study.summary(lines)["one"]
+    assert row["trained"] == (3.0, pytest.approx(np.sqrt(2)), 2)
+    assert row["left out, first"] == (4.0, pytest.approx(np.sqrt(2)), 2)
 
 
 def test_the_command_says_what_is_missing(monkeypatch, tmp_path, capsys):

@@ -78,14 +78,14 @@ def test_the_friction_is_learned() -> None:
     training, test = load(DATA, "EMPS", FILES)
     white = study.judge(model.KINDS["white box, published parameters"], {}, test)
     kind = model.KINDS[model.OURS]
-    fit = study.train(kind, training, study.ALL)
+    fit = study.train(kind, study.record(training))
     ours = study.judge(kind, fit.params, test)
     assert ours["open_loop_test_mm"] < 5
     for name in ("position", "acceleration", "force"):
         assert ours[f"closed_loop_{name}"] < white[f"closed_loop_{name}"]
     assert ours["closed_loop_velocity"] < 1.05 * white["closed_loop_velocity"]
     kind = model.KINDS["passive network, with a tolerance of the offset alone"]
-    along = study.closed_loop(kind, study.train(kind, training).params, test)
+    along = study.closed_loop(kind, study.train(kind, study.record(training)).params, test)
     assert all(error < 1.02 * white[name] for name, error in along.items())
     v = np.linspace(-0.2, 0.2, 21)
     net = fit.params["friction.net"]
