@@ -122,6 +122,7 @@ def open_always(monkeypatch):
 @pytest.mark.parametrize("resistor", [el.Resistor, Hardening])
 def test_loops_that_join_all_states_are_opened(resistor, large, monkeypatch):
     monkeypatch.setattr(blocks, "LARGE", large)
+    monkeypatch.setattr(blocks, "WRITTEN", large)
     open_always(monkeypatch)
     system = ac.compile(Pack(4, 2, lambda k: resistor(R=1.0 + 0.1 * k)))
     assert any(isinstance(s, SparseLoop if large == 10 else TornLoop) for s in system.reduced.steps)

@@ -50,6 +50,7 @@ def test_all_derivatives_are_in_the_pattern(name):
 @pytest.mark.parametrize("name", ["nonlinear loops", "linear loops", "rigid trains"])
 def test_loops_that_are_solved_together_stay_apart(name, monkeypatch):
     monkeypatch.setattr(blocks, "LARGE", 1)
+    monkeypatch.setattr(blocks, "WRITTEN", 1)
     system = check(*MODELS[name])
     kinds = [type(step) for step in system.reduced.steps]
     assert kinds.count(SparseLoop) == 1

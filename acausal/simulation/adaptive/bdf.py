@@ -7,7 +7,7 @@ K. E. Brenan, S. L. Campbell, L. R. Petzold: Numerical Solution of Initial-Value
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -29,6 +29,8 @@ from acausal.simulation.adaptive.one_step import first_length
 from acausal.simulation.adaptive.problem import Attempt, Counts, Problem
 
 State = Float[Array, " n_states"]
+
+Tree = TypeVar("Tree")
 
 RENEW = 0.3
 """Relative change of the coefficient c beyond which the matrix of Newton's method is renewed."""
@@ -155,7 +157,7 @@ class BDF(eqx.Module):
         known = own @ m.states
         c = h / alpha
         whole, all_known = problem, known
-        problem, m, known = lax.stop_gradient((problem, m, known))
+        problem, m, known = _fixed((problem, m, known))
         predicted, x_before = predicting @ m.states, m.states[0]
         constant = error_constant(s, q)
         renew = m.stale | (m.age >= KEEP) | (jnp.abs(c / m.c - 1) > RENEW)
@@ -197,7 +199,7 @@ class BDF(eqx.Module):
     ) -> State:
         """The solution of a step's equation, with its derivative by the implicit function theorem."""
         residual = x - known - c * problem.field(end, x)
-        matrix = self.matrix.renewed(lax.stop_gradient(problem.field), end, x, c)
+        matrix = self.matrix.renewed(_fixed(problem.field), end, x, c)
         return x - self.matrix.solve(matrix, residual - lax.stop_gradient(residual))
 
     def between(self, dense: Dense, t: Array, h: Array, at: Array) -> State:
@@ -336,3 +338,9 @@ class BDF(eqx.Module):
         by_own = jax.vjp(rates, own)[1](equation.c * multiplier)[0]
         before = adjoint[1:] + equation.weights[:, None] * multiplier
         return jnp.concatenate([before, jnp.zeros_like(before[:1])]), by_own
+
+
+def _fixed(tree: Tree) -> Tree:
+    """The same, without derivatives; what is no array, as an input's function, stays as it is."""
+    arrays, rest = eqx.partition(tree, eqx.is_array)
+    return eqx.combine(lax.stop_gradient(arrays), rest)

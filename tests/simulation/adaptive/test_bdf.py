@@ -147,6 +147,17 @@ def test_held_inputs_begin_anew_where_they_jump():
     np.testing.assert_allclose(found["x"], exact, atol=1e-7)
 
 
+def test_an_input_may_be_a_function():
+    s = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), 1000 * (s.u - s.x))], inputs="u"))
+    found = ac.simulate(
+        s, (0, 2), x0={"x": 0.0}, inputs={"u": lambda t: 2.0 * t}, rtol=1e-8, atol=1e-10
+    )
+    t = np.asarray(found.t)
+    exact = 2 * t - 2e-3 * (1 - np.exp(-1000 * t))
+    np.testing.assert_allclose(found["x"], exact, atol=1e-6)
+    assert int(found.statistics.factorizations) > 0
+
+
 @pytest.fixture(scope="module")
 def plate() -> ac.System:
     return ac.compile(Plate(11))
