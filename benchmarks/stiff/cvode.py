@@ -9,7 +9,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import scipy.sparse as sp
-import sksundae
 from jaxtyping import Float
 
 import acausal as ac
@@ -50,6 +49,8 @@ class Cvode:
     def __init__(
         self, function: Function, sparsity: sp.csc_matrix | None = None, **options: Any
     ) -> None:
+        import sksundae  # of the extra `bench`; other parts of the benchmark do without
+
         def rhs(t: float, x: Any, rates: Any) -> None:
             rates[:] = function(t, x)
 
