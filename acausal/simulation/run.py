@@ -25,7 +25,7 @@ RUN_AWAY = 1e30
 """States larger than this, in units of their nominal values or of their start, have run away."""
 
 EIGENVALUES = 300
-"""Models with more states are not examined: dense Jacobians and implicit steps would not pay."""
+"""Models with more states are not examined: dense Jacobians would not pay."""
 
 
 class Run(NamedTuple):

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, need_double_precision, precision, traced
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, need_compiled, shown
+from acausal.errors import DataError, need_compiled, shown, user_level
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
@@ -125,7 +125,7 @@ def simulate(
         warnings.warn(
             "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
             DeprecationWarning,
-            stacklevel=2,
+            stacklevel=user_level(),
         )
     return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, kind, forward=forward)
 

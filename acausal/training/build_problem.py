@@ -148,8 +148,8 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
             f"dt={options.dt:g} is for fixed steps, but solver={shown(options.solver)}"
             f"{' with rtol or atol' if by_tolerance else ''} chooses its own: leave one of them out."
         )
-    rtol = 1e-6 if options.rtol is None else options.rtol
-    atol = 1e-8 if options.atol is None else options.atol
+    rtol = Adaptive.rtol if options.rtol is None else options.rtol
+    atol = Adaptive.atol if options.atol is None else options.atol
     check_tolerances(rtol, atol, 0)
     return Adaptive(None if chosen is None else for_adaptive_steps(chosen), rtol, atol)
 

@@ -170,20 +170,17 @@ class BDF(eqx.Module):
             problem, matrix, 2 / (1 + c / made_for), end, predicted, known, c, constant, x_before
         )
         x = newton.x
-        states = memory.states
         error = constant * problem.size(x - predicted, x_before, x)
         error = jnp.where(newton.done, error, jnp.inf)
         accepted = error < 1
         if self.tangents:
             x = self._with_tangent(whole, end, x, c, all_known)
+        dense = Dense(jnp.concatenate([x[None], memory.states]), _with_end(s), q)
         solved = m._replace(matrix=matrix, c=made_for, age=jnp.where(renew, 0, m.age + accepted))
-        after = self._after(problem, solved, h, end, newton.x, error, s)
-        after = after._replace(states=jnp.concatenate([x[None], states[:-1]]))
-        before = self._before(solved, newton, renew, h, error)._replace(states=states)
+        after = self._after(problem, solved, h, end, _fixed(dense), error)
+        after = after._replace(states=dense.states[:-1])
+        before = self._before(solved, newton, renew, h, error)._replace(states=memory.states)
         counts = Counts.of(rates=newton.made, jacobians=renew, corrections=newton.made)
-        dense = Dense(
-            jnp.concatenate([x[None], states]), jnp.concatenate([jnp.zeros((1,), s.dtype), s]), q
-        )
         return Attempt(
             accepted,
             x,
@@ -240,16 +237,14 @@ class BDF(eqx.Module):
         return lax.while_loop(goes_on, correct, begun)
 
     def _after(
-        self, problem: Problem, m: Memory, h: Array, end: Array, x: State, error: Array, s: Array
+        self, problem: Problem, m: Memory, h: Array, end: Array, dense: Dense, error: Array
     ) -> Memory:
-        """What is known after a step that counts: the next order and length."""
-        q = m.order
-        states = jnp.concatenate([x[None], m.states])
-        times = jnp.concatenate([jnp.zeros((1,), s.dtype), s])
+        """What is known after a step that counts, but for the states: the next order and length."""
+        states, s, q = dense
 
         def size(derivative: Array) -> Array:
             """How large, over the tolerance, the derivative of an order is, times the step to the same power."""
-            return problem.size(differences(times, derivative) @ states, m.states[0], x)
+            return problem.size(differences(s, derivative) @ states, states[1], states[0])
 
         def longer(error: Array, order: Array, safety: float) -> Array:
             return 1 / ((safety * error) ** (1 / (order + 1)) + 1e-6)
@@ -274,7 +269,6 @@ class BDF(eqx.Module):
         wait = jnp.where(order != q, order + 1, jnp.where(free, 2, wait))
         return m._replace(
             h=jnp.maximum(m.h, h * factor),  # a step may have been cut short
-            states=states[:-1],
             times=jnp.concatenate([end[None], m.times[:-1]]),
             known=jnp.minimum(m.known + 1, POINTS),
             order=order,
@@ -320,7 +314,7 @@ class BDF(eqx.Module):
         """See `OneStep.back`."""
         problem: Problem = of_moved(own)[1]
         equation: Row = row.own
-        s = jnp.concatenate([jnp.zeros((1,), row.h.dtype), (equation.t - equation.times) / row.h])
+        s = _with_end((equation.t - equation.times) / row.h)
 
         def add(state: tuple[Array, Array]) -> tuple[Array, Array]:
             j, total = state
@@ -338,6 +332,11 @@ class BDF(eqx.Module):
         by_own = jax.vjp(rates, own)[1](equation.c * multiplier)[0]
         before = adjoint[1:] + equation.weights[:, None] * multiplier
         return jnp.concatenate([before, jnp.zeros_like(before[:1])]), by_own
+
+
+def _with_end(s: Float[Array, " points"]) -> Float[Array, " points_1"]:
+    """How far back some points lie from the end of a step, that end first."""
+    return jnp.concatenate([jnp.zeros((1,), s.dtype), s])
 
 
 def _fixed(tree: Tree) -> Tree:

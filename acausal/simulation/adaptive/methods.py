@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any, TypeAlias
 
 import diffrax as dfx
@@ -46,14 +47,16 @@ def _with_tolerances(solver: dfx.AbstractSolver[Any], problem: Problem) -> dfx.A
     """The solver with the tolerances of the steps, where its equations are to be solved with these."""
     if not isinstance(solver, dfx.AbstractImplicitSolver):
         return solver
-    example: Any = dfx.with_stepsize_controller_tols(optx.Newton)()
     own = {"rtol": problem.rtol, "atol": problem.atol, "norm": optx.rms_norm}
     finder: Any = solver.root_finder
     for name, value in own.items():
-        if getattr(finder, name, None) is getattr(example, name):
-            finder = eqx.tree_at(lambda f, n=name: getattr(f, n), finder, value, is_leaf=_anything)
+        if _is_of_steps(getattr(finder, name, None)):
+            place = operator.attrgetter(name)
+            finder = eqx.tree_at(place, finder, value, is_leaf=_is_of_steps)
     return eqx.tree_at(lambda s: s.root_finder, solver, finder)
 
 
-def _anything(node: object) -> bool:
-    return node is dfx.with_stepsize_controller_tols(optx.Newton)().rtol
+def _is_of_steps(node: object) -> bool:
+    """Whether this is what diffrax puts where a tolerance is to be that of the steps."""
+    example: Any = dfx.with_stepsize_controller_tols(optx.Newton)()
+    return node is example.rtol

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Any, ClassVar, NamedTuple, Self, cast
+from typing import Any, NamedTuple, Self, cast
 
 import diffrax as dfx
 import equinox as eqx
@@ -78,7 +78,6 @@ class OneStep(eqx.Module):
         solver: the diffrax solver.
     """
 
-    history: ClassVar[int] = 1
     solver: Any
 
     @property
@@ -187,9 +186,8 @@ class OneStep(eqx.Module):
 
     @property
     def _order(self) -> float:
-        return float(
-            cast(float, self.solver.order(None))
-        )  # of the local error of the embedded scheme
+        """The order of the local error of the embedded scheme."""
+        return float(cast(float, self.solver.order(None)))
 
 
 class Explicit(OneStep):

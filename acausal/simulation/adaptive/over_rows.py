@@ -144,22 +144,8 @@ def integrate_adaptively(
     if not outputs:
         return Integrated(x, None, end)
 
-    def read(x: Array, t: Array, u: Array, own: Array | None) -> Array:
-        packed = start.packed if own is None else start.packed.replaced(places, own)
-        return system.read(tuple(outputs), Values(t, x, u, packed))
+    def read(clock: Array, x: Array) -> Array:
+        at = field.at(clock)
+        return system.read(tuple(outputs), Values(at.t, x, at.u, at.packed))
 
-    u = _inputs(steps)
-    y = jax.vmap(read)(x, steps.t, u, own)
-    return Integrated(x, y, end)
-
-
-def _inputs(steps: Steps) -> Float[Array, "n n_inputs"]:
-    """The inputs at the rows' starts."""
-    functions = steps.inputs.functions
-    if all(f is None for f in functions):
-        return steps.inputs.start
-    columns = [
-        sampled if f is None else jax.vmap(f)(steps.t)
-        for sampled, f in zip(steps.inputs.start.T, functions, strict=True)
-    ]
-    return jnp.stack(columns, axis=1)
+    return Integrated(x, jax.vmap(read)(edges[:-1], x), end)

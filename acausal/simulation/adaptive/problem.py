@@ -99,7 +99,7 @@ class Attempt(NamedTuple):
         x: the state at its end.
         memory: what the method knows next, whether the step counts or not; it holds the length ``h`` to try.
         dense: what `between` needs to interpolate within the step.
-        row: what `redo` needs to make the step again.
+        row: what `back` needs to make the step again.
         stiff: whether stability has limited the lengths of the last steps.
         counts: what the attempt has cost.
     """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
@@ -21,14 +21,15 @@ from acausal.simulation.adaptive.search import (
     advance,
     begin,
     found,
-    room,
+    row_like,
     saves_start,
     search,
 )
 
+Tree = TypeVar("Tree")
+
 Task = tuple[Any, Problem, Start]
 """Method, problem, start."""
-
 
 MEMORY = 2**20
 """Numbers that the steps of a run may take in memory before it is made part by part again: 8 MB.
@@ -104,11 +105,11 @@ def _kept(
     """The result of a run, and what its derivative needs."""
     method, problem, start = task
     progress, saved = begin(method, problem, start)
-    numbers = sum(a.size for a in jax.tree.leaves(room(method, problem, progress, 1)))
+    like = row_like(method, problem, progress)
+    numbers = sum(a.size for a in jax.tree.leaves(like))
     size = min(problem.max_steps, max(MEMORY // numbers, FEWEST))
     most = -(-problem.max_steps // size)
-    rows = room(method, problem, progress, size)
-    parts = jax.tree.map(lambda a: jnp.zeros((most, *a.shape), a.dtype), progress)
+    rows, parts = _room(like, size), _room(progress, most)
 
     def one(carry: tuple[Any, ...]) -> tuple[Any, ...]:
         i, progress, saved, parts, rows, _ = carry
@@ -121,6 +122,11 @@ def _kept(
     state = lax.while_loop(lambda s: s[1].why < 0, one, state) if most > 1 else one(state)
     count, last, saved, parts, rows, n = state
     return found(last, saved), Kept(values, parts, count, rows, n, moved)
+
+
+def _room(like: Tree, n: int) -> Tree:
+    """Room for n of these, side by side."""
+    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
 
 
 def _row(rows: Rows, k: Array) -> Any:

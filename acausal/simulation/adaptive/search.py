@@ -191,12 +191,11 @@ def advance(
     return lax.while_loop(goes_on, body, (progress, saved, rows))
 
 
-def room(method: Any, problem: Problem, progress: Progress, n: int) -> Rows:
-    """Room for n rows."""
+def row_like(method: Any, problem: Problem, progress: Progress) -> Rows:
+    """What one row looks like: something with its shapes and types."""
     p = progress
     made = eqx.filter_eval_shape(method.attempt, problem, p.memory, p.t, p.memory.h)
-    like = Rows(p.t, p.t, p.next, made.row, p.x, p.begins)
-    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
+    return Rows(p.t, p.t, p.next, made.row, p.x, p.begins)
 
 
 def _just_before(t: Array) -> Array:
