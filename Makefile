@@ -11,6 +11,8 @@ LOCK := requirements.lock
 READY := $(VENV)/.ready
 
 PYTHON ?=
+NEWEST_ARGS ?=
+LOWEST_ARGS ?=
 PYTEST_ARGS ?= -n auto --maxprocesses 8 --dist loadfile
 LOCK_ARGS ?=
 
@@ -20,7 +22,7 @@ export NO_MKDOCS_2_WARNING := 1
 UV := $(shell command -v uv 2>/dev/null)
 
 .DELETE_ON_ERROR:
-.PHONY: help qvm paper test test-slow test-newest test-lowest test-uv lint format types contracts docs wheel check lock clean
+.PHONY: help qvm paper ship test test-slow test-newest test-lowest test-uv lint format types contracts docs wheel check lock clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | while IFS='	' read -r target what; do \
@@ -32,21 +34,30 @@ qvm: $(READY) ## the quarter vehicle: compile, simulate and train it in a minute
 paper: $(READY) ## the quarter vehicle with the whole training of the paper
 	$(BIN)/python -m examples.qvm --paper
 
-# Tests compile many small programs that run once: LLVM's optimizations take longer than they save.
-test: export XLA_FLAGS ?= --xla_backend_optimization_level=0
+ship: $(READY) ## the quarter vehicle, trained and written as FMU, C, ONNX, StableHLO and Modelica, run in other tools
+	$(BIN)/python -m examples.qvm.ship
+
+# Tests compile many small programs that run once: XLA's optimizations take longer than they save. It aborts at an option
+# that it does not know, so the newest version gets those that all of them have. Trainings in LONG run long enough to gain.
+QUICK := --xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true
+QUICKER := $(QUICK) --xla_cpu_use_fusion_emitters=false
+LONG := tests/examples tests/test_docs.py tests/test_notebooks.py
+test: export XLA_FLAGS ?= $(QUICKER)
 test: $(READY) ## all tests but the slow ones
 	$(BIN)/python -m pytest $(PYTEST_ARGS)
 
 test-slow: $(READY) ## the slow tests
-	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow
+	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG:%=--ignore=%)
+	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG)
 
 # Environments of their own, made anew each time: .ci/dependencies.py says how.
-test-newest test-lowest test-uv: export XLA_FLAGS ?= --xla_backend_optimization_level=0
+test-newest test-uv: export XLA_FLAGS ?= $(QUICK)
+test-lowest: export XLA_FLAGS ?= $(QUICKER)
 test-newest: $(READY) ## the tests with the newest dependencies, on the newest Python that is found
-	$(BIN)/python .ci/dependencies.py newest
+	$(BIN)/python .ci/dependencies.py newest $(NEWEST_ARGS)
 
 test-lowest: $(READY) ## the tests with the oldest dependencies that pyproject.toml admits, on Python 3.11
-	$(BIN)/python .ci/dependencies.py lowest
+	$(BIN)/python .ci/dependencies.py lowest $(LOWEST_ARGS)
 
 test-uv: $(READY) ## the examples of the pages by `uv run`, which does not read the lock
 	$(BIN)/python .ci/dependencies.py uv

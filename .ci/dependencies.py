@@ -148,7 +148,7 @@ def tests(python: Path, made_with: Interpreter, arguments: list[str]) -> int:
     say = f"from importlib.metadata import version as v; print(*(n + ' ' + v(n) for n in {names!r}), sep=', ')"
     print(f"Python {'.'.join(map(str, made_with.version))} with", end=" ", flush=True)
     run(python, "-c", say)
-    command = [python, "-m", "pytest", *tolerant(), *(arguments or TESTS)]
+    command = [python, "-m", "pytest", *tolerant(), *TESTS, *arguments]
     return subprocess.call([str(part) for part in command], cwd=ROOT)
 
 

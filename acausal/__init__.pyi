@@ -1,11 +1,13 @@
-from . import networks as networks
+from . import export as export, networks as networks
 from ._jax import use_compilation_cache as use_compilation_cache
 from .analysis import (
     Distilled as Distilled,
     Formula as Formula,
     Linearization as Linearization,
+    OperatingPoint as OperatingPoint,
     distill as distill,
     linearize as linearize,
+    operating_point as operating_point,
 )
 from .data import (
     Data as Data,
@@ -13,11 +15,13 @@ from .data import (
     load_params as load_params,
     save_params as save_params,
 )
+from .drawing import Diagram as Diagram
 from .errors import (
     AcausalError as AcausalError,
     ConnectionError as ConnectionError,
     DataError as DataError,
     DeclarationError as DeclarationError,
+    ExportError as ExportError,
     InitializationError as InitializationError,
     ModelError as ModelError,
     SimulationError as SimulationError,
@@ -31,8 +35,10 @@ from .modeling import (
     Budget as Budget,
     Component as Component,
     Connector as Connector,
+    Discrete as Discrete,
     Eq as Eq,
     Flow as Flow,
+    Icon as Icon,
     InitialParameter as InitialParameter,
     Input as Input,
     Module as Module,
@@ -40,23 +46,30 @@ from .modeling import (
     Output as Output,
     Parameter as Parameter,
     Potential as Potential,
+    Reinit as Reinit,
     Start as Start,
     Variable as Variable,
+    When as When,
     acos as acos,
     asin as asin,
     asinh as asinh,
     atan as atan,
     atan2 as atan2,
+    change as change,
     cos as cos,
     cosh as cosh,
     der as der,
+    edge as edge,
     exp as exp,
     floor as floor,
+    initial as initial,
     log as log,
     maximum as maximum,
     minimum as minimum,
     pi as pi,
+    pre as pre,
     prescribed as prescribed,
+    sample as sample,
     sign as sign,
     sin as sin,
     sinh as sinh,
@@ -66,10 +79,17 @@ from .modeling import (
     time as time,
     where as where,
 )
-from .netlist import NetlistError as NetlistError, load as load, save as save
+from .netlist import NetlistError as NetlistError, find as find, load as load, save as save
 from .networks import MLP as MLP, OffsetCorrected as OffsetCorrected, remove_offset as remove_offset
+from .pages import page as page
 from .reporting import diagram as diagram
-from .simulation import Solution as Solution, simulate as simulate
+from .simulation import (
+    Solution as Solution,
+    Sweep as Sweep,
+    simulate as simulate,
+    sliders as sliders,
+    sweep as sweep,
+)
 from .system import System as System, compile as compile
 from .training import (
     Bounded as Bounded,

@@ -1,10 +1,13 @@
 """Reading by name: one name gives a column, a list of names gives columns side by side."""
 
+from __future__ import annotations
+
+import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, nearest, shown
 
 
 class ByName(ABC):
@@ -31,7 +34,7 @@ class ByName(ABC):
         """The values of one name; those of several, in the order asked, on a last axis of their own.
 
         Raises:
-            DataError: for an unknown name, or what is no name.
+            DataError: for an unknown name, or what is not a name.
         """
         if isinstance(name, str):
             return self._column(str(name))
@@ -42,6 +45,90 @@ class ByName(ABC):
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """What a notebook offers after ``thing["``."""
+        return list(self.names)
+
+
+class Name(str):
+    """A dotted name that offers the names below it: ``system.motor.i`` is the text ``"motor.i"``.
+
+    It is for typing with the help of completion: anything that takes a name takes it. Elements of vectors are
+    ``name[1]``, and a name that is also a method of texts, such as ``count``, is reached by ``name["count"]``.
+    """
+
+    __slots__ = ("_known",)
+    _known: tuple[str, ...]
+
+    def __new__(cls, text: str, known: Iterable[str]) -> Name:
+        """The name, and all names that begin with it."""
+        name = super().__new__(cls, text)
+        name._known = tuple(n for n in known if n == text or n[len(text) : len(text) + 1] in ".[")
+        return name
+
+    def __getattr__(self, word: str) -> Name:
+        if word.startswith("_"):
+            raise AttributeError(word)
+        return self._below(f".{word}", word)
+
+    def __getitem__(self, key: Any) -> Any:
+        """An element of a vector by its number, from 1; or a name below. Slices are those of the text."""
+        if isinstance(key, slice):
+            return super().__getitem__(key)
+        return self._below(f".{key}" if isinstance(key, str) else f"[{key}]", key)
+
+    def _below(self, further: str, word: object) -> Name:
+        text = f"{self}{further}"
+        known = [n for n in self._known if n.startswith(text)]
+        if not (found := Name(text, known))._known:
+            raise AttributeError(
+                f"'{self}' has no '{word}'; {nearest(word, words_below(self, self._known))}"
+            )
+        return found
+
+    def __reduce__(self) -> tuple[type[str], tuple[str]]:
+        """Copies are plain texts."""
+        return str, (str(self),)
+
+    def __dir__(self) -> list[str]:
+        return words_below(self, self._known)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return words_below(self, self._known)
+
+
+def matching(given: Any, known: Sequence[str]) -> tuple[str, ...]:
+    """Names, and those that patterns stand for: ``"c.*"`` the names directly below ``c``, ``"c.**"`` all below.
+
+    Arguments:
+        given: names or patterns: a text, or an iterable of texts. ``?`` stands for one letter.
+        known: the names that a pattern may stand for.
+
+    Raises:
+        DataError: for what is not a name, or a pattern that nothing fits.
+    """
+    found: dict[str, None] = {}
+    for name in names_in(given):
+        if "*" not in name and "?" not in name:
+            found[name] = None
+            continue
+        parts = re.split(r"(\*\*|\*|\?)", name)
+        wild = {"**": ".+", "*": r"[^.]+", "?": r"[^.]"}
+        pattern = re.compile("".join(wild.get(part, re.escape(part)) for part in parts))
+        fitting = [n for n in known if pattern.fullmatch(n)]
+        if not fitting:
+            raise DataError(
+                f"No variable is called '{name}'; '*' stands for a part between dots, '**' for any."
+            )
+        found |= dict.fromkeys(fitting)
+    return tuple(found)
+
+
+def words_below(name: str, known: Iterable[str]) -> list[str]:
+    """The next words of the names below a dotted one, each once."""
+    below = (n[len(name) + 1 :] for n in known if n.startswith(f"{name}."))
+    return list(dict.fromkeys(re.split(r"[.\[(]", rest)[0] for rest in below))
 
 
 def names_in(given: Any, argument: str = "") -> tuple[str, ...]:

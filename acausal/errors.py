@@ -52,6 +52,10 @@ class StepLimitError(SimulationError):
     """An adaptive simulation used up its steps."""
 
 
+class ExportError(AcausalError):
+    """A model cannot be written in the form that is asked for."""
+
+
 class TrainingError(AcausalError):
     """A training could not start or could not go on."""
 
@@ -112,7 +116,7 @@ def need_path(given: object, function: str, error: type[AcausalError] = DataErro
     """
     if not isinstance(given, str | os.PathLike):
         raise error(
-            f"{function}: {shown(given)} is no path; give a text such as 'folder/file', or a pathlib.Path."
+            f"{function}: {shown(given)} is not a path; give a text such as 'folder/file', or a pathlib.Path."
         )
     return Path(given)
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import logging
+import time
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeGuard
+from typing import TYPE_CHECKING, Any, Literal, TypeGuard
 
 import jax
 import jax.numpy as jnp
@@ -16,9 +19,10 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
 from acausal._jax import check_time, floating, is_real, need_double_precision
-from acausal.by_name import names_in
+from acausal.by_name import Name, names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import (
+    Events,
     Field,
     Packed,
     ParameterLayout,
@@ -29,49 +33,74 @@ from acausal.codegen import (
     explain_nonfinite,
     explicit_equations,
     generate,
+    generate_events,
     lay_out_parameters,
     pack,
     rates,
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, nearest, shown
-from acausal.flattening import FlatModel, flatten
-from acausal.initialization import Initialization, Initializer, initializer
-from acausal.modeling import Budget, Component
+from acausal.errors import DataError, ModelError, nearest, shown, user_level
+from acausal.flattening import HIDDEN, FlatModel, flatten, with_inputs
+from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
+from acausal.modeling import Budget, Component, Discrete, Option
 from acausal.structure import ReducedModel, reduce
 from acausal.units import check_dimensions
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+    from acausal.reporting import PlainTable
+
 Params = Mapping[str, Any] | Packed
+
+LOGGER = logging.getLogger(__name__)
 
 
 def compile(  # noqa: A001 (the field's word; reached as ac.compile)
-    model: Component, *, check_units: bool = True, budget: Budget | None = None
+    model: Component,
+    *,
+    inputs: Sequence[str] = (),
+    check_units: bool = True,
+    budget: Budget | None = None,
+    events: bool = False,
 ) -> System:
     """Derive the differential equations of a model and turn them into array code.
 
     Arguments:
         model: the component tree; inputs that nothing feeds become the system's inputs.
+        inputs: discrete variables that are given instead of found at events, such as measured modes. They become
+            inputs of the system, held from sample to sample; what would have given them is left out.
         check_units: whether to refuse a model whose equations, values or connections mix different units. A
             variable, parameter or network without a unit fits everything.
         budget: how large the model may become. By default that with which its file was loaded; a model in Python may
             have a hundred times as much: 10 million components, 100 million equations.
+        events: whether steps end where conditions with ``events=None`` change, those of the library's sources for
+            example, also in a model without other events: gradients by the times of steps and pulses need it.
 
     Raises:
         UnitError: if an equation adds, compares or equates different dimensions, or a unit is not valid.
         ModelError: if the model is not declared or connected correctly, or is singular; the message names the place.
+
+    Warns:
+        UserWarning: of a parameter whose gradient is zero, because it acts through the condition of an `acausal.where`
+            alone that is not an event, but makes a value jump.
     """
     if isinstance(model, type) and issubclass(model, Component):
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
     need_double_precision()
-    flat = flatten(model, budget)
+    began = time.perf_counter()
+    flat = with_inputs(flatten(model, budget, watch=events), inputs)
+    _warn_of_silent(flat)
     if check_units:
         check_dimensions(flat)
     reduced = reduce(flat)
     parameters = lay_out_parameters(flat)
     program = generate(reduced, parameters)
+    size = f"{flat.n_equations} equations, {len(reduced.states)} states"
+    LOGGER.info("compiled %s in %.3g s: %s", flat.name, time.perf_counter() - began, size)
     return System(
         model, flat, reduced, parameters, program, initializer(reduced, program, parameters)
     )
@@ -115,15 +144,82 @@ class System(LeavesCaches):
         )
 
     @cached_property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the output signals that nothing takes: those of sensors, and those that the model declares."""
+        return tuple(map(self.flat.layout.variable, self.flat.outputs.tolist()))
+
+    @cached_property
+    def held_inputs(self) -> frozenset[str]:
+        """Names of the inputs that are truth values, whole numbers or modes: they are held from sample to sample."""
+        declared = map(self.flat.layout.variable_declaration, self.flat.inputs.tolist())
+        pairs = zip(self.flat.inputs.tolist(), declared, strict=True)
+        held = [
+            v for v, d in pairs if isinstance(d, Discrete) or getattr(d, "kind", "real") != "real"
+        ]
+        return frozenset(map(self.flat.layout.variable, held))
+
+    def is_mode(self, name: str) -> bool:
+        """Whether a variable is a truth value or a whole number that changes at events only."""
+        index = self.flat.layout.find_variable(name)
+        declared = None if index is None else self.flat.layout.variable_declaration(index)
+        return isinstance(declared, Discrete) and declared.kind != "real"
+
+    @cached_property
+    def remembered(self) -> tuple[str, ...]:
+        """Names of the discrete variables whose value before an event decides on that after it."""
+        events = self.flat.events
+        groups = (*events.guards, *events.updates, *events.jumps)
+        read = [g.group.variables[:, np.asarray(g.previous, bool)].ravel() for g in groups]
+        known = np.unique(np.concatenate([np.zeros(0, np.int64), *read]))
+        names = map(self.flat.layout.variable, np.intersect1d(known, self.flat.discrete).tolist())
+        return tuple(n for n in names if not n.rpartition(".")[2].startswith(HIDDEN))
+
+    @cached_property
     def variables(self) -> tuple[str, ...]:
         """Dotted names of all variables."""
-        return tuple(self.flat.layout.variable(i) for i in range(self.flat.n_variables))
+        names = map(self.flat.layout.variable, range(self.flat.n_variables))
+        if not len(self.flat.discrete) and not len(self.flat.given):
+            return tuple(names)
+        return tuple(n for n in names if not _is_hidden(n))
+
+    @cached_property
+    def discrete(self) -> dict[str, tuple[int, int]]:
+        """Names of the discrete variables, with their places in a solution's ``d``, and signs there."""
+        places = {int(node): i for i, node in enumerate(self.reduced.discrete)}
+        found: dict[str, tuple[int, int]] = {}
+        for index in np.sort(self.flat.discrete).tolist():
+            name = self.flat.layout.variable(index)
+            if not _is_hidden(name):
+                node, sign = self.reduced.resolve(index)
+                found[name] = places[node], sign
+        return found
+
+    def describe_discrete(self, place: int) -> str:
+        """A discrete variable by its place in ``d``: its name, or the condition or clock that it stands for."""
+        node = int(self.reduced.discrete[place])
+        name = self.reduced.name(node)
+        if not _is_hidden(name):
+            return name
+        assert self.events is not None
+        if place < self.events.n_guards:
+            return self.events.describe(place)
+        for group in self.flat.events.updates:
+            for target, component in zip(group.targets, group.group.components, strict=True):
+                if self.reduced.resolve(int(target))[0] == node:
+                    path = self.flat.layout.paths[component]
+                    text = group.group.template.origin.partition(": ")[2]
+                    return f"{path}: {text}" if path else text
+        return name
+
+    def is_discrete(self, name: str) -> bool:
+        """Whether a variable changes at events only: a discrete one, or one that equals such."""
+        return bool(len(self.reduced.discrete)) and self._find(name)[0] in self.reduced.discrete
 
     @cached_property
     def equations(self) -> tuple[sp.Equality, ...]:
         """The explicit differential equations as sympy, ``Derivative(state, time) = ...`` in the order of `states`.
 
-        Symbols bear dotted names; networks are functions named by their parameter. Unknowns of nonlinear
+        Symbols have dotted names; networks are functions named by their parameter. Unknowns of nonlinear
         loops keep their names, and the loops' equations follow at the end.
         """
         return explicit_equations(self.program, self.layout, self.reduced.name)
@@ -132,6 +228,11 @@ class System(LeavesCaches):
     def nominal(self) -> Float[np.ndarray, " n_states"]:
         """Typical magnitudes of the states, in the order of ``x``: the attribute ``nominal``, 1 by default."""
         return np.abs(self.initializer.conditions.nominal)
+
+    @cached_property
+    def events(self) -> Events | None:
+        """What holds at events; None for a model without."""
+        return generate_events(self.reduced, self.program, self.layout)
 
     @cached_property
     def state_jacobian(self) -> StateJacobian:
@@ -152,6 +253,47 @@ class System(LeavesCaches):
             return self.flat.layout.parameter_declaration(int(self.layout.free[position])).unit
         raise ModelError(f"the model has no '{name}'; {nearest(name, self.variables)}")
 
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._top_names]
+
+    if not TYPE_CHECKING:  # so that type checkers go on to refuse misspelled attributes
+
+        def __getattr__(self, name: str) -> Name:
+            """A dotted name with completion: ``system.motor.i`` is the text ``"motor.i"``."""
+            if name.startswith("_") or "flat" not in self.__dict__:
+                raise AttributeError(name)
+            if name not in self._top_names:
+                attributes = [n for n in dir(self) if not n.startswith("_")]
+                raise AttributeError(f"A System has no '{name}'; {nearest(name, attributes)}")
+            known = (*self.variables, *self.layout.names, *self.layout.module_names)
+            return Name(name, (n for n in known if n.startswith(name)))
+
+    @cached_property
+    def _top_names(self) -> tuple[str, ...]:
+        """First words of the dotted names: the model's parts, and what it declares itself."""
+        node = self.model._node
+        parts = (name.partition("[")[0] for name in node.children)
+        own = (name for name, declared in node.declarations() if not isinstance(declared, Option))
+        return tuple(dict.fromkeys([*parts, *own]))
+
+    def table(self, params: Params | None = None) -> DataFrame | PlainTable:
+        """Parameters, networks, states, discrete variables, inputs and outputs, with a row for each.
+
+        Columns are ``kind``, ``value``, ``unit``, ``doc``, ``start`` and ``origin``: for a parameter whether it was
+        given or has its default, or the expression that it is bound to; for a state whether its start is fixed or a
+        guess. A parameter that is left at a default of zero is folded out of the equations.
+
+        Arguments:
+            params: the values to show; by default the model's own.
+
+        Returns:
+            A pandas DataFrame, indexed by name; without pandas a `PlainTable`, which prints the same.
+        """
+        from acausal.reporting import PlainTable
+
+        given = self.parameters() if params is None else params
+        return PlainTable(overview(self.initializer, given, self.outputs)).as_data_frame()
+
     # -- values --------------------------------------------------------------------------------------
 
     def parameters(self, key: Array | int | None = None) -> dict[str, Any]:
@@ -170,7 +312,7 @@ class System(LeavesCaches):
             key = jax.random.key(key)
         if not _is_key(key):
             raise DataError(
-                f"key={shown(key)} is no key; give a whole number, or jax.random.key(0)."
+                f"key={shown(key)} is not a key; give a whole number, or jax.random.key(0)."
             )
         return default_parameters(self.layout, key)
 
@@ -188,7 +330,7 @@ class System(LeavesCaches):
     def vector_field(
         self, t: ArrayLike, x: ArrayLike, u: ArrayLike | None, params: Params
     ) -> Float[Array, " n_states"]:
-        """Derivatives of the states.
+        """Derivatives of the states; discrete variables have their start values.
 
         Arguments:
             t: time [s]. x: states, shape (n_states,). u: inputs, shape (n_inputs,), or None if there are none.
@@ -246,9 +388,11 @@ class System(LeavesCaches):
         """Derivatives of the states, shape (n_states,)."""
         return rates(self.program, values)
 
-    def field(self, t: ArrayLike, u: Array, packed: Packed) -> Field:
+    def field(
+        self, t: ArrayLike, u: Array, packed: Packed, d: Float[Array, " n_discrete"] | None = None
+    ) -> Field:
         """`rates` as a function of the states alone, shape (n_states,), for `state_jacobian`."""
-        return Field(self.program, t, u, packed)
+        return Field(self.program, t, u, packed, d)
 
     def read(self, names: Sequence[str], values: Values) -> Float[Array, " n_names"]:
         """Variables by dotted name, shape (len(names),)."""
@@ -279,10 +423,11 @@ class System(LeavesCaches):
     def initial_state(
         self,
         params: Params | None = None,
-        x0: Mapping[str, Numbers] | Numbers | None = None,
-        u0: Mapping[str, Numbers] | Numbers | None = None,
+        x0: Mapping[str, Numbers] | Numbers | Literal["steady"] | None = None,
+        u0: Mapping[str, Any] | Numbers | None = None,
         t0: float = 0.0,
         *,
+        inputs: Mapping[str, Any] | Numbers | None = None,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
     ) -> Float[Array, " n_states"]:
@@ -292,8 +437,11 @@ class System(LeavesCaches):
         `initialize` lists these states.
 
         Arguments:
-            x0: states by name (the rest from the model's starts), or all of them as an array.
-            u0: inputs at the initial time, by name (the rest zero) or all of them as an array; by default zero.
+            x0: states by name (the rest from the model's starts), or all of them as an array. ``"steady"`` is the
+                same as ``steady=True``.
+            t0: the initial time [s].
+            inputs: the inputs at that time, by name (the rest zero) as numbers or functions of time, or all of them as
+                an array of numbers; by default zero. ``u0`` is another name of it.
             steady: whether all states without a fixed start or a value in ``x0`` are to be at rest, or the names
                 of those that are.
             least_squares: whether contradictory conditions are met in the least-squares sense, with fixed
@@ -304,16 +452,69 @@ class System(LeavesCaches):
             InitializationError: if the conditions contradict each other.
         """
         check_time(t0, "t0")
-        packed, u = self.pack(params), self.input_values(u0, "u0")
+        packed, u = self.pack(params), self.inputs_at(t0, inputs, u0, "u0")
+        x0, steady = (None, True) if isinstance(x0, str) and x0 == "steady" else (x0, steady)
         return self.initializer(packed, x0, u, t0, steady, least_squares)
+
+    def start_values(
+        self,
+        packed: Packed,
+        x0: Mapping[str, Numbers] | Numbers | None,
+        u0: Float[Array, " n_inputs"],
+        t0: float,
+        *,
+        steady: bool = False,
+    ) -> Values:
+        """The values at the start of a simulation, behind the events that happen there."""
+
+        def state(d: Array | None) -> Array:
+            return self.initializer(packed, x0, u0, t0, steady, d=d)
+
+        if self.events is None:
+            return self.values(t0, state(None), u0, packed)
+        blank = jnp.zeros(len(self.states))
+        at = self.values(jnp.asarray(t0, float), blank, u0, packed)
+        start = self.initializer.discrete_start(packed)
+        return start_of(self.events, at, start, state, self.describe_discrete)._replace(t=t0)
+
+    def watching(self, names: Iterable[str]) -> System:
+        """The model in which the library's conditions are events, where some parameters act through such alone.
+
+        Without events their derivatives would be zero. `acausal.simulate` and `acausal.fit` ask for it where
+        derivatives by these parameters are wanted; else the model is simulated as it is, which is faster.
+
+        Arguments:
+            names: of parameters.
+        """
+        silent = self.flat.silent
+        return self._watched if any(n in silent and silent[n].asked for n in names) else self
+
+    @cached_property
+    def _watched(self) -> System:
+        given = [self.flat.layout.variable(int(i)) for i in self.flat.given]
+        names = [name for name in given if not _is_hidden(name)]
+        found = compile(self.model, inputs=names, check_units=False, events=True)
+        return self if found.events is None else found
+
+    def modes(self, values: Values) -> Values:
+        """The same values with the discrete variables that agree with them, found from their start values.
+
+        States that jump at once have done so.
+        """
+        if self.events is None:
+            return values
+        values = values._replace(t=jnp.asarray(values.t, values.x.dtype))
+        start = self.initializer.discrete_start(values.packed).astype(values.x.dtype)
+        return start_of(self.events, values, start, lambda d: values.x, self.describe_discrete)
 
     def initialize(
         self,
         params: Params | None = None,
-        x0: Mapping[str, Numbers] | None = None,
-        u0: Mapping[str, Numbers] | Numbers | None = None,
+        x0: Mapping[str, Numbers] | Literal["steady"] | None = None,
+        u0: Mapping[str, Any] | Numbers | None = None,
         t0: float = 0.0,
         *,
+        inputs: Mapping[str, Any] | Numbers | None = None,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
     ) -> Initialization:
@@ -322,8 +523,35 @@ class System(LeavesCaches):
         Arguments and errors as in `initial_state`.
         """
         check_time(t0, "t0")
-        packed, u = self.pack(params), self.input_values(u0, "u0")
+        packed, u = self.pack(params), self.inputs_at(t0, inputs, u0, "u0")
+        if isinstance(x0, str) and x0 == "steady":
+            return self.initializer.report(packed, None, u, t0, True, least_squares)
         return self.initializer.report(packed, x0, u, t0, steady, least_squares)
+
+    def inputs_at(
+        self,
+        t: float,
+        inputs: Mapping[str, Any] | Numbers | None,
+        alias: Mapping[str, Any] | Numbers | None = None,
+        argument: str = "u",
+    ) -> Float[Array, " n_inputs"]:
+        """The inputs at one time as an array, shape (n_inputs,), however a user gives them.
+
+        Arguments:
+            t: the time, at which functions are evaluated [s].
+            inputs: by name, numbers or functions of time (the rest zero), or an array; or None.
+            alias: the same under the older name ``argument``.
+
+        Raises:
+            DataError: as `input_values`, and if both are given.
+        """
+        if inputs is not None and alias is not None:
+            raise DataError(f"inputs and {argument} are the same; leave out {argument}.")
+        given: Any = alias if inputs is None else inputs
+        name = argument if inputs is None else "inputs"
+        if isinstance(given, Mapping):
+            given = {n: v(t) if callable(v) else v for n, v in given.items()}
+        return self.input_values(given, name)
 
     def input_values(
         self, u: Mapping[str, Numbers] | Numbers | None = None, argument: str = "u"
@@ -409,9 +637,60 @@ class System(LeavesCaches):
             lines.append(f"  {title:<10} {shown or '-'}")
         return "\n".join(lines)
 
-    def _repr_latex_(self) -> str:
-        rows = [f"{sp.latex(e.lhs)} &= {sp.latex(e.rhs)}" for e in self.equations]
-        return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
+    def _repr_html_(self) -> str:
+        from acausal.reporting import MOST_EQUATIONS, Quantity, system_view
+
+        def described(name: str, value: float | None) -> Quantity:
+            index = self.flat.layout.find_variable(name)
+            doc = "" if index is None else self.flat.layout.variable_declaration(index).doc
+            return Quantity(name, self.unit(name), value, doc)
+
+        computed = {binding.target for binding in self.flat.starts}
+        starts = [
+            sign * float(self.flat.start[v])
+            if v < self.flat.n_variables and v not in computed
+            else None
+            for v, sign in self.initializer.conditions.start_of
+        ]
+        declared = map(self.flat.layout.parameter_declaration, self.layout.free.tolist())
+        values = self.flat.value[self.layout.free].tolist()
+        quantities = {
+            "States": list(map(described, self.states, starts)),
+            "Inputs": [described(name, None) for name in self.inputs],
+            "Parameters": [
+                Quantity(name, d.unit, value, d.doc)
+                for name, d, value in zip(self.layout.names, declared, values, strict=True)
+            ],
+            "Networks": [Quantity(name, "", None, "") for name in self.layout.module_names],
+        }
+        about = f"{self.flat.n_equations} equations, {len(self.states)} states"
+        few = len(self.states) <= MOST_EQUATIONS
+        return system_view(
+            self.model,
+            f"System of {self.flat.name}",
+            about,
+            self.equations if few else (),
+            quantities,
+        )
+
+    def _repr_latex_(self) -> str | None:
+        from acausal.reporting import MOST_EQUATIONS, equations_as_latex
+
+        return None if len(self.states) > MOST_EQUATIONS else equations_as_latex(self.equations)
+
+
+def _warn_of_silent(flat: FlatModel) -> None:
+    """Of parameters without a gradient; of those in equal components, the first."""
+    named: set[int] = set()
+    for name, one in flat.silent.items():
+        if not one.asked and id(one) not in named:
+            named.add(id(one))
+            warnings.warn(one.sentence(name), stacklevel=user_level())
+
+
+def _is_hidden(name: str) -> bool:
+    """Whether a variable is one of a watched condition, which users do not see."""
+    return name.rpartition(".")[2].startswith(HIDDEN)
 
 
 def _is_seed(value: object) -> TypeGuard[int]:

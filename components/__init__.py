@@ -6,6 +6,7 @@
 | `rotational` | `Modelica.Mechanics.Rotational` |
 | `blocks` | `Modelica.Blocks` |
 | `electrical` | `Modelica.Electrical.Analog` |
+| `digital` | `Modelica.Electrical.Digital` |
 | `magnetic` | `Modelica.Magnetic.FluxTubes` |
 | `thermal` | `Modelica.Thermal.HeatTransfer` |
 | `fluid` | `Modelica.Thermal.FluidHeatFlow` |

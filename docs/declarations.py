@@ -76,6 +76,12 @@ def _packages(module: griffe.Module) -> Iterator[griffe.Module]:
 class Declarations(griffe.Extension):
     """Moves class attributes such as ``c = ac.Parameter(unit="N/m")``, inherited ones too, below the docstring."""
 
+    def on_module_members(self, *, mod: griffe.Module, **kwargs: Any) -> None:
+        """Called when griffe has read a module: the library's stubs say nothing that the sources do not."""
+        if mod.path.startswith(acausal.components.__name__) and _is_stub(mod):
+            mod.members.clear()
+            mod.exports = None
+
     def on_package(self, *, pkg: griffe.Module, **kwargs: Any) -> None:
         """Called when griffe has read a package."""
         _list_exports(pkg)
@@ -91,6 +97,10 @@ class Declarations(griffe.Extension):
         for cls in classes:
             for name in own[cls.path]:
                 del cls.members[name]
+
+
+def _is_stub(module: griffe.Module) -> bool:
+    return isinstance(module.filepath, Path) and module.filepath.suffix == ".pyi"
 
 
 def _list_exports(pkg: griffe.Module) -> None:
@@ -122,7 +132,7 @@ def _bases(cls: griffe.Class) -> list[griffe.Class]:
 
 
 def _rows(cls: griffe.Class) -> dict[str, Row]:
-    rows = {name: _row(member) for name, member in cls.members.items()}
+    rows = {n: _row(member) for n, member in cls.members.items() if not n.startswith("__")}
     return {name: row for name, row in rows.items() if row is not None}
 
 

@@ -3,6 +3,7 @@
 import gc
 import os
 import sys
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -22,18 +23,27 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("acausal")
 
 
-MAPS = Path("/proc/self/maps")
-MOST_MAPS = 25_000
-"""Every compiled program takes memory maps. Linux allows a process 65,530; XLA crashes at the next one."""
-
-
 @pytest.fixture(autouse=True, scope="module")
-def within_the_limit_of_memory_maps() -> Iterator[None]:
-    """Let go of compiled programs after a file of tests, where there are many."""
+def lets_go_of_compiled_programs() -> Iterator[None]:
+    """After a file of tests; each program takes memory maps, of which Linux allows a process 65,530."""
     yield
-    if "jax" in sys.modules and MAPS.exists() and len(MAPS.read_bytes().splitlines()) > MOST_MAPS:
+    if "jax" in sys.modules:
         sys.modules["jax"].clear_caches()
         gc.collect()
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """``--part 2/3``: every third file of tests, beginning with the second."""
+    parser.addoption("--part", default="1/1", metavar="K/N", help="only part K of N of the tests")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out files of other parts; the part of a file depends on its name alone."""
+    part, parts = map(int, config.getoption("--part").split("/"))
+    if parts == 1 or not collection_path.name.startswith("test_") or collection_path.is_dir():
+        return None
+    name = collection_path.relative_to(config.rootpath).as_posix()
+    return zlib.crc32(name.encode()) % parts != part - 1 or None
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from benchmarks import chain, gears, grid, ladder, measure, optimizers, peers, sweep
+from benchmarks import chain, export, gears, grid, ladder, measure, optimizers, peers, sweep
 from benchmarks.command import growth_exponent
 from benchmarks.measure import Stopwatch
 from benchmarks.qvm import by_hand, c, framework, task
@@ -109,6 +109,16 @@ def test_all_take_the_same_gradient_of_the_quarter_vehicle(ride, count, length):
             other_loss, by = other(asked)()
             assert float(other_loss) == pytest.approx(float(loss), rel=1e-12)
             assert by == pytest.approx(expected, abs=1e-10 * abs(expected).max())
+
+
+def test_exported_steps_are_those_written_by_hand(ride, tmp_path):
+    asked = task.task("", *ride, 1, 300)
+    try:
+        expected = c.forward(asked)()
+    except ImportError as e:
+        pytest.skip(str(e))
+    exported = export.Exported(ac.compile(with_networks()), asked.params, tmp_path)
+    assert exported.forward(asked)() == pytest.approx(expected, rel=1e-11)
 
 
 def test_a_sweep_finds_what_single_simulations_find():

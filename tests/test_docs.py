@@ -8,7 +8,6 @@ word by word, numbers to within two units of their last digit; a line ``...`` st
 """
 
 import contextlib
-import importlib.util
 import io
 import re
 import sys
@@ -24,6 +23,7 @@ import pytest
 
 import acausal as ac
 from tests.support.paths import ROOT
+from tests.support.scripts import script
 
 PAGES = [*ROOT.glob("README.md"), *sorted((ROOT / "docs").rglob("*.md"))]
 BLOCK = re.compile(r"^([ \t]*)```python[ \t]*\n(.*?)^\1```[ \t]*$", re.MULTILINE | re.DOTALL)
@@ -164,27 +164,14 @@ def test_outputs_are_compared(shown: str, printed: str, same: bool) -> None:
     assert agree(shown, printed) is same
 
 
-def script(path: str) -> ModuleType:
-    """The module of a script in docs/."""
-    spec = importlib.util.spec_from_file_location(Path(path).stem, ROOT / "docs" / path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    # Registered while it runs: dataclasses look up the module of the class they are applied to.
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(sys.modules, spec.name, module)
-        spec.loader.exec_module(module)
-    return module
-
-
 def test_the_picture_of_the_rooms_is_up_to_date() -> None:
-    house = script("images/make_house.py")
+    house = script("docs/images/make_house.py")
     drawn = (ROOT / "docs" / "images" / "house.svg").read_text(encoding="utf-8")
     assert drawn == house.draw(), "run: python docs/images/make_house.py"
 
 
 def test_the_picture_shows_every_room() -> None:
-    house = script("images/make_house.py")
+    house = script("docs/images/make_house.py")
     shown = {room.name for floor in house.floors() for room in floor}
     folders = {f"{p.parent.name}/" for p in (ROOT / "acausal").glob("*/__init__.py")}
     assert shown - {"_moved.py"} == (folders - {"components/"}) | {

@@ -1,6 +1,7 @@
 """Published reference trajectories: examples of the Modelica Standard Library, loaded, compiled, simulated, compared.
 
-All take the same path; nothing here knows an example by its name, but one that needs discrete states.
+All take the same path; nothing here knows an example by its name, but one with state events, which
+`tests.test_event_oracles` compares.
 """
 
 from pathlib import Path
@@ -11,10 +12,11 @@ import pytest
 
 import acausal as ac
 from tests.support.paths import SHARED
+from tests.support.slow import some_slow
 
 FOLDER = SHARED / "oracles" / "msl"
-DISCRETE = {"HeatTransfer_ControlledTemperature"}
-NETLISTS = sorted(p.stem for p in FOLDER.glob("*.json") if p.stem not in DISCRETE)
+EVENTS = {"HeatTransfer_ControlledTemperature"}
+NETLISTS = sorted(p.stem for p in FOLDER.glob("*.json") if p.stem not in EVENTS)
 TOLERANCE = 1e-3
 """Largest error relative to a column's range."""
 
@@ -46,13 +48,22 @@ def error(ts: np.ndarray, values: np.ndarray, times: np.ndarray, found: np.ndarr
     return float(np.abs(ours - values)[compared].max() / scale)
 
 
+LONG = (
+    "Analog_HeatingRectifier",
+    "Analog_OpAmps_LCOscillator",
+    "FluidHeatFlow_TwoTanks",
+    "Magnetic_FluxTubes_BasicSaturatedInductor",
+)
+"""They take more than a few seconds."""
+
+
 def test_oracles_are_there() -> None:
     if not FOLDER.is_dir():
         pytest.skip("the reference trajectories lie beside the repository, in ../shared/oracles")
     assert len(NETLISTS) >= 25
 
 
-@pytest.mark.parametrize("name", NETLISTS)
+@pytest.mark.parametrize("name", some_slow(NETLISTS, LONG))
 def test_oracle(name: str, record_property: Any) -> None:
     model = ac.load(FOLDER / f"{name}.json")
     start, stop = (model.document[key] for key in ("start_time", "stop_time"))
@@ -69,12 +80,3 @@ def test_oracle(name: str, record_property: Any) -> None:
         record_property("oracle", (name, column, value))
     wrong = {column: f"{value:.1e}" for column, value in errors.items() if not value <= TOLERANCE}
     assert not wrong
-
-
-@pytest.mark.skipif(
-    not FOLDER.is_dir(), reason="the reference trajectories lie in ../shared/oracles"
-)
-@pytest.mark.parametrize("name", sorted(DISCRETE))
-def test_discrete_states_are_refused(name: str) -> None:
-    with pytest.raises(ac.ModelError, match="needs discrete states, which acausal does not have"):
-        ac.load(FOLDER / f"{name}.json")

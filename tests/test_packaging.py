@@ -7,25 +7,34 @@ import sys
 import sysconfig
 import tarfile
 import tomllib
-import venv
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+import acausal as ac
+from tests.support.bare import environment, requirements_of
 from tests.support.paths import ROOT
+from tests.support.scripts import script
 from tests.test_docs import blocks
 
 FOLDERS = {"acausal": ROOT / "acausal", "acausal/components": ROOT / "components"}
+DATA = ("*.c", "*.h", "*.pyi", "*.schema.json", "*.template", "page/page.*s")
 BUILT = {"build", "dist", "site"}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+VERSION = ac.__version__
 
 WHERE_FROM = """
 import importlib.util
 for name in ("acausal", "acausal.components"):
     print(importlib.util.find_spec(name).origin)
 print([name for name in ("components", "examples", "tests") if importlib.util.find_spec(name)])
+"""
+
+NOT_THERE = """
+print([name for name in ("matplotlib", "pandas", "pytest", "onnx") if importlib.util.find_spec(name)])
 """
 
 
@@ -66,7 +75,14 @@ def python_files(folder: Path = ROOT) -> Iterator[Path]:
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A copy of what packaging reads, symlink included, free of what earlier builds left."""
     copy = tmp_path_factory.mktemp("tree")
-    for name in ("pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "MANIFEST.in"):
+    for name in (
+        "pyproject.toml",
+        "setup.py",
+        "README.md",
+        "LICENSE",
+        "CHANGELOG.md",
+        "MANIFEST.in",
+    ):
         if (ROOT / name).exists():
             shutil.copy(ROOT / name, copy)
     for name in ("acausal", "components", "examples", "tests", "docs"):
@@ -89,8 +105,7 @@ def test_wheel_holds_each_module_once_and_nothing_else(wheel: Path) -> None:
         for path in (
             *python_files(folder),
             folder / "py.typed",
-            *folder.rglob("*.schema.json"),
-            *folder.rglob("*.pyi"),
+            *(path for kind in DATA for path in folder.rglob(kind)),
         )
     )
     assert modules(wheel) == expected
@@ -158,20 +173,52 @@ def test_the_development_install_shows_what_the_wheel_would(tmp_path: Path) -> N
 
 
 @pytest.mark.slow
-def test_the_installed_wheel_runs_the_readme(wheel: Path, tmp_path: Path) -> None:
+def test_the_installed_wheel_runs_the_readme_in_a_bare_environment(
+    wheel: Path, tmp_path: Path
+) -> None:
+    """With nothing but what the wheel says it needs: no matplotlib, no pandas, no pytest."""
     pytest.importorskip("ensurepip", reason="this Python cannot make environments")
-    example = next(blocks(ROOT / "README.md"))
-    venv.create(tmp_path / "env", with_pip=True)
-    python = tmp_path / "env" / "bin" / "python"
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(tmp_path / "wheel")
+    (metadata,) = (tmp_path / "wheel").glob("*.dist-info")
+    python = environment(tmp_path / "env", requirements_of(metadata))
     run(python, "-m", "pip", "install", "--no-index", "--no-deps", wheel, cwd=tmp_path)
-    # The dependencies are those of the present environment. A folder named in a .pth file comes
-    # after the new environment's own, and its .pth files (our development install) are not read.
-    purelib = "import sysconfig; print(sysconfig.get_path('purelib'))"
-    installed = Path(run(python, "-c", purelib, cwd=tmp_path).strip())
-    (installed / "dependencies.pth").write_text(sysconfig.get_path("purelib"), encoding="utf-8")
+    assert run(python.with_name("acausal"), "--version", cwd=tmp_path) == f"acausal {VERSION}\n"
 
-    (tmp_path / "readme.py").write_text(example + WHERE_FROM, encoding="utf-8")
-    *_, acausal, components, others = run(python, "readme.py", cwd=tmp_path).splitlines()
+    example = next(blocks(ROOT / "README.md"))
+    (tmp_path / "readme.py").write_text(example + WHERE_FROM + NOT_THERE, encoding="utf-8")
+    *_, acausal, components, others, extras = run(python, "readme.py", cwd=tmp_path).splitlines()
+    installed = Path(sysconfig.get_path("purelib", vars={"base": str(tmp_path / "env")}))
     assert Path(acausal) == installed / "acausal" / "__init__.py"
     assert Path(components) == installed / "acausal" / "components" / "__init__.py"
     assert others == "[]"
+    assert extras == "[]"
+
+
+def test_the_version_stands_in_one_place(wheel: Path) -> None:
+    release = script(".ci/release.py")
+    assert release.version() == ac.__version__ == VERSION
+    assert wheel.name.startswith(f"acausal-{ac.__version__}-")
+    assert "version" not in PROJECT["project"]
+    for name in ("CITATION.cff", "README.md", "mkdocs.yml"):
+        assert VERSION not in (ROOT / name).read_text(encoding="utf-8")
+
+
+def test_links_are_left_out_until_they_are_set(tree: Path, wheel: Path, tmp_path: Path) -> None:
+    assert links(wheel) == []
+    shutil.copytree(tree, tmp_path / "tree", symlinks=True)
+    project = (tree / "pyproject.toml").read_text(encoding="utf-8")
+    there = project.replace('repository = ""', 'repository = "https://example.org/acausal"')
+    (tmp_path / "tree" / "pyproject.toml").write_text(there, encoding="utf-8")
+    assert links(build("wheel", tmp_path / "tree", tmp_path / "dist")) == [
+        "Project-URL: Repository, https://example.org/acausal",
+        "Project-URL: Issues, https://example.org/acausal/issues",
+    ]
+
+
+def links(wheel: Path) -> list[str]:
+    """The addresses in a wheel's metadata."""
+    with zipfile.ZipFile(wheel) as archive:
+        (metadata,) = (n for n in archive.namelist() if n.endswith(".dist-info/METADATA"))
+        lines = archive.read(metadata).decode().splitlines()
+    return [line for line in lines if line.startswith("Project-URL: ")]

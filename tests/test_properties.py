@@ -26,6 +26,7 @@ from tests.support import pencil
 from tests.support.interpret import in_numpy
 from tests.support.networks import FLOW, KINDS, Element, Network, networks
 from tests.support.oracle import flat_residuals, trajectory
+from tests.support.slow import some_slow
 
 TOLERANCE = 1e-8
 ILL_CONDITIONED = 1e6
@@ -236,7 +237,7 @@ PROPERTIES = (
 )
 QUIET = tuple(HealthCheck)
 property_of: Callable[..., Any] = pytest.mark.parametrize(
-    "holds", PROPERTIES, ids=lambda p: p.__name__
+    "holds", some_slow(PROPERTIES, [gradients_agree_with_differences]), ids=lambda p: p.__name__
 )
 
 

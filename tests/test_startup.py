@@ -13,7 +13,7 @@ import acausal as ac
 from tests.support.paths import ROOT
 
 SLOW = (
-    *("diffrax", "equinox", "matplotlib", "networkx", "optax"),
+    *("diffrax", "equinox", "jax", "matplotlib", "networkx", "optax"),
     *("pandas", "pint", "rich", "scipy", "sympy"),
 )
 
@@ -44,6 +44,10 @@ def test_public_names_stand_once():
     assert len(ac.__all__) == len(set(ac.__all__)) > 50
 
 
+def test_dir_lists_the_public_names_only():
+    assert sorted(dir(ac)) == sorted(ac.__all__)
+
+
 @pytest.mark.parametrize("name", ac.__all__)
 def test_every_public_name_is_there(name):
     assert name in dir(ac)
@@ -54,7 +58,7 @@ def test_every_public_name_is_there(name):
 def test_no_public_name_is_a_modules():
     """Importing ``acausal.fit`` would put the module in the place of the function."""
     modules = {m.name for m in pkgutil.iter_modules(ac.__path__)}
-    assert modules.intersection(ac.__all__) == {"networks"}
+    assert modules.intersection(ac.__all__) == {"export", "networks"}
 
 
 def test_an_unknown_name_is_an_attribute_error():

@@ -566,9 +566,9 @@ GALLERY: dict[str, Wrong] = {
         ("Compliance.net needs a module or a function key -> module, got 3",),
     ),
     "a block that must remember": (
-        lambda: blocks.OnOffController(bandwidth=1),
+        lambda: blocks.FixedDelay(delayTime=1),
         ac.DeclarationError,
-        ("OnOffController needs discrete states, which acausal does not have yet",),
+        ("FixedDelay needs the past of a signal, which acausal does not have yet",),
     ),
     # -- equations -------------------------------------------------------------------------------------
     "an expression instead of an equation": (
@@ -633,7 +633,7 @@ GALLERY: dict[str, Wrong] = {
     "a function of a list": (
         lambda: own(lambda s: [ac.Eq(ac.der(s.x), ac.floor([s.x]))]),
         ac.DeclarationError,
-        ("Equations: its equations cannot be read ('list' object", "of test_wrong_models.py"),
+        ("floor(...) is list [x]", "of test_wrong_models.py"),
     ),
     "a function of a dict": (
         lambda: own(lambda s: [ac.Eq(ac.der(s.x), ac.sign({1: 2}))]),
@@ -930,13 +930,13 @@ FILES: dict[str, tuple[Any, tuple[str, ...]]] = {
         {"components": {"line": {"class": "Modelica.Electrical.Analog.Lines.TLine2"}}},
         ("components.line.class", "the library does not cover it yet"),
     ),
-    "a class that needs discrete states": (
+    "a class that needs the past": (
         {
             "components": {
-                "c": {"class": "Modelica.Blocks.Logical.OnOffController", "with": {"bandwidth": 1}}
+                "c": {"class": "Modelica.Blocks.Nonlinear.FixedDelay", "with": {"delayTime": 1}}
             }
         },
-        ("components.c: OnOffController needs discrete states",),
+        ("components.c: FixedDelay needs the past of a signal",),
     ),
     "a misspelt modifier": (
         with_mass(lenth=1.0),

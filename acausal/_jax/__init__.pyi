@@ -1,3 +1,4 @@
+from .at_import import configure_with_jax as configure_with_jax
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .differentiation import two_modes as two_modes
 from .dtypes import (
@@ -9,6 +10,28 @@ from .dtypes import (
     precision as precision,
 )
 from .jacobian import value_and_jacobian as value_and_jacobian
+from .primitives import (
+    BARRIER as BARRIER,
+    CALLS as CALLS,
+    WRITTEN_OUT as WRITTEN_OUT,
+    Equation as Equation,
+    bind as bind,
+    called as called,
+    name_of as name_of,
+    scan_of as scan_of,
+    shapes as shapes,
+)
+from .reverse import with_steps as with_steps
 from .scan import Restarts as Restarts, stored_scan as stored_scan
 from .settings import configure as configure, need_double_precision as need_double_precision
-from .tracing import array as array, known as known, traced as traced
+from .side_by_side import (
+    cond_any as cond_any,
+    one_by_one as one_by_one,
+    while_any as while_any,
+)
+from .tracing import (
+    array as array,
+    known as known,
+    traced as traced,
+    without_derivatives as without_derivatives,
+)

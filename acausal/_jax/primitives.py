@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
+import jax
 from jax import Array
 from jax.extend.core import ClosedJaxpr, Jaxpr, JaxprEqn, Literal, Var, jaxpr_as_fun
 
@@ -32,6 +33,12 @@ CALLS = _names(
     "custom_jvp_call custom_vjp_call custom_vjp_call_jaxpr"
 )
 """Operations that call a jaxpr. (Rules for derivatives have been applied before.)"""
+
+WRITTEN_OUT = _names("call_hi_primitive eval_jaxpr")
+"""Further operations that call a jaxpr, from JAX 0.12 on: of roots, for example."""
+
+OBJECT = "_prim"
+"""The parameter of an operation with an object that writes the jaxpr."""
 
 ELEMENTWISE = _names(
     "abs acos acosh add add_any and asin asinh atan atan2 atanh cbrt ceil clamp convert_element_type copy cos "
@@ -144,7 +151,19 @@ def called(equation: Equation) -> ClosedJaxpr:
     for name in CALLED:
         if name in equation.params:
             return _closed(equation.params[name])
+    if OBJECT in equation.params:
+        return _written_out(equation.params[OBJECT], equation)
     raise UnknownEquationError(f"'{name_of(equation)}' has no parameter {' or '.join(CALLED)}")
+
+
+def _written_out(of: Any, equation: Equation) -> ClosedJaxpr:
+    """What an object stands for that is an operation."""
+
+    def expanded(*flat: Any) -> list[Any]:
+        return jax.tree.leaves(of.expand(*jax.tree.unflatten(of.in_tree, flat)))
+
+    given: list[Any] = [v.aval for v in equation.invars]
+    return jax.make_jaxpr(expanded)(*(jax.ShapeDtypeStruct(a.shape, a.dtype) for a in given))
 
 
 def bind(equation: Equation, arrays: Sequence[Array]) -> list[Array]:

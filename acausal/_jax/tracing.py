@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TypeVar
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax import Array
@@ -32,6 +33,11 @@ def known(tree: Tree) -> Tree | None:
 
     found = jax.tree.map(value, tree)
     return None if traced(found) else found
+
+
+def without_derivatives(tree: Tree) -> Tree:
+    """The same values, whose derivatives do not count; what is not an array stays as it is."""
+    return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
 
 
 def array(value: ArrayLike | JaxArrayLike) -> Array:

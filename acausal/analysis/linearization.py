@@ -4,20 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
+from scipy.linalg import expm
 
 from acausal._jax import check_time, is_real
+from acausal.analysis.operating_point import OperatingPoint
 from acausal.by_name import names_in
 from acausal.errors import DataError, need_compiled, shown
 
 if TYPE_CHECKING:
-    from acausal.system import System
+    from control import StateSpace
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from acausal.system import Params, System
+
+
+FREQUENCIES = 400
+"""Points of a Bode plot, besides those around resonances."""
+
+STEP_TIMES = 400
+"""Points of a step response."""
+
+SETTLED = 7.0
+"""After so many time constants a mode has settled: to a thousandth."""
+
+NEGLIGIBLE = 1e-9
+"""Eigenvalues below this part of the largest count as zero."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +63,9 @@ class Linearization:
         """The four matrices, so that ``A, B, C, D = linearize(...)`` works."""
         return iter((self.A, self.B, self.C, self.D))
 
-    def eigenvalues(self) -> Inexact[np.ndarray, " n_states"]:
-        """Eigenvalues of A (the poles), in 1/s, slowest first."""
-        values = np.linalg.eigvals(np.asarray(self.A))
+    def eigenvalues(self) -> Complex[np.ndarray, " n_states"]:
+        """Eigenvalues of A (the poles), in 1/s, slowest first; complex numbers even where all are real."""
+        values = np.linalg.eigvals(np.asarray(self.A)).astype(complex)
         return values[np.lexsort((np.imag(values), np.abs(values)))]
 
     def damping(self) -> Float[np.ndarray, " n_states"]:
@@ -83,39 +102,209 @@ class Linearization:
 
         return np.stack([response(w) for w in np.atleast_1d(omega)])
 
+    def step_response(
+        self, t: Float[ArrayLike, " n"] | float | None = None
+    ) -> tuple[Float[np.ndarray, " n"], Float[np.ndarray, "n n_outputs n_inputs"]]:
+        """The outputs after a unit step of each input, as deviations from the point; exact at every time.
+
+        Arguments:
+            t: times [s], equally spaced from 0, or the last of `STEP_TIMES` such times; by default as long as the
+                slowest mode takes to settle.
+
+        Returns:
+            The times, and the outputs, shape (n, p, m).
+
+        Raises:
+            DataError: for what is not times.
+        """
+        A, B, C, D = (np.asarray(m) for m in (self.A, self.B, self.C, self.D))
+        times = _times(t, self.eigenvalues())
+        n, m = B.shape
+        step = expm(np.block([[A, B], [np.zeros((m, n + m))]]) * (times[1] - times[0]))
+        x = np.zeros((len(times), n, m))
+        for i in range(1, len(times)):
+            x[i] = step[:n, :n] @ x[i - 1] + step[:n, n:]
+        return times, C @ x + D
+
+    def bode(
+        self, omega: Float[ArrayLike, " n"] | None = None, *, axes: Sequence[Axes] | None = None
+    ) -> Figure:
+        """Draw magnitude and phase of every output by every input over the frequency.
+
+        Arguments:
+            omega: angular frequencies [rad/s]; by default around the model's modes.
+            axes: two matplotlib axes; by default a new figure's.
+
+        Returns:
+            The matplotlib figure.
+
+        Raises:
+            DataError: without inputs or outputs, and for what is not frequencies.
+        """
+        from acausal.reporting import plot_bode
+
+        omega = self._frequencies(omega)
+        return plot_bode(omega, self._curves(self.frequency_response(omega)), axes=axes)
+
+    def nyquist(
+        self, omega: Float[ArrayLike, " n"] | None = None, *, ax: Axes | None = None
+    ) -> Figure:
+        """Draw the frequency response in the complex plane, with the point -1; arguments and errors as of `bode`."""
+        from acausal.reporting import plot_nyquist
+
+        omega = self._frequencies(omega)
+        return plot_nyquist(self._curves(self.frequency_response(omega)), ax=ax)
+
+    def step(
+        self,
+        t: Float[ArrayLike, " n"] | float | None = None,
+        *,
+        axes: Sequence[Axes] | None = None,
+    ) -> Figure:
+        """Draw the outputs after a unit step of each input, each output in a diagram of its own.
+
+        Arguments:
+            t: as of `step_response`.
+            axes: matplotlib axes, one for each output; by default a new figure's.
+
+        Returns:
+            The matplotlib figure.
+
+        Raises:
+            DataError: without inputs or outputs, and for what is not times.
+        """
+        from acausal.reporting import plot_steps
+
+        self._need_signals()
+        times, y = self.step_response(t)
+        curves = {
+            output: {f"step of {u}": y[:, i, j] for j, u in enumerate(self.inputs)}
+            for i, output in enumerate(self.outputs)
+        }
+        return plot_steps(times, curves, axes=axes)
+
+    def to_control(self) -> StateSpace:
+        """The same for the package python-control, with the names of states, inputs and outputs.
+
+        Its names have no dots: ``motor.w`` is ``motor_w`` there.
+
+        Raises:
+            DataError: if python-control is not installed.
+        """
+        try:
+            from control import StateSpace
+        except ImportError:
+            raise DataError("This needs python-control: pip install 'acausal[control]'.") from None
+        names = {
+            kind: [name.replace(".", "_") for name in given]
+            for kind, given in (
+                ("states", self.states), ("inputs", self.inputs), ("outputs", self.outputs),
+            )
+        }  # fmt: skip
+        return StateSpace(*(np.asarray(m) for m in self), **names)
+
+    def _need_signals(self) -> None:
+        for what, names in (("inputs", self.inputs), ("outputs", self.outputs)):
+            if not names:
+                raise DataError(
+                    f"The linearization has no {what}; "
+                    + (
+                        "the model has none."
+                        if what == "inputs"
+                        else "give linearize(..., outputs=[...])."
+                    )
+                )
+
+    def _frequencies(self, omega: Float[ArrayLike, " n"] | None) -> Float[ArrayLike, " n"]:
+        self._need_signals()
+        return frequencies(self.eigenvalues()) if omega is None else np.atleast_1d(omega)
+
+    def _curves(
+        self, values: Inexact[np.ndarray, "n n_outputs n_inputs"]
+    ) -> dict[str, Inexact[np.ndarray, " n"]]:
+        """The responses by a label for each pair of output and input."""
+        return {
+            f"{y} by {u}" if len(self.inputs) > 1 else y: values[:, i, j]
+            for i, y in enumerate(self.outputs)
+            for j, u in enumerate(self.inputs)
+        }
+
     def __repr__(self) -> str:
         shape = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
-        modes = ", ".join(f"{v:.4g}" for v in self.eigenvalues()[:8])
+        modes = ", ".join(f"{v if v.imag else v.real:.4g}" for v in self.eigenvalues()[:8])
         return f"Linearization({shape}; eigenvalues {modes})"
+
+
+def frequencies(modes: Complex[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """Angular frequencies [rad/s] that show a model's modes: a decade to either side, closer around resonances."""
+    size = np.abs(modes)[np.abs(modes) > NEGLIGIBLE * np.max(np.abs(modes), initial=0.0)]
+    low, high = (np.log10(size.min()), np.log10(size.max())) if len(size) else (0.0, 0.0)
+    omega = np.logspace(np.floor(low - 0.5), np.ceil(high + 0.5), FREQUENCIES)
+    resonant = modes[np.abs(np.imag(modes)) > np.abs(np.real(modes))]
+    around = np.multiply.outer(np.abs(resonant), 1 + np.linspace(-0.1, 0.1, 40))
+    return np.unique(np.concatenate([omega, around.ravel()]))
+
+
+def _times(
+    t: Float[ArrayLike, " n"] | float | None, modes: Complex[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """Equal steps from 0."""
+    if t is None:
+        rates = -np.real(modes)
+        damped = rates[rates > NEGLIGIBLE * np.max(np.abs(modes), initial=0.0)]
+        t = SETTLED / damped.min() if len(damped) else 1.0
+    if not is_real(t):
+        raise DataError(f"t={shown(t)} are not times; give seconds.")
+    times = np.asarray(t, float)
+    times = np.linspace(0.0, times, STEP_TIMES) if times.ndim == 0 else times
+    wrong = times.ndim != 1 or len(times) < 2 or not np.isfinite(times).all() or times[-1] <= 0
+    if wrong or times[0] or not np.allclose(np.diff(times), times[-1] / (len(times) - 1)):
+        raise DataError(f"t={shown(t)} are not times; give equal steps from 0, or the last time.")
+    return times
 
 
 def linearize(
     system: System,
-    x: Mapping[str, ArrayLike] | Float[ArrayLike, " n_states"] | None = None,
-    u: Mapping[str, ArrayLike] | Float[ArrayLike, " n_inputs"] | None = None,
+    x: Mapping[str, ArrayLike]
+    | Float[ArrayLike, " n_states"]
+    | OperatingPoint
+    | Literal["steady"]
+    | None = None,
+    u: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
     *,
+    inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
     outputs: str | Sequence[str] = (),
-    params: Mapping[str, Any] | None = None,
-    t: float = 0.0,
+    params: Params | None = None,
+    t: float | None = None,
 ) -> Linearization:
     """Linearize a model at a point.
 
     Arguments:
         system: a compiled model.
         x: states by name (the rest from the model's starts) or all as an array; by default the model's initial state.
-        u: inputs by name (the rest zero) or all as an array; by default zero.
-        outputs: variables to take as outputs. params: parameters, by default the model's own. t: time [s].
+            ``"steady"`` is its rest. An `OperatingPoint` gives states, inputs, parameters and time, unless these are
+            given, too.
+        inputs: by name, numbers or functions of time (the rest zero), or all as an array; by default zero. ``u`` is
+            another name of it.
+        outputs: variables to take as outputs.
+        params: parameters, by default the model's own.
+        t: time [s], by default 0.
 
     Raises:
-        DataError: if ``x`` or ``u`` do not fit the model.
+        DataError: if ``x`` or ``inputs`` do not fit the model.
         ModelError: for an output that the model does not have, and for a model that is not compiled.
     """
     need_compiled(system, "linearize")
     outputs = names_in(outputs, "outputs")
+    if isinstance(x, OperatingPoint):
+        params, t = x.values.packed if params is None else params, x.time if t is None else t
+        inputs = x.u if inputs is None and u is None else inputs
+        x = x.x
+    t = 0.0 if t is None else t
     check_time(t)
     packed = system.pack(params)
-    point = system.input_values(u)
-    state = system.initial_state(packed, x, point, t)
+    point = system.inputs_at(t, inputs, u)
+    state = system.initial_state(packed, x, inputs=point, t0=t)
 
     at = system.values(t, state, point, packed)
 

@@ -4,11 +4,21 @@ In: a `ReducedModel`. Out: a `Program` and the layout of its parameters.
 It knows nothing of initial values, time integration or data.
 """
 
+from acausal.codegen.description import described as described
 from acausal.codegen.equations import explicit_equations as explicit_equations
+from acausal.codegen.event_values import (
+    due as due,
+    guards as guards,
+    holds as holds,
+    jumped as jumped,
+    updated as updated,
+)
+from acausal.codegen.events import Events as Events, generate_events as generate_events
 from acausal.codegen.field import Field as Field
 from acausal.codegen.generator import generate as generate
 from acausal.codegen.instructions import Evaluate as Evaluate
 from acausal.codegen.interpreter import (
+    INSTRUCTION as INSTRUCTION,
     rates as rates,
     rates_and_read as rates_and_read,
     read as read,
@@ -21,7 +31,12 @@ from acausal.codegen.iteration_matrix import (
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
 from acausal.codegen.nonfinite import explain_nonfinite as explain_nonfinite
-from acausal.codegen.packing import default_parameters as default_parameters, pack as pack
+from acausal.codegen.packing import (
+    bind as bind,
+    default_parameters as default_parameters,
+    pack as pack,
+    traced_names as traced_names,
+)
 from acausal.codegen.parameters import (
     ParameterLayout as ParameterLayout,
     lay_out_parameters as lay_out_parameters,

@@ -26,7 +26,7 @@ from acausal.codegen.instructions import (
     parameter,
 )
 from acausal.codegen.parameters import ParameterLayout
-from acausal.codegen.program import INPUTS, STATES, ZERO, Program
+from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
 from acausal.flattening import Integers
 from acausal.modeling import ModuleCall, primes, time as internal_time
 
@@ -79,7 +79,7 @@ class _Writer:
             current = stack[-1]
             if current in self._values:
                 stack.pop()
-            elif current[0] in (STATES, INPUTS):
+            elif current[0] in (STATES, INPUTS, DISCRETE):
                 self._values[current] = self.symbol(current)
             else:
                 i = self.program.filled_by[current[0]]

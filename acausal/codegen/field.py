@@ -20,16 +20,18 @@ class Field:
 
     Attributes:
         t: time [s]. u: inputs, shape (n_inputs,). packed: parameters.
+        d: discrete variables, shape (n_discrete,), or None.
     """
 
     program: Program
     t: ArrayLike
     u: Array
     packed: Packed
+    d: Array | None = None
 
     def __call__(self, x: Float[Array, " n"]) -> Float[Array, " n"]:
         """Derivatives of the states."""
-        return rates(self.program, self._values(x))
+        return rates(self.program, self.values(x))
 
     def loop_unknowns(self, loops: Sequence[int], x: Float[Array, " n"]) -> Float[Array, " m"]:
         """The unknowns of some loops at their solution, one loop behind the other.
@@ -38,7 +40,7 @@ class Field:
             loops: numbers of instructions that solve algebraic loops. x: states.
         """
         return jnp.concatenate(
-            [jnp.atleast_1d(a) for a in results(self.program, self._values(x), loops)]
+            [jnp.atleast_1d(a) for a in results(self.program, self.values(x), loops)]
         )
 
     def with_open_loops(
@@ -53,8 +55,9 @@ class Field:
             outputs, size = (getattr(self.program.instructions[i], a) for a in ("outputs", "size"))
             own, unknowns = unknowns[: outputs * size], unknowns[outputs * size :]
             given[i] = list(own.reshape((outputs, size) if size > 1 else (outputs,)))
-        dx, residuals = rates_and_residuals(self.program, self._values(x), given)
+        dx, residuals = rates_and_residuals(self.program, self.values(x), given)
         return jnp.concatenate([dx, *map(jnp.atleast_1d, residuals)])
 
-    def _values(self, x: Array) -> Values:
-        return Values(self.t, x, self.u, self.packed)
+    def values(self, x: Float[Array, " n"]) -> Values:
+        """The values at some states."""
+        return Values(self.t, x, self.u, self.packed, self.d)

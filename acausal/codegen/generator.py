@@ -172,7 +172,8 @@ _INSTRUCTION: dict[type, Callable[[_Generator, Any], Instruction]] = {
 def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
     """Lay out values by step and turn every step into array operations."""
     generator = _Generator(reduced, parameters)
-    for nodes in (reduced.states, reduced.inputs, np.asarray([reduced.aliases.zero])):
+    zero = np.asarray([reduced.aliases.zero])
+    for nodes in (reduced.states, reduced.inputs, zero, reduced.discrete):
         generator.place(nodes)
     instructions: list[Instruction] = []
     first: list[int] = []
@@ -188,6 +189,7 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
         generator.values(reduced.rates) if len(reduced.rates) else None,
         reduced.rate_signs,
         reduced.input_signs,
+        reduced.start_values(reduced.discrete),
     )
 
 

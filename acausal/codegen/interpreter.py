@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -17,24 +18,28 @@ from acausal.codegen.instructions import (
     SolveTornLoop,
 )
 from acausal.codegen.lower import evaluate
-from acausal.codegen.program import INPUTS, STATES, ZERO, Program
+from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
 from acausal.codegen.reading import Arrays, read_arguments, read_elements
 from acausal.codegen.sparse_loop import (
     matched_residuals_of_sparse_loop,
     solve_sparse_loop,
 )
+from acausal.codegen.traces import with_kept_traces
 from acausal.codegen.values import Values
+
+INSTRUCTION = "instruction_"
+"""What JAX calls the operations of an instruction, with its number: in profiles, and in what is exported."""
 
 
 def rates(program: Program, values: Values) -> Float[Array, " n_states"]:
     """Derivatives of the states."""
-    return _rates(program, values, _run(program, program.rate_sources, values))
+    return _rates(program, values, run(program, program.rate_sources, values))
 
 
 def read(program: Program, nodes: Sequence[int], values: Values) -> Float[Array, " n_nodes"]:
     """Values of some nodes."""
     wanted = program.gather(nodes)
-    arrays = _run(program, wanted.sources, values)
+    arrays = run(program, wanted.sources, values)
     return jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
 
 
@@ -43,7 +48,7 @@ def rates_and_read(
 ) -> tuple[Float[Array, " n_states"], Float[Array, " n_nodes"]]:
     """Derivatives of the states and values of some nodes; shared values are computed once."""
     wanted = program.gather(nodes)
-    arrays = _run(program, {*wanted.sources, *program.rate_sources}, values)
+    arrays = run(program, {*wanted.sources, *program.rate_sources}, values)
     found = jnp.broadcast_to(read_elements(wanted, arrays), (len(nodes),))
     return _rates(program, values, arrays), found
 
@@ -51,7 +56,7 @@ def rates_and_read(
 def results(program: Program, values: Values, numbers: Sequence[int]) -> list[Array]:
     """The results of some instructions, one array after the other."""
     wanted = [program.first[i] + k for i in numbers for k in range(program.instructions[i].outputs)]
-    arrays = _run(program, wanted, values)
+    arrays = run(program, wanted, values)
     return [arrays[array] for array in wanted]
 
 
@@ -91,21 +96,29 @@ def execute(instruction: Instruction, values: Values, arrays: Arrays) -> list[Ar
     return _EXECUTE[type(instruction)](instruction, values, arrays)
 
 
-def _run(program: Program, wanted: Iterable[int], values: Values) -> list[Any]:
+def run(program: Program, wanted: Iterable[int], values: Values) -> list[Any]:
     """The arrays after the instructions that the wanted ones depend on."""
+    return _run(program, tuple(sorted(set(wanted))), values)
+
+
+@with_kept_traces
+def _run(program: Program, wanted: tuple[int, ...], values: Values) -> list[Any]:
     arrays = _known(program, values)
     for i in program.needed(wanted):
-        _fill(program, arrays, i, execute(program.instructions[i], values, arrays))
+        with jax.named_scope(f"{INSTRUCTION}{i}"):
+            _fill(program, arrays, i, execute(program.instructions[i], values, arrays))
     return arrays
 
 
 def _known(program: Program, values: Values) -> list[Any]:
-    """The arrays before the first instruction: states, inputs with their signs, a zero; the others are empty."""
+    """The arrays before the first instruction: states, inputs with their signs, a zero, discrete variables."""
     signs = program.input_signs
     arrays: list[Any] = [None] * len(program.nodes)
     arrays[STATES] = values.x
     arrays[INPUTS] = values.u if (signs == 1).all() else values.u * signs
     arrays[ZERO] = jnp.zeros((), values.x.dtype)
+    start = program.discrete_start
+    arrays[DISCRETE] = jnp.asarray(start, values.x.dtype) if values.d is None else values.d
     return arrays
 
 

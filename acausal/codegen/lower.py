@@ -273,6 +273,7 @@ RULES: dict[type, LoweringRule] = {
     sp.And: _fold(jnp.logical_and),
     sp.Or: _fold(jnp.logical_or),
     sp.Not: _call(jnp.logical_not),
+    sp.ITE: _call(jnp.where),
     sp.logic.boolalg.BooleanTrue: lambda node, visit: True,
     sp.logic.boolalg.BooleanFalse: lambda node, visit: False,
     ModuleCall: _module,

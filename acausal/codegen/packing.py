@@ -74,12 +74,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
         free = jnp.asarray(known[layout.order])
     if clause := layout.out_of_range(known):
         raise DataError(f"params: {clause}.")
-    arrays = [free]
-    for group in layout.bound:
-        arguments = {symbol: read_elements(g, arrays) for symbol, g in group.arguments}
-        value = jnp.asarray(evaluate(group.expression, arguments))
-        arrays.append(value if group.size == 1 else jnp.broadcast_to(value, (group.size,)))
-    values = jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if layout.bound else free
+    values = bind(layout, free)
     laws = [n for n in layout.module_names if not callable(params[n])]
     if laws:
         raise DataError(f"params: {listing(laws)} must be networks, got {shown(params[laws[0]])}")
@@ -88,6 +83,23 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     }
     # one that many components share stands once, at its own place
     return Packed(values, tuple(modules.get(i) for i in range(len(layout.module_of))))
+
+
+def bind(layout: ParameterLayout, free: Array) -> Array:
+    """All parameters, shape (n_parameters,), from those that are free, in the program's order."""
+    arrays = [free]
+    for group in layout.bound:
+        arguments = {symbol: read_elements(g, arrays) for symbol, g in group.arguments}
+        value = jnp.asarray(evaluate(group.expression, arguments))
+        arrays.append(value if group.size == 1 else jnp.broadcast_to(value, (group.size,)))
+    return jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if layout.bound else free
+
+
+def traced_names(params: object) -> list[str]:
+    """The numbers by name that JAX traces: derivatives by them may be wanted."""
+    if not isinstance(params, Mapping):
+        return []
+    return [str(name) for name, value in params.items() if isinstance(value, Tracer)]
 
 
 def _is_number(value: Any) -> bool:

@@ -1,7 +1,7 @@
 """The program of a model: instructions in solving order, as data that can be run, written down or counted.
 
 Its size depends on the number of distinct formulas, not of components. Values live in a list of arrays: the
-states, the inputs, a zero, then those that the instructions fill.
+states, the inputs, a zero, the discrete variables, then those that the instructions fill.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from acausal.codegen.gather import Gather, gather
 from acausal.codegen.instructions import Instruction
 from acausal.flattening import Integers
 
-STATES, INPUTS, ZERO = 0, 1, 2
+STATES, INPUTS, ZERO, DISCRETE = 0, 1, 2, 3
 """The first arrays of every program."""
 
 
@@ -30,6 +31,7 @@ class Program(LeavesCaches):
         instructions: in order; ``first[i]`` is the array that instruction i fills first.
         state_rates: where the derivatives of the states are read, and their signs; None without states.
         input_signs: what inputs are multiplied by before they are read.
+        discrete_start: values of the discrete variables before the first event.
     """
 
     nodes: tuple[Integers, ...]
@@ -38,6 +40,12 @@ class Program(LeavesCaches):
     state_rates: Gather | None
     rate_signs: Integers
     input_signs: Integers
+    discrete_start: np.ndarray
+
+    @cached_property
+    def traces(self) -> dict[tuple[int, ...], Any]:
+        """What JAX has traced of it, by the arrays that are wanted."""
+        return {}
 
     @cached_property
     def sizes(self) -> tuple[int, ...]:

@@ -34,9 +34,11 @@ class Values(NamedTuple):
         x: states, shape (n_states,).
         u: inputs, shape (n_inputs,).
         packed: parameters.
+        d: discrete variables, shape (n_discrete,); None: those at the start, or none.
     """
 
     t: ArrayLike
     x: Array
     u: Array
     packed: Packed
+    d: Array | None = None

@@ -44,7 +44,7 @@ def kept(given: Choices, names: Collection[str]) -> Choices:
 
 
 def check_units(units: Any) -> Mapping[str, str] | None:
-    """Units as given; refuse what has no names, and what is no text."""
+    """Units as given; refuse what has no names, and what is not text."""
     if not isinstance(units, Mapping | None):
         raise DataError(
             f"units={shown(units)} has no names; give a unit by name: {{'mass.s': 'm'}}."

@@ -95,7 +95,7 @@ def _by_name(signals: object) -> Mapping[str, Any]:
     """What is given for each signal.
 
     Raises:
-        DataError: for what has no names, and for a name that is no text, or that occurs twice.
+        DataError: for what has no names, and for a name that is not text, or that occurs twice.
     """
     if is_data_frame(signals):
         return _frame_columns(signals)

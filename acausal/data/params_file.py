@@ -29,7 +29,7 @@ def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None
         path: the file, usually ``….safetensors``.
 
     Raises:
-        DataError: if the file cannot be written, or these are no parameters by name and a path.
+        DataError: if the file cannot be written, or these are not parameters by name and a path.
     """
     if not isinstance(params, Mapping) or not isinstance(path, str | os.PathLike):
         raise DataError(

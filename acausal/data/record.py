@@ -272,6 +272,13 @@ class Data(ByName, Formats):
     def __len__(self) -> int:
         return len(self.time)
 
+    def _repr_html_(self) -> str:
+        from acausal.data.record_view import record_view
+
+        spacing = f"every {self.sample_time:g} s" if self.uniform else "at uneven times"
+        about = f"{len(self)} samples {spacing}, from {self.time[0]:g} to {self.time[-1]:g} s"
+        return record_view(about, self.time, self.signals, self.units or {}, self.counts)
+
     def __repr__(self) -> str:
         spacing = f"{self.sample_time:g} s" if self.uniform else "an uneven time base"
         shares = {n: 1 - count / len(self) for n, count in self.counts.items()}

@@ -30,7 +30,7 @@ def records_of(given: Record | Sequence[Record] | Mapping[str, Record]) -> dict[
             ``"record 2"``, ...; or a mapping from names to records. A mapping with a key ``"time"`` is one record.
 
     Raises:
-        DataError: for anything else, for an empty collection, for a name that is no text or an empty one, and for
+        DataError: for anything else, for an empty collection, for a name that is not text or an empty one, and for
             a record that `Data.of` refuses, with its name.
     """
     if _is_one_record(given):

@@ -5,8 +5,18 @@ It knows declarations; neither JAX nor any later stage.
 """
 
 from acausal.flattening.bindings import Binding as Binding, binding_levels as binding_levels
-from acausal.flattening.equation_group import EquationGroup as EquationGroup
+from acausal.flattening.equation_group import (
+    EquationGroup as EquationGroup,
+    GuardGroup as GuardGroup,
+    UpdateGroup as UpdateGroup,
+)
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
+from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
+from acausal.flattening.reading import (
+    equations_of as equations_of,
+    read_statements as read_statements,
+)
+from acausal.flattening.stated import HIDDEN as HIDDEN
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template

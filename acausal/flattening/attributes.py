@@ -46,7 +46,7 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
     start_of_form: dict[tuple[int, int], tuple[int, Binding]] = {}
     for number, component in enumerate(layout.components):
         form_number = int(layout.form_of[number])
-        for index, path, d in named[form_number]:  # the start is a parameter
+        for index, path, d in named[form_number]:  # the start is a parameter, or a number
             modifiers = component._node.modifiers
             if modifiers.get(d.name, Start()).value is not None:
                 continue
@@ -55,6 +55,9 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
             key = form_number, index
             if key not in start_of_form:
                 value = _element(getattr(component, cast(str, d.start)), path, d.name)
+                if not is_bound(value):
+                    declared.start[variable] = float(value)
+                    continue
                 start_of_form[key] = number, bind(layout, variable, value, layout.variable)
             bindings.append(shifted(layout, *start_of_form[key], number, variable))
         if component._node.modifiers:
@@ -64,7 +67,7 @@ def variable_attributes(layout: Layout) -> VariableAttributes:
 
 
 def _check(layout: Layout, found: VariableAttributes) -> None:
-    """Refuse starts and nominal values that are no numbers to compute with."""
+    """Refuse starts and nominal values that are not numbers to compute with."""
     no_nominal = ~np.isfinite(found.nominal) | (found.nominal == 0)
     checks = (
         ("start", found.start, ~np.isfinite(found.start)),

@@ -111,11 +111,29 @@ def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[Equati
     return tuple(g for g in groups if len(g))
 
 
+def zeros(variables: Integers, origin: str) -> tuple[EquationGroup, ...]:
+    """Equations by which variables are zero."""
+    return (_group(balance((1,), origin), variables[:, None]),) if len(variables) else ()
+
+
 def model_inputs(layout: Layout, connected: ConnectionSets) -> Integers:
     """Input signals that no connection feeds: the inputs of the model, in order of declaration."""
     inputs = _declared(layout, Input)
     fed = {v for signals in connected.sets if signals.kind is None for v in _fed(layout, signals)}
     return np.asarray([v for v in inputs if v not in fed], dtype=np.int64)
+
+
+def model_outputs(layout: Layout, connected: ConnectionSets) -> Integers:
+    """Output signals that no connection takes, and all of the model itself, in order of declaration."""
+    taken = {
+        v
+        for signals in connected.sets
+        if signals.kind is None
+        for v, inner in zip(signals.variables, signals.inner, strict=True)
+        if not inner and v >= layout.variable_base[1]
+    }
+    outputs = [v for v in _declared(layout, Output) if v not in taken]
+    return np.asarray(outputs, dtype=np.int64)
 
 
 def _sources(layout: Layout, signals: _ConnectionSet) -> list[bool]:

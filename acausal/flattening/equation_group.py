@@ -38,3 +38,42 @@ class EquationGroup:
             self.modules[chosen],
             self.components[chosen],
         )
+
+
+@dataclass(frozen=True)
+class GuardGroup:
+    """Conditions that are watched: ``target`` is 1 where the template's residual is positive, else 0.
+
+    Attributes:
+        group: the template and its instances. targets: (n,) the hidden variables.
+        previous: for every slot of a variable whether it takes the value before an event.
+        strict: whether zero counts as false. ticks: whether it is a clock's, false while initial values are found.
+    """
+
+    group: EquationGroup
+    targets: Integers
+    previous: tuple[bool, ...]
+    strict: bool
+    ticks: bool
+
+
+@dataclass(frozen=True)
+class UpdateGroup:
+    """What variables become at an event: the value of the template's residual.
+
+    Attributes:
+        group, targets, previous: as in `GuardGroup`.
+    """
+
+    group: EquationGroup
+    targets: Integers
+    previous: tuple[bool, ...]
+
+
+@dataclass(frozen=True)
+class EventEquations:
+    """What holds at events: conditions, discrete variables, and states that jump."""
+
+    guards: tuple[GuardGroup, ...] = ()
+    updates: tuple[UpdateGroup, ...] = ()
+    jumps: tuple[UpdateGroup, ...] = ()

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
+
+import numpy as np
 
 from acausal.caches import LeavesCaches
 from acausal.flattening.attributes import variable_attributes
 from acausal.flattening.bindings import Binding, parameter_aliases
-from acausal.flattening.connections import connection_groups, connection_sets, model_inputs
-from acausal.flattening.equation_group import EquationGroup
+from acausal.flattening.connections import (
+    connection_groups,
+    connection_sets,
+    model_inputs,
+    model_outputs,
+)
+from acausal.flattening.equation_group import EquationGroup, EventEquations
 from acausal.flattening.instances import instantiate
-from acausal.flattening.layout import Flags, Layout, Numbers, lay_out
+from acausal.flattening.layout import Flags, Layout, Numbers, lay_out, tiled
+from acausal.flattening.silent import Silent
+from acausal.flattening.stated import Stated
 from acausal.flattening.template import Integers
 from acausal.flattening.values import module_values, parameter_values
-from acausal.modeling import PYTHON, Budget, Component, spending
+from acausal.modeling import PYTHON, Budget, Component, Discrete, spending
 
 
 @dataclass(frozen=True)
@@ -27,6 +36,7 @@ class FlatModel(LeavesCaches):
         name: of the model: its class, or the title in its file.
         layout: names of everything.
         groups: all equations, including those of connections; ``initial``: equations at the initial time.
+        events: what holds at events.
         inputs: indices of the variables that are the model's inputs.
         start, fixed, nominal, state: (n_variables,) attributes; ``state`` counts from 0 "never" to 4 "always",
             plus 0.5 where the model's author, not the library, set it.
@@ -35,13 +45,17 @@ class FlatModel(LeavesCaches):
         starts: start values that are expressions of parameters.
         value: (n_parameters,) values (nan where bound); ``bindings``: the bound ones.
         folded: (n_parameters,) whether a parameter is left at a default of zero, or bound to such parameters only.
+        given: discrete variables that are not found at events: inputs, and conditions that nothing else needs.
         module_values: value or factory of every module; an int refers to another module.
+        outputs: output signals that nothing in the model takes.
+        silent: by dotted name, parameters that act through conditions alone that are not events, and how.
     """
 
     name: str
     layout: Layout
     groups: tuple[EquationGroup, ...]
     initial: tuple[EquationGroup, ...]
+    events: EventEquations
     inputs: Integers
     start: Numbers
     fixed: Flags
@@ -54,6 +68,9 @@ class FlatModel(LeavesCaches):
     bindings: tuple[Binding, ...]
     folded: Flags
     module_values: tuple[Callable[..., Any] | int, ...]
+    silent: Mapping[str, Silent]
+    given: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    outputs: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     @property
     def n_variables(self) -> int:
@@ -66,16 +83,26 @@ class FlatModel(LeavesCaches):
         return sum(len(g) for g in self.groups)
 
     @cached_property
+    def discrete(self) -> Integers:
+        """The variables that change at events only: first those of watched conditions, in order of the guards."""
+        local = [[isinstance(v, Discrete) for _, v in f.variables] for f in self.layout.forms]
+        declared = np.flatnonzero(tiled(self.layout, self.layout.variable_base, local, np.bool_))
+        guards = [g.targets for g in self.events.guards]
+        watched = np.concatenate([np.zeros(0, np.int64), *guards])
+        return np.concatenate([watched, np.setdiff1d(declared, [*watched, *self.given])])
+
+    @cached_property
     def parameter_aliases(self) -> Integers:
         """(n_parameters,) for a parameter that is bound to nothing but another one: that one; else itself."""
         return parameter_aliases(self.bindings, len(self.value))
 
 
-def flatten(model: Component, budget: Budget | None = None) -> FlatModel:
+def flatten(model: Component, budget: Budget | None = None, *, watch: bool = False) -> FlatModel:
     """Number the variables of a component tree and instantiate its equations.
 
     Arguments:
         budget: how large the model may become; by default that of its file, or of models in Python.
+        watch: whether conditions that are events in models with others are events in any case.
 
     Raises:
         DeclarationError: for a parameter without a value, an equation that refers to something outside of the model,
@@ -84,12 +111,12 @@ def flatten(model: Component, budget: Budget | None = None) -> FlatModel:
     """
     own = model._node.budget or PYTHON
     with spending(own if budget is None else budget):
-        return _flat(model)
+        return _flat(model, watch)
 
 
-def _flat(model: Component) -> FlatModel:
-    layout = lay_out(model)
-    equations, initial = instantiate(layout)
+def _flat(model: Component, watch: bool) -> FlatModel:
+    layout, statements = lay_out(model, watch=watch)
+    equations, initial, events = instantiate(layout, statements)
     sets = connection_sets(layout)
     attributes, parameters = variable_attributes(layout), parameter_values(layout)
     return FlatModel(
@@ -97,6 +124,7 @@ def _flat(model: Component) -> FlatModel:
         layout=layout,
         groups=(*equations, *connection_groups(layout, sets)),
         initial=initial,
+        events=events,
         inputs=model_inputs(layout, sets),
         start=attributes.start,
         fixed=attributes.fixed,
@@ -109,4 +137,17 @@ def _flat(model: Component) -> FlatModel:
         bindings=parameters.bindings,
         folded=parameters.folded,
         module_values=module_values(layout),
+        silent=_silent(layout, statements),
+        outputs=model_outputs(layout, sets),
     )
+
+
+def _silent(layout: Layout, statements: Sequence[Stated]) -> dict[str, Silent]:
+    """The parameters that act through conditions alone, by dotted name."""
+    if not any(stated.silent for stated in statements):
+        return {}
+    return {
+        f"{path}.{one.parameter}" if path else one.parameter: one
+        for path, form in zip(layout.paths, layout.form_of, strict=True)
+        for one in statements[form].silent
+    }

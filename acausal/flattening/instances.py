@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import traceback
-from collections.abc import Callable, Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,15 +11,23 @@ import sympy as sp
 from sympy.concrete.expr_with_limits import ExprWithLimits
 
 from acausal.errors import DeclarationError, shown
-from acausal.flattening.equation_group import EquationGroup
+from acausal.flattening.equation_group import (
+    EquationGroup,
+    EventEquations,
+    GuardGroup,
+    UpdateGroup,
+)
 from acausal.flattening.layout import Layout, members_of_forms
+from acausal.flattening.reading import read_statements
+from acausal.flattening.stated import Stated, without_events
 from acausal.flattening.template import Integers, Template, slot
 from acausal.modeling import (
     COMPUTABLE,
+    INITIAL,
     Component,
     Eq,
-    InitialParameter,
     Module,
+    Previous,
     Reference,
     Variable,
     charge,
@@ -44,87 +50,92 @@ class _Places:
     modules: tuple[SlotSource, ...]
 
 
-def instantiate(layout: Layout) -> tuple[tuple[EquationGroup, ...], tuple[EquationGroup, ...]]:
-    """All equations, and all initial equations, as groups of instances of templates.
+def instantiate(
+    layout: Layout, statements: Sequence[Stated]
+) -> tuple[tuple[EquationGroup, ...], tuple[EquationGroup, ...], EventEquations]:
+    """All equations, all initial equations, and those of events, as groups of instances of templates.
+
+    Arguments:
+        layout: where everything lies. statements: what the components of each form state.
 
     Raises:
         DeclarationError: for an equation that cannot be read, or refers to something outside of the model.
     """
     equations: list[EquationGroup] = []
     initial: list[EquationGroup] = []
+    guards: list[GuardGroup] = []
+    updates: list[UpdateGroup] = []
+    jumps: list[UpdateGroup] = []
     members = members_of_forms(layout)
     for number, form in enumerate(layout.forms):
-        for groups, stated in (
-            (equations, lambda p=form.prototype: _equations(p)),
-            (initial, form.prototype.initial_equations),
-        ):
-            for equation in _read(form.prototype, stated, len(members[number])):
-                template, places = _template(layout, form.prototype, equation)
-                groups.append(_fill(layout, template, places, members[number]))
+        prototype, own, stated = form.prototype, members[number], statements[number]
+        charge("equations", (len(own) - 1) * len(stated.equations), prototype._node)
+        at_start = read_statements(prototype, prototype.initial_equations, len(own))
+        for groups, some in ((equations, stated.equations), (initial, at_start)):
+            for equation in some:
+                _check_equation(prototype, equation)
+                groups.append(_fill(layout, *_template(layout, prototype, equation), own))
+        for guard in stated.guards:
+            group, previous = _group(layout, prototype, guard.value, guard.text, own)
+            targets = _targets(layout, prototype, guard.target, own)
+            guards.append(GuardGroup(group, targets, previous, guard.strict, guard.ticks))
+        for groups, some in ((updates, stated.updates), (jumps, stated.jumps)):
+            for update in some:
+                group, previous = _group(layout, prototype, update.value, update.text, own)
+                targets = _targets(layout, prototype, update.target, own)
+                groups.append(UpdateGroup(group, targets, previous))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
-    return tuple(equations[i] for i in order), tuple(initial)
+    events = EventEquations(tuple(guards), tuple(updates), tuple(jumps))
+    return tuple(equations[i] for i in order), tuple(initial), events
 
 
-def _equations(component: Component) -> Iterable[Eq]:
-    """A component's equations, those that its modifiers add, and ``der(p) = 0`` for its initial parameters."""
-    yield from component.equations()
-    yield from component._node.bindings
-    for name, declared in component._node.declarations():
-        if isinstance(declared, InitialParameter):
-            yield Eq(der(getattr(component, name)), 0)
-
-
-def _read(component: Component, equations: Callable[[], Iterable[Eq]], instances: int) -> list[Eq]:
-    """The equations of a user's method; an error in it becomes a sentence with the line."""
-    found: list[Eq] = []
-    try:
-        for equation in equations():
-            charge("equations", instances, component._node)
-            found.append(equation)
-        return found
-    except (TypeError, ValueError, ArithmeticError, AttributeError) as error:
-        if isinstance(error, AttributeError) and not _is_sympys(error):
-            raise  # an unknown name in the user's own line
-        reason, line = str(error).partition("\n")[0], _line(error)
-        raise DeclarationError(
-            f"{component._node.label}: its equations cannot be read ({reason}){line}. Yield ac.Eq(left, right) from "
-            "the method, and use ac.sin, ac.where, ... for what depends on variables, not math, numpy or if"
-        ) from None
-    except DeclarationError as error:
-        if component._node.label in str(error):
-            raise
-        raise DeclarationError(f"{component._node.label}{_line(error)}: {error}") from None
-
-
-def _is_sympys(error: Exception) -> bool:
-    """Whether sympy raised an error, which then is about what it was given."""
-    return "sympy" in Path(traceback.extract_tb(error.__traceback__)[-1].filename).parts
-
-
-def _line(error: Exception) -> str:
-    """The line of the user's file that raised an error."""
-    frames = traceback.extract_tb(error.__traceback__)
-    inner = ("site-packages", __file__, str(Path("acausal", "modeling")))
-    own = [f for f in frames if not any(part in f.filename for part in inner)]
-    return f", line {own[-1].lineno} of {Path(own[-1].filename).name}" if own else ""
-
-
-def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template, _Places]:
-    """The template of one equation of a component."""
+def _check_equation(owner: Component, equation: Any) -> None:
     if not isinstance(equation, Eq):
         raise DeclarationError(
             f"{owner._node.label}: equations() yields {shown(equation)}; yield ac.Eq(left, right)"
         )
-    where = f"{type(owner).__name__}: {equation}"
+
+
+def _group(
+    layout: Layout, owner: Component, value: sp.Expr, text: str, members: Integers
+) -> tuple[EquationGroup, tuple[bool, ...]]:
+    """An expression as a template's residual, for all members; and which slots take values before an event."""
+    origin = f"{type(owner).__name__}: {text}"
+    template, places, previous = _expression_template(layout, owner, _without_der(value), origin)
+    return _fill(layout, template, places, members), previous
+
+
+def _targets(layout: Layout, owner: Component, target: Reference, members: Integers) -> Integers:
+    """The variable that each member's equation gives."""
+    route = _route(owner, target, f"{type(owner).__name__}: {target.path}")
+    local = layout.form(layout.position[id(target.owner)]).variable_index[target.path]
+    return layout.variable_base[_owners(layout, members, route)] + local
+
+
+def _template(layout: Layout, owner: Component, stated: Eq) -> tuple[Template, _Places]:
+    """The template of one equation of a component."""
+    equation = without_events(stated)
+    origin = f"{type(owner).__name__}: {_with_names(equation, owner)}"
     residual: Any = _without_der(equation.lhs - equation.rhs)
+    where = f"{type(owner).__name__}: {equation}"
+    template, places, _ = _expression_template(layout, owner, residual, origin, where)
+    return template, places
+
+
+def _expression_template(
+    layout: Layout, owner: Component, residual: Any, origin: str, where: str = ""
+) -> tuple[Template, _Places, tuple[bool, ...]]:
+    """The template of an expression, and for every slot of a variable whether it takes the value before an event."""
+    where = where or origin
     _check_residual(residual, where)
     names: dict[sp.Basic, sp.Basic] = {}
     orders: dict[sp.Symbol, int] = {}
+    previous: dict[sp.Symbol, bool] = {}
     variables: dict[sp.Symbol, SlotSource] = {}
     parameters: dict[sp.Symbol, SlotSource] = {}
     modules: dict[sp.Symbol, SlotSource] = {}
     for symbol in _symbols(residual):
-        if symbol == time:
+        if symbol in (time, INITIAL):
             continue
         reference, order = _undifferentiated(symbol)
         if not isinstance(reference, Reference):
@@ -132,10 +143,11 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
         route = _route(owner, reference, where)
         local = layout.form(layout.position[id(reference.owner)])
         path = ".".join((*route, reference.path))
-        named = names[symbol] = slot(path, order)
+        is_previous = isinstance(symbol, Previous)
+        named = names[symbol] = slot(f"pre({path})" if is_previous else path, order)
         match reference.declaration:
             case Variable():
-                orders[named] = order
+                orders[named], previous[named] = order, is_previous
                 variables[named] = route, local.variable_index[reference.path]
             case Module():
                 modules[named] = route, local.module_index[reference.path]
@@ -147,10 +159,10 @@ def _template(layout: Layout, owner: Component, equation: Eq) -> tuple[Template,
         orders=tuple(orders.values()),
         parameters=tuple(parameters),
         modules=tuple(modules),
-        origin=f"{type(owner).__name__}: {_with_names(equation, owner)}",
+        origin=origin,
     )
     places = (tuple(p.values()) for p in (variables, parameters, modules))
-    return template, _Places(*places)
+    return template, _Places(*places), tuple(previous.values())
 
 
 def _check_residual(residual: sp.Expr, where: str) -> None:
@@ -223,7 +235,9 @@ def _creation_order(symbol: sp.Symbol) -> tuple[int, int]:
 
 
 def _undifferentiated(symbol: sp.Symbol) -> tuple[sp.Symbol, int]:
-    """The symbol that was differentiated, and how often."""
+    """The variable that a symbol stands for, and how often it is differentiated."""
+    if isinstance(symbol, Previous):
+        return symbol.reference, 0
     return (symbol.reference, symbol.order) if isinstance(symbol, _Derived) else (symbol, 0)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any, TypeVar, cast
 
@@ -12,6 +12,9 @@ import numpy as np
 
 from acausal.caches import LeavesCaches
 from acausal.errors import DeclarationError, nearest
+from acausal.flattening.reading import equations_of, read_statements
+from acausal.flattening.silent import silent_parameters
+from acausal.flattening.stated import Stated, asks_for_events, with_events
 from acausal.flattening.template import Integers
 from acausal.modeling import (
     Component,
@@ -150,8 +153,16 @@ class Layout(LeavesCaches):
         return f"{path}.{local}" if path else local
 
 
-def lay_out(model: Component) -> Layout:
-    """Number the components of a tree and everything that they declare."""
+def lay_out(model: Component, *, watch: bool = False) -> tuple[Layout, tuple[Stated, ...]]:
+    """Number the components of a tree and everything that they declare.
+
+    Arguments:
+        model: the tree.
+        watch: whether conditions that are events in models with others are events in any case.
+
+    Returns:
+        The layout, and what the components of each form state: watched conditions are variables, too.
+    """
     components: list[Component] = []
     paths: list[str] = []
     stack: list[tuple[Component, str]] = [(model, "")]
@@ -181,10 +192,12 @@ def lay_out(model: Component) -> Layout:
         form = forms[known[key]]
         charge("elements", len(form.variables) + len(form.parameters), component._node)
 
+    forms, statements = _with_statements(forms, watch)
+
     def base(sizes: list[int]) -> Integers:
         return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64)[form_of])])
 
-    return Layout(
+    layout = Layout(
         components=tuple(components),
         paths=tuple(paths),
         forms=tuple(forms),
@@ -193,6 +206,29 @@ def lay_out(model: Component) -> Layout:
         parameter_base=base([len(f.parameters) for f in forms]),
         module_base=base([len(f.modules) for f in forms]),
     )
+    return layout, statements
+
+
+def _with_statements(forms: list[Form], watch: bool) -> tuple[list[Form], tuple[Stated, ...]]:
+    """The forms with the hidden variables of their events, and what they state."""
+    read = [read_statements(f.prototype, lambda p=f.prototype: equations_of(p), 1) for f in forms]
+    pairs = list(zip(forms, read, strict=True))
+    watched = watch or any(
+        asks_for_events((v for _, v in form.variables), stated) for form, stated in pairs
+    )
+    silent = [silent_parameters(f.prototype, stated, with_events=watched) for f, stated in pairs]
+    if not watched:
+        found = zip(read, silent, strict=True)
+        return forms, tuple(Stated(tuple(stated), silent=some) for stated, some in found)
+    statements = [
+        replace(with_events(form.prototype, stated), silent=some)
+        for (form, stated), some in zip(pairs, silent, strict=True)
+    ]
+    extended = [
+        replace(form, variables=(*form.variables, *stated.hidden))
+        for form, stated in zip(forms, statements, strict=True)
+    ]
+    return extended, tuple(statements)
 
 
 def _located(index: int, base: Integers) -> tuple[int, int]:

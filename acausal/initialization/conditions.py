@@ -90,6 +90,12 @@ class Conditions(LeavesCaches):
         """Start values of the states, shape (n_states,)."""
         return self._starts(packed, self.start_of)
 
+    def discrete_start(self, packed: Packed) -> Float[Array, " n_discrete"]:
+        """Start values of the discrete variables, shape (n_discrete,)."""
+        members, signs = self.reduced.start_members
+        nodes = self.reduced.discrete.tolist()
+        return self._starts(packed, [(int(members[n]), int(signs[n])) for n in nodes])
+
     def residuals(
         self,
         starts: Sequence[FixedStart],
@@ -176,7 +182,12 @@ def initial_conditions(
     fixed = [v < model.n_variables and bool(model.fixed[v]) for v, _ in start_of]
     met = {v for v, _ in start_of}
     resolved = [(v, *reduced.resolve(v)) for v in np.flatnonzero(model.fixed).tolist()]
-    further = [FixedStart(node, sign, v) for v, node, sign in resolved if v not in met]
+    discrete = set(reduced.discrete.tolist())  # their starts hold before the first event
+    further = [
+        FixedStart(node, sign, v)
+        for v, node, sign in resolved
+        if v not in met and node not in discrete
+    ]
     return Conditions(
         reduced,
         program,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import equinox as eqx
 import jax
@@ -15,7 +14,7 @@ import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import is_number, is_real, traced
+from acausal._jax import is_number, is_real, traced, without_derivatives
 from acausal.by_name import ByName, names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
@@ -119,13 +118,32 @@ class Initializer(LeavesCaches):
         t0: float = 0.0,
         steady: bool | Sequence[str] = False,
         least_squares: bool = False,
+        d: Float[Array, " n_discrete"] | None = None,
     ) -> Float[Array, " n_states"]:
-        """Initial states, shape (n_states,); see `System.initial_state`."""
+        """Initial states, shape (n_states,), for given discrete variables; see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
         x, plan = self._posed(packed, {} if x0 is None else x0, steady, least_squares)
-        at = Values(jnp.asarray(t0, float), x, u0, packed)
+        at = Values(jnp.asarray(t0, float), x, u0, packed, d)
         return x if plan is None else self._found(plan, at)[0]
+
+    def start_or_nan(
+        self,
+        packed: Packed,
+        u0: Float[Array, " n_inputs"],
+        t0: float | Array = 0.0,
+    ) -> Float[Array, " n_states"]:
+        """Initial states, or NaN where the conditions cannot all hold: for programs that raise no errors."""
+        x, plan = self._posed(packed, {}, steady=False, least_squares=False)
+        at = Values(jnp.asarray(t0, float), x, u0, packed)
+        if plan is None:
+            return x
+        x, rest, _ = self._found(plan, at)
+        return jnp.where(jnp.all(jnp.abs(rest) < LEFT_OVER), x, jnp.nan)
+
+    def discrete_start(self, packed: Packed) -> Float[Array, " n_discrete"]:
+        """The discrete variables' start values, shape (n_discrete,)."""
+        return self.conditions.discrete_start(packed)
 
     def report(
         self,
@@ -246,7 +264,7 @@ class Initializer(LeavesCaches):
             half = lambda z: jnp.sum(residual(z, at) ** 2) / 2  # noqa: E731
             return jax.grad(half)(z)
 
-        packed, frozen_x = _stop_gradient((start.packed, x))
+        packed, frozen_x = without_derivatives((start.packed, x))
         frozen = start._replace(x=frozen_x, packed=packed)
         if not plan.moved:
             rest = residual(jnp.zeros(0), frozen)
@@ -286,7 +304,7 @@ class Initializer(LeavesCaches):
         moved = [self.names[i] for i in plan.moved]
         held = self._held(plan, found, wrong)
         parts = [
-            f"the initial conditions cannot all hold; left over: {listing(off)}",
+            f"the initial conditions cannot all hold; not met: {listing(off)}",
             f"{len(rest)} conditions, but only {len(moved)} free states"
             + (f" ({listing(moved, 6)})" if moved else ""),
             *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
@@ -321,10 +339,6 @@ def _roles(plan: Plan, jacobian: np.ndarray) -> list[str]:
         "start" if not hit else "chosen" if undetermined else "computed"
         for hit, undetermined in zip(touched, is_open, strict=True)
     ]
-
-
-def _stop_gradient(tree: Any) -> Any:
-    return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
 
 
 def _least_change(residual: Callable[[Array], Array], guess: Array) -> Array:

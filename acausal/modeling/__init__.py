@@ -34,9 +34,11 @@ from acausal.modeling.budget import (
 from acausal.modeling.component import Component as Component
 from acausal.modeling.connector import Connector as Connector
 from acausal.modeling.declarations import (
+    KINDS as KINDS,
     STATE_SELECT as STATE_SELECT,
     TEAR_SELECT as TEAR_SELECT,
     Declaration as Declaration,
+    Discrete as Discrete,
     Flow as Flow,
     InitialParameter as InitialParameter,
     Input as Input,
@@ -49,10 +51,32 @@ from acausal.modeling.declarations import (
     Variable as Variable,
     element_names as element_names,
 )
+from acausal.modeling.documentation import (
+    declarations_of as declarations_of,
+    signature as signature,
+)
 from acausal.modeling.endpoints import (
     Endpoint as Endpoint,
     endpoint_label as endpoint_label,
     owner_and_name as owner_and_name,
+)
+from acausal.modeling.events import (
+    HALF as HALF,
+    INITIAL as INITIAL,
+    Previous as Previous,
+    Reinit as Reinit,
+    Tick as Tick,
+    Watched as Watched,
+    When as When,
+    change as change,
+    condition as condition,
+    edge as edge,
+    initial as initial,
+    literal as literal,
+    number_or_truth as number_or_truth,
+    pre as pre,
+    sample as sample,
+    where as where,
 )
 from acausal.modeling.functions import (
     COMPUTABLE as COMPUTABLE,
@@ -63,8 +87,8 @@ from acausal.modeling.functions import (
     minimum as minimum,
     prescribed as prescribed,
     sign as sign,
-    where as where,
 )
+from acausal.modeling.icon import Icon as Icon, Side as Side
 from acausal.modeling.symbols import (
     Eq as Eq,
     ModuleCall as ModuleCall,
@@ -75,3 +99,4 @@ from acausal.modeling.symbols import (
     references as references,
     time as time,
 )
+from acausal.modeling.whole import Floored as Floored

@@ -73,10 +73,10 @@ def spending(budget: Budget) -> Generator[None]:
     """Charge what is made meanwhile to a budget.
 
     Raises:
-        DeclarationError: for what is no budget.
+        DeclarationError: for what is not a budget.
     """
     if not isinstance(budget, Budget):
-        raise DeclarationError(f"budget={shown(budget)} is no budget; give ac.Budget(...).")
+        raise DeclarationError(f"budget={shown(budget)} is not a budget; give ac.Budget(...).")
     token = _ACTIVE.set(_Account(budget))
     try:
         yield

@@ -11,7 +11,9 @@ from acausal.errors import ConnectionError, DeclarationError, nearest
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
 from acausal.modeling.declarations import Declaration
+from acausal.modeling.documentation import DocumentationOf, SignatureOf
 from acausal.modeling.endpoints import Endpoint, check_lengths, check_pair, is_vector
+from acausal.modeling.icon import Icon
 from acausal.modeling.modifiers import record_modifier
 from acausal.modeling.node import Node
 from acausal.modeling.symbols import Eq
@@ -34,7 +36,13 @@ class Component:
     DISCRETE: ClassVar[tuple[str, ...]] = ()
     """Discrete variables of the Modelica class that this class lacks; files may give them starts."""
 
+    ICON: ClassVar[Icon | None] = None
+    """How diagrams show it; a class without one is a box with the class's name."""
+
     _declared: ClassVar[dict[str, Declaration | Connector]] = {}
+
+    __signature__ = SignatureOf()
+    """What can be given where a component is made, for `help` and editors."""
 
     if TYPE_CHECKING:
 
@@ -70,6 +78,9 @@ class Component:
                 elif name in declared:
                     del declared[name]
         cls._declared = declared
+        text = vars(cls).get("__doc__")
+        if isinstance(text, str):
+            cls.__doc__ = DocumentationOf(text)  # pyright: ignore[reportAttributeAccessIssue]
 
     # -- for subclasses --------------------------------------------------------------------------
 

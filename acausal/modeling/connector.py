@@ -16,6 +16,7 @@ from acausal.modeling.declarations import (
     Variable,
     element_names,
 )
+from acausal.modeling.documentation import DocumentationOf
 from acausal.modeling.symbols import Eq, Owner, elements
 
 
@@ -33,6 +34,7 @@ class Connector:
         second_minus_first: whether ``across`` is the second potential minus the first (as in mechanics) or
             the first minus the second.
         power: whether the difference, or its rate where there is one, times the flow is a power.
+        COLOR: of its wires in diagrams, such as ``"#3b82c4"``; it must be seen on white and on black.
     """
 
     pair: ClassVar[tuple[str, str]] = ("port_a", "port_b")
@@ -42,6 +44,7 @@ class Connector:
     rate: ClassVar[str | None] = None
     second_minus_first: ClassVar[bool] = False
     power: ClassVar[bool] = True
+    COLOR: ClassVar[str] = "#7d8590"
 
     declarations: ClassVar[dict[str, Variable]] = {}
 
@@ -74,6 +77,9 @@ class Connector:
                 names = element_names(name, cast(tuple[int, ...] | None, value.shape))
                 declarations |= dict.fromkeys(names, value)
         cls.declarations = declarations
+        text = vars(cls).get("__doc__")
+        if isinstance(text, str):
+            cls.__doc__ = DocumentationOf(text)  # pyright: ignore[reportAttributeAccessIssue]
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name

@@ -7,20 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
 from acausal.errors import DeclarationError, shown
+from acausal.modeling.stated import call_text
 
 StateSelect = Literal["never", "avoid", "default", "prefer", "always"]
 STATE_SELECT: tuple[StateSelect, ...] = ("never", "avoid", "default", "prefer", "always")
 TearSelect = Literal["never", "avoid", "default", "prefer", "always"]
 TEAR_SELECT: tuple[TearSelect, ...] = ("never", "avoid", "default", "prefer", "always")
+Kind = Literal["real", "bool", "int"]
+KINDS: tuple[Kind, ...] = ("real", "bool", "int")
 DeclaredShape = int | str | tuple[int | str, ...] | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Start:
     """Start value and attributes of a variable, given as its modifier.
 
@@ -35,6 +38,9 @@ class Start:
     fixed: bool | None = None
     nominal: float | None = None
     state: StateSelect | None = None
+
+    def __repr__(self) -> str:
+        return call_text(self)
 
     def __post_init__(self) -> None:
         if self.state is not None and self.state not in STATE_SELECT:
@@ -71,11 +77,19 @@ class Declaration:
         return _declared_in, (self._class, self.name)
 
     @overload
-    def __get__(self, instance: None, owner: type) -> Declaration: ...
+    def __get__(self, instance: None, owner: type) -> Self: ...
     @overload
     def __get__(self, instance: object, owner: type) -> Any: ...
     def __get__(self, instance: Any, owner: type) -> Any:
         return self if instance is None else instance._read(self)
+
+    if TYPE_CHECKING:  # at run time `Component.__setattr__` does it
+
+        def __set__(self, instance: Any, value: Any) -> None:
+            """A modifier: ``resistor.R = 100.0``."""
+
+    def __repr__(self) -> str:
+        return call_text(self)
 
 
 def _declared_in(owner: type, name: str) -> Declaration:
@@ -135,6 +149,33 @@ class Variable(Declaration):
         self.tear = tear
 
 
+class Discrete(Variable):
+    """An unknown that changes at events only, and keeps its value between them.
+
+    It is given by ``ac.Eq(variable, expression)``, which holds at every event, or inside of `When`.
+
+    Arguments:
+        start: the value before the first event.
+        kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``; only a real one has derivatives.
+    """
+
+    def __init__(
+        self,
+        start: Any = 0.0,
+        *,
+        kind: Kind = "real",
+        unit: str = "",
+        shape: DeclaredShape = None,
+        when: str | None = None,
+        doc: str = "",
+    ) -> None:
+        if kind not in KINDS:
+            raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
+        start = float(start) if isinstance(start, bool) else start
+        super().__init__(unit=unit, start=start, fixed=False, shape=shape, when=when, doc=doc)
+        self.kind = kind
+
+
 class InitialParameter(Variable):
     """A parameter that the initial conditions determine (Modelica's ``fixed=false``).
 
@@ -161,7 +202,19 @@ class Flow(Variable):
 
 
 class Input(Variable):
-    """A causal signal that enters; left unconnected it becomes an input of the model."""
+    """A causal signal that enters; left unconnected it becomes an input of the model.
+
+    Arguments:
+        kind: ``"real"``, ``"bool"`` (1 or 0) or ``"int"``. As an input of the model, one that is not real is held from
+            sample to sample unless a record says otherwise.
+        others: as of `Variable`.
+    """
+
+    def __init__(self, *, kind: Kind = "real", **others: Any) -> None:
+        if kind not in KINDS:
+            raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
+        super().__init__(**others)
+        self.kind = kind
 
 
 class Output(Variable):

@@ -7,16 +7,9 @@ from typing import Any
 import sympy as sp
 
 from acausal.modeling.symbols import ModuleCall, time
+from acausal.modeling.whole import floor as floor
 
 maximum, minimum = sp.Max, sp.Min
-
-
-def where(condition: Any, value: Any, otherwise: Any) -> sp.Expr:
-    """``value`` where the condition holds, else ``otherwise``.
-
-    A piecewise expression; chain it for more than two branches. Derivatives are taken branch by branch.
-    """
-    return sp.Piecewise((value, condition), (otherwise, True))
 
 
 class Abs(sp.Abs):
@@ -31,14 +24,6 @@ class sign(sp.sign):  # noqa: N801 (a mathematician's name)
     """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
 
     def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
-        return sp.S.Zero
-
-
-class floor(sp.floor):  # noqa: N801 (a mathematician's name)
-    """The greatest integer not above the argument; piecewise constant, so its derivative counts as zero."""
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Zero."""
         return sp.S.Zero
 
 

@@ -12,6 +12,7 @@ from itertools import count
 from typing import Any, Protocol
 
 import sympy as sp
+from sympy.logic.boolalg import Boolean
 
 from acausal.errors import DeclarationError, shown
 from acausal.modeling.declarations import Declaration, element_names
@@ -103,7 +104,7 @@ class der(sp.Function):  # noqa: N801 (Modelica's name)
     def __new__(cls, argument: Any, **options: Any) -> Any:
         """Of an expression or a number; sympy would read a text."""
         return super().__new__(
-            cls, _expression(argument, "what der(...) differentiates"), **options
+            cls, number_or_expression(argument, "what der(...) differentiates"), **options
         )
 
     def _eval_is_real(self) -> bool:
@@ -160,7 +161,7 @@ class ModuleReference:
 
     def __call__(self, *args: Any) -> Any:
         """The module applied to expressions."""
-        expressions = [_expression(a, f"an argument of {self.symbol.path}") for a in args]
+        expressions = [number_or_expression(a, f"an argument of {self.symbol.path}") for a in args]
         return ModuleCall(self.symbol, sp.Tuple(*[0] * len(args)), *expressions)
 
 
@@ -172,14 +173,24 @@ class Eq:
     rhs: sp.Expr
 
     def __init__(self, lhs: Any, rhs: Any) -> None:
-        object.__setattr__(self, "lhs", _expression(lhs, "an equation's left side"))
-        object.__setattr__(self, "rhs", _expression(rhs, "an equation's right side"))
+        object.__setattr__(self, "lhs", _side(lhs, "an equation's left side"))
+        object.__setattr__(self, "rhs", _side(rhs, "an equation's right side"))
 
     def __str__(self) -> str:
         return f"{self.lhs} = {self.rhs}"
 
 
-def _expression(value: Any, where: str) -> sp.Expr:
+def _side(value: Any, where: str) -> Any:
+    """A side of an equation: an expression, or a condition, which is 1 or 0."""
+    return value if isinstance(value, Boolean) else number_or_expression(value, where)
+
+
+def number_or_expression(value: Any, where: str) -> sp.Expr:
+    """An expression as it is; a finite number as one of sympy's.
+
+    Raises:
+        DeclarationError: for anything else; ``where`` it was found is named.
+    """
     if isinstance(value, sp.Expr):
         return value
     try:

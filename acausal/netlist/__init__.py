@@ -5,5 +5,7 @@ It knows declarations and names of classes; no JAX, no flattening. Text is parse
 """
 
 from acausal.netlist.file import NetlistError as NetlistError
-from acausal.netlist.library import Library as Library
+from acausal.netlist.finding import Found as Found, find as find
+from acausal.netlist.library import Library as Library, installed as installed
 from acausal.netlist.load_save import load as load, save as save
+from acausal.netlist.writer import Writer as Writer

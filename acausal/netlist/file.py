@@ -17,8 +17,10 @@ MODEL_KEYS = (
     "model",
     "parameters",
     "connectors",
+    "variables",
     "components",
     "connections",
+    "equations",
     "initial_equations",
 )
 EXPERIMENT_KEYS = ("start_time", "stop_time", "compare", "unparsed", "description")

@@ -11,7 +11,7 @@ from typing import Any, cast
 import sympy as sp
 
 from acausal.errors import nearest
-from acausal.modeling import Component, Connector, Eq, ModuleReference
+from acausal.modeling import Component, Connector, Eq, ModuleReference, When
 
 START_KEYS = {"start": "value", "fixed": "fixed", "nominal": "nominal", "stateSelect": "state"}
 """Attributes of a variable in a file -> field of `Start`."""
@@ -28,6 +28,8 @@ class FileRecord:
     Attributes:
         experiment: keys of the file that are not part of the model.
         initial: initial equations, as text and as equation.
+        equations: equations and what happens at events, as text and as statement.
+        variables: by name, a variable as the file declares it, and its state then.
         bindings: equations for variables that the file gives a value.
         texts: (part, modifier) -> the modifier in the file, and the state of the part that it led to; part "" holds
             the model's parameters.
@@ -39,6 +41,8 @@ class FileRecord:
 
     experiment: dict[str, Any] = field(default_factory=dict[str, Any])
     initial: list[tuple[str, Eq]] = field(default_factory=list[tuple[str, Eq]])
+    equations: list[tuple[str, Eq | When]] = field(default_factory=list)
+    variables: dict[str, tuple[Any, Any]] = field(default_factory=dict[str, tuple[Any, Any]])
     bindings: list[Eq] = field(default_factory=list[Eq])
     texts: dict[tuple[str, str], tuple[Any, Any]] = field(
         default_factory=dict[tuple[str, str], tuple[Any, Any]]
@@ -63,8 +67,9 @@ class Netlist(Component):
         """The keys of the file that are not part of the model: times of an experiment, notes."""
         return self._file.experiment
 
-    def equations(self) -> Iterator[Eq]:
-        """Equations for variables that the file gives a value."""
+    def equations(self) -> Iterator[Any]:
+        """The equations of the file, and those for variables that it gives a value."""
+        yield from (statement for _, statement in self._file.equations)
         yield from self._file.bindings
 
     def initial_equations(self) -> Iterator[Eq]:
@@ -78,8 +83,8 @@ class Netlist(Component):
 
     def distinguish(self) -> None:
         """Make the equations of the file a constant, so that models with the same parts get forms of their own."""
-        initial = tuple(text for text, _ in self._file.initial)
-        self._node.constants["equations of the file"] = (*map(str, self._file.bindings), *initial)
+        texts = tuple(text for text, _ in (*self._file.equations, *self._file.initial))
+        self._node.constants["equations of the file"] = (*map(str, self._file.bindings), *texts)
 
     def remember_state(self) -> None:
         """Record the present state as that of the file, after an enclosing file has modified this model."""

@@ -47,7 +47,7 @@ def parse(text: str, lookup: Lookup) -> Any:
     Raises:
         ExpressionError: one sentence that says where the expression is wrong.
     """
-    reader = _Reader(text, lookup)
+    reader = Reader(text, lookup)
     value = reader.expression()
     reader.expect_end()
     return value
@@ -59,7 +59,7 @@ def parse_equation(text: str, lookup: Lookup) -> tuple[Any, Any]:
     Raises:
         ExpressionError: one sentence that says where the equation is wrong.
     """
-    reader = _Reader(text, lookup)
+    reader = Reader(text, lookup)
     left = reader.expression()
     reader.take("=")
     right = reader.expression()
@@ -67,8 +67,14 @@ def parse_equation(text: str, lookup: Lookup) -> tuple[Any, Any]:
     return left, right
 
 
-class _Reader(TokenStream):
-    """Recursive descent over the tokens of one text."""
+class Reader(TokenStream):
+    """Recursive descent over the tokens of one text.
+
+    Attributes:
+        events: whether the conditions of ``if`` are events.
+    """
+
+    events: bool = False
 
     def __init__(self, text: str, lookup: Lookup) -> None:
         super().__init__(text)
@@ -89,7 +95,7 @@ class _Reader(TokenStream):
 
     def _choice(self) -> Any:
         self.advance()
-        condition = self._truth(self.expression())
+        condition = self.truth(self.expression())
         self.take("then")
         value = self.expression()
         if self.peek() == "elseif":
@@ -103,7 +109,7 @@ class _Reader(TokenStream):
             otherwise = self.expression()
         if isinstance(condition, bool):
             return value if condition else otherwise
-        return where(condition, self._number(value), self._number(otherwise))
+        return where(condition, self._number(value), self._number(otherwise), events=self.events)
 
     def _any(self) -> Any:
         value = self._all()
@@ -140,9 +146,14 @@ class _Reader(TokenStream):
 
     def _logical(self, function: Any, *values: Any) -> Any:
         self._count()
-        return self._plain(function(*(self._truth(v) for v in values)))
+        return self._plain(function(*(self.truth(v) for v in values)))
 
-    def _truth(self, value: Any) -> Any:
+    def truth(self, value: Any) -> Any:
+        """A condition.
+
+        Raises:
+            ExpressionError: for what is neither true nor false.
+        """
         if not isinstance(value, bool | sp.logic.boolalg.Boolean):
             raise self.wrong(f"{shortened(repr(value))} is neither true nor false")
         return value
@@ -191,7 +202,7 @@ class _Reader(TokenStream):
         if kind == "text":
             return token[1:-1]
         if kind == "name":
-            return self._call(token) if self.peek() == "(" else self._name(token)
+            return self.call(token) if self.peek() == "(" else self._name(token)
         if token == "(":
             value = self.expression()
             self.take(")")
@@ -267,7 +278,8 @@ class _Reader(TokenStream):
             return name == "true"
         raise self.wrong(f"'{shortened(name)}' is not known here")
 
-    def _call(self, name: str) -> Any:
+    def call(self, name: str) -> Any:
+        """The value of a call, whose name has been read."""
         self.take("(")
         given: list[tuple[str, Any]] = []
         if self.peek() != ")":
@@ -276,7 +288,7 @@ class _Reader(TokenStream):
                 self.advance()
                 given.append(self._argument())
         self.take(")")
-        known = function(name)
+        known = self.function(name)
         if known is None:
             return self._record(name, given)
         self._count()
@@ -284,6 +296,10 @@ class _Reader(TokenStream):
             return self._finite(known(*(sp.sympify(self._number(value)) for _, value in given)))
         except (TypeError, ValueError):
             raise self.wrong(f"{name} does not take these arguments") from None
+
+    def function(self, name: str) -> Callable[..., Any] | None:
+        """A function that expressions know; None for others."""
+        return function(name)
 
     def _argument(self) -> tuple[str, Any]:
         """Name ("" where there is none) and value of an argument."""

@@ -37,10 +37,10 @@ from acausal.netlist.file import (
 from acausal.netlist.library import Library
 from acausal.netlist.model import Netlist, attribute, hint, is_left_out
 from acausal.netlist.modifiers import is_count, is_structural, modify
+from acausal.netlist.own_equations import assign, declare, no_name, state
 from acausal.netlist.parser import parse_equation
 from acausal.netlist.scope import IGNORED_KEYS, Scope
 
-NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 PART = re.compile(r"([A-Za-z]\w*)(?:\[([1-9]\d{0,5})\])?", re.ASCII)
 MENTION = re.compile(r"(?<![\w.])[A-Za-z]\w*", re.ASCII)
 
@@ -59,10 +59,14 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
     for name, entry in as_object(document, "connectors", where).items():
         _connector(scope, name, entry, f"{where}: connectors.{shortened(name)}")
     _declare(scope, document, where)
+    for name, entry in as_object(document, "variables", where).items():
+        declare(scope, name, entry, f"{where}: variables.{shortened(name)}")
     for name, entry in as_object(document, "components", where).items():
         _modify(scope, name, entry, f"{where}: components.{shortened(name)}")
     for number, pair in enumerate(as_list(document, "connections", where)):
         _connect(model, pair, f"{where}: connections[{number}]")
+    for number, text in enumerate(as_list(document, "equations", where)):
+        state(scope, text, f"{where}: equations[{number}]")
     for number, text in enumerate(as_list(document, "initial_equations", where)):
         _initial(scope, text, f"{where}: initial_equations[{number}]")
     model.distinguish()
@@ -87,7 +91,7 @@ def _declare(scope: Scope, document: Mapping[str, Any], where: str) -> None:
         ]
         alone = parts[name][0][0] == name
         place = f"{where}: components.{shortened(name)}"
-        _assign(model, name, made[0] if alone else made, place)
+        assign(model, name, made[0] if alone else made, place)
     # Keep them in the order of the file.
     model._file.texts = {("", name): model._file.texts["", name] for name in parameters}
     keys = [key for entries in parts.values() for key, _ in entries]
@@ -143,16 +147,16 @@ def _parameter(scope: Scope, name: str, raw: Any, where: str) -> None:
     value = None if given is None else scope.value(given, where)
     number = isinstance(value, int | float | sp.Expr) and not isinstance(value, bool)
     if attributes.get("fixed", True) is False:
-        _assign(model, name, InitialParameter(unit=declared.get("unit", "")), where)
+        assign(model, name, InitialParameter(unit=declared.get("unit", "")), where)
         if value is not None:
             within(where, lambda: model.modify(**{name: Start(value)}))
     elif number or value is None:
         default = 0.0 if number and value == 0 else None  # a zero that nobody changes is folded
-        _assign(model, name, Parameter(default, **declared), where)
+        assign(model, name, Parameter(default, **declared), where)
         if number and default is None:
             within(where, lambda: model.modify(**{name: value}))
     else:
-        _assign(model, name, value, where)
+        assign(model, name, value, where)
     model.remember("", name, raw)
 
 
@@ -242,11 +246,11 @@ def _connector(scope: Scope, name: str, entry: Any, where: str) -> None:
     if issubclass(cls, Component):
         raise NetlistError(f"{where}: {cls.__name__} is a component, not a connector")
     if "unit" not in attributes:
-        _assign(scope.model, name, cls(), where)
+        assign(scope.model, name, cls(), where)
     elif issubclass(cls, Connector) or not isinstance(attributes["unit"], str):
         raise NetlistError(f"{where}: a unit is a text, and only a signal is given one")
     else:
-        _assign(scope.model, name, cls(unit=attributes["unit"]), where)
+        assign(scope.model, name, cls(unit=attributes["unit"]), where)
 
 
 # -- modifiers, connections, initial equations ---------------------------------------------------------
@@ -327,7 +331,7 @@ def _grouped(entries: Mapping[str, Any], where: str) -> dict[str, list[tuple[str
     for key, entry in entries.items():
         match = PART.fullmatch(key)
         if match is None:
-            raise NetlistError(f"{where}: components.{shortened(key)}: {_no_name(key)}")
+            raise NetlistError(f"{where}: components.{shortened(key)}: {no_name(key)}")
         group = groups.setdefault(match[1], [])
         expected = f"{match[1]}[{len(group) + 1}]" if group or match[2] else key
         if key != expected:
@@ -337,14 +341,3 @@ def _grouped(entries: Mapping[str, Any], where: str) -> dict[str, list[tuple[str
             )
         group.append((key, entry))
     return groups
-
-
-def _assign(model: Netlist, name: str, value: Any, where: str) -> None:
-    if not NAME.fullmatch(name):
-        raise NetlistError(f"{where}: {_no_name(name)}")
-    within(where, lambda: model._claim(name))
-    within(where, lambda: setattr(model, name, value))
-
-
-def _no_name(name: str) -> str:
-    return f"'{shortened(name)}' is not a name; letters, digits and underscores, beginning with a letter"

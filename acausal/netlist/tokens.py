@@ -11,11 +11,11 @@ MAX_LENGTH = 10_000
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    r"|(?P<name>[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?(?:\.[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?)*)"
+    r"|(?P<name>[A-Za-z_]\w*(?:\[\d+(?:,\s*\d+)*\])?(?:\.(?:[A-Za-z_]\w*|'[^'\\.]*')(?:\[\d+(?:,\s*\d+)*\])?)*)"
     r'|(?P<text>"[^"\\]*")'
     r"|(?P<op><=|>=|==|<>|[-+*/^(){}\[\],;=<>]))"
 )
-KEYWORDS = ("if", "then", "elseif", "else", "and", "or", "not")
+KEYWORDS = ("if", "then", "elseif", "else", "and", "or", "not", "when", "elsewhen")
 
 
 class ExpressionError(DeclarationError):

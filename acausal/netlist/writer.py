@@ -67,8 +67,10 @@ class Writer:
         sections = {
             "parameters": self._parameters(model),
             "connectors": connectors,
+            "variables": self._variables(read) if read else {},
             "components": {**placed, **parts},
             "connections": _connections(model),
+            "equations": [text for text, _ in read._file.equations] if read else [],
             "initial_equations": [text for text, _ in read._file.initial] if read else [],
         }
         document: dict[str, Any] = {}
@@ -77,6 +79,10 @@ class Writer:
         document |= {key: experiment[key] for key in LEADING if key in experiment}
         document |= {key: section for key, section in sections.items() if section}
         return document | {key: experiment[key] for key in EXPERIMENT_KEYS if key in experiment}
+
+    def part(self, model: Component, name: str) -> dict[str, Any]:
+        """The entry of one part: its class and modifiers."""
+        return self._part(model, name, model._node.children[name], {})
 
     # -- declarations of a model ---------------------------------------------------------------------
 
@@ -119,6 +125,17 @@ class Writer:
             if attributes and declared.shape is None and text is not None
             else text
         )
+
+    def _variables(self, model: Netlist) -> dict[str, Any]:
+        """The variables of the file, with the starts that they have now."""
+        found: dict[str, Any] = {}
+        for name, (raw, before) in model._file.variables.items():
+            start = model._node.modifiers.get(name)
+            if _same(before, state(model, name)) or not isinstance(start, Start):
+                found[name] = raw
+            else:
+                found[name] = {**raw, **self._start(model, start, f"{model._node.label}.{name}")}
+        return found
 
     def _connectors(self, model: Component) -> dict[str, Any]:
         found: dict[str, Any] = {}

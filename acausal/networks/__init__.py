@@ -31,6 +31,7 @@ from acausal.networks.min_slope import (
 from acausal.networks.mlp import MLP as MLP
 from acausal.networks.monotone import Monotone as Monotone
 from acausal.networks.passive import Passive as Passive, SameSign as SameSign
+from acausal.networks.promises import promises_of as promises_of
 from acausal.networks.scaled import (
     EnergyLaw as EnergyLaw,
     Scaled as Scaled,

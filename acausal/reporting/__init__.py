@@ -6,28 +6,70 @@ with the attributes of a small protocol.
 """
 
 from acausal.reporting.diagram import diagram as diagram
+from acausal.reporting.diagram_picture import diagram_svg as diagram_svg
+from acausal.reporting.frequency import (
+    plot_bode as plot_bode,
+    plot_nyquist as plot_nyquist,
+    plot_steps as plot_steps,
+)
 from acausal.reporting.html import Page as Page, write_json as write_json
+from acausal.reporting.model_view import (
+    MOST_EQUATIONS as MOST_EQUATIONS,
+    Quantity as Quantity,
+    equations_as_latex as equations_as_latex,
+    system_view as system_view,
+)
 from acausal.reporting.over_time import plot_over_time as plot_over_time
+from acausal.reporting.page import (
+    Block as Block,
+    Card as Card,
+    Curve as Curve,
+    Equations as Equations,
+    PageContent as PageContent,
+    Plot as Plot,
+    Role as Role,
+    Section as Section,
+    Tab as Tab,
+    Table as Table,
+    Text as Text,
+    broken_at_gaps as broken_at_gaps,
+    kept_rows as kept_rows,
+    render as render,
+    table as table,
+    titled_sections as titled_sections,
+)
+from acausal.reporting.plain_table import PlainTable as PlainTable
 from acausal.reporting.plot import (
     GUIDE as GUIDE,
     LEARNED as LEARNED,
     TRUTH as TRUTH,
+    UncertainCurve as UncertainCurve,
     plot_band as plot_band,
     plot_guides as plot_guides,
     plot_learned as plot_learned,
     plot_losses as plot_losses,
     plot_modifiers as plot_modifiers,
 )
-from acausal.reporting.profiles import add_profiles as add_profiles, plot_profile as plot_profile
+from acausal.reporting.profiles import (
+    Profiled as Profiled,
+    plot_profile as plot_profile,
+)
 from acausal.reporting.records import (
     add_predictions as add_predictions,
     add_records as add_records,
 )
 from acausal.reporting.sections import (
     LearnedLaw as LearnedLaw,
-    add_divergences as add_divergences,
     add_laws as add_laws,
     add_losses as add_losses,
     add_parameters as add_parameters,
-    add_residuals as add_residuals,
+)
+from acausal.reporting.short_names import Short as Short, shorten as shorten
+from acausal.reporting.svg_plot import SmallCurve as SmallCurve, small_plot as small_plot
+from acausal.reporting.variants import plot_variants as plot_variants
+from acausal.reporting.view import (
+    Html as Html,
+    View as View,
+    html_table as html_table,
+    number as number,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from acausal.errors import AcausalError, DataError, shown
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
-    """Axes one below another, with one time axis, in a figure that notebooks and windows show.
+    """Axes one below another, with one time axis, in a figure that notebooks and windows show, once.
 
     Arguments:
         size: width and height of the figure, in inches.
@@ -24,8 +25,31 @@ def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
         from matplotlib import pyplot as plt
     except ModuleNotFoundError as error:
         raise _missing(error) from None
-    _, grid = plt.subplots(rows, 1, sharex=True, squeeze=False, figsize=size, layout="constrained")
+    figure, grid = plt.subplots(
+        rows, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
+    )
+    figure._ipython_display_ = partial(_show_once, figure)  # pyright: ignore[reportAttributeAccessIssue]
     return list(grid[:, 0])
+
+
+def close(figure: Figure) -> None:
+    """Take a figure of `new_axes` away from what windows and notebooks show."""
+    from matplotlib import pyplot as plt
+
+    plt.close(figure)
+
+
+def _show_once(figure: Figure) -> None:
+    """What a notebook asks first of a figure that it shows.
+
+    A figure that is a cell's result is shown as such; notebooks show open figures at the end of a cell, too, so it is
+    closed before.
+    """
+    import matplotlib as mpl
+
+    if "inline" in mpl.get_backend():
+        close(figure)
+    raise NotImplementedError  # IPython then asks for a picture
 
 
 def new_figure(size: tuple[float, float]) -> Figure:

@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
-from sympy.printing.mathml import MathMLPresentationPrinter
 
 from acausal.errors import DataError, reason
+from acausal.reporting.mathml import mathml
+from acausal.reporting.short_names import Short
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +31,7 @@ th, td { padding: .35rem .9rem; border-bottom: 1px solid var(--line); text-align
 th:first-child, td:first-child { text-align: left; } th { color: var(--soft); font-weight: 600; }
 tr.hit td:last-child::before { content: "\\2713\\00a0"; color: #2e7d43; }
 tr.miss td:last-child::before { content: "\\2717\\00a0"; color: #b0413e; }
-figure { margin: 1.2rem 0; } figure img { max-width: 100%; }
+figure { margin: 1.2rem 0; } figure img, figure svg { max-width: 100%; }
 figcaption { color: var(--soft); font-size: .92rem; max-width: 46rem; }
 .equations { overflow-x: auto; background: #f7f9fb; border-left: 3px solid var(--accent); padding: .6rem 1rem; }
 .equations math { display: block; margin: .7rem 0; font-size: 1.08rem; text-align: left; }
@@ -80,7 +81,8 @@ class Page:
         self, equations: Iterable[sp.Equality], names: Mapping[str, str] | None = None
     ) -> None:
         """Equations as MathML; ``names`` gives some symbols a shorter name, such as ``{"body.m": "m_b"}``."""
-        written = "".join(_mathml(e, dict(names or {})) for e in equations)
+        short = {name: Short.of(other) for name, other in (names or {}).items()}
+        written = "".join(mathml(e, short) for e in equations)
         self._body.append(f'<div class="equations">{written}</div>')
 
     def figure(self, figure: Figure, caption: str, save: Path | None = None) -> None:
@@ -95,6 +97,10 @@ class Page:
             f'<figure><img alt="{alternative}" src="data:image/png;base64,{image}">'
             f"<figcaption>{html.escape(caption)}</figcaption></figure>"
         )
+
+    def drawing(self, svg: str, caption: str) -> None:
+        """An SVG drawing, such as that of `acausal.diagram`, and a caption."""
+        self._body.append(f"<figure>{svg}<figcaption>{html.escape(caption)}</figcaption></figure>")
 
     def write(self, path: str | Path, footer: str = "") -> Path:
         """Write the page and create its folder.
@@ -123,45 +129,3 @@ def write_json(path: str | Path, content: Any) -> Path:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
     return path
-
-
-class _MathML(MathMLPresentationPrinter):
-    """MathML with upright multi-letter names and time derivatives as Newton's dots."""
-
-    dom: Any
-
-    def _print_Derivative(self, e: sp.Derivative) -> Any:
-        over = self.dom.createElement("mover")
-        over.appendChild(self._print(e.expr))
-        over.appendChild(self._mo("\u02d9"))
-        return over
-
-    def _print_AppliedUndef(self, e: Any) -> Any:
-        row = self.dom.createElement("mrow")
-        row.appendChild(self._print(sp.Symbol(e.func.__name__)))
-        row.appendChild(self._mo("("))
-        for i, argument in enumerate(e.args):
-            if i:
-                row.appendChild(self._mo(","))
-            row.appendChild(self._print(argument))
-        row.appendChild(self._mo(")"))
-        return row
-
-    def _mo(self, text: str) -> Any:
-        operator = self.dom.createElement("mo")
-        operator.appendChild(self.dom.createTextNode(text))
-        return operator
-
-
-def _mathml(equation: Any, names: dict[str, str]) -> str:
-    symbols = {s: sp.Symbol(names[s.name]) for s in equation.free_symbols if s.name in names}
-    functions = {
-        f: sp.Function(names[f.func.__name__])(*f.args)
-        for f in equation.atoms(sp.core.function.AppliedUndef)
-        if f.func.__name__ in names
-    }
-    renamed = equation.xreplace(functions).xreplace(symbols)
-    printed: Any = _MathML({"mul_symbol": "⁢"})._print(renamed)
-    return (
-        f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{printed.toxml()}</math>'
-    )

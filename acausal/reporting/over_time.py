@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from jaxtyping import Float
@@ -22,6 +22,7 @@ def plot_over_time(
     units: Mapping[str, str],
     *,
     axes: Sequence[Axes] | None = None,
+    steps: Collection[str] = (),
 ) -> Figure:
     """Plot signals over time, with one diagram for each unit.
 
@@ -30,6 +31,7 @@ def plot_over_time(
         curves: the signals by name.
         units: their units by name; an empty text for pure numbers.
         axes: matplotlib axes, one for each unit; by default those of a new figure.
+        steps: the signals that keep each value until the next.
 
     Returns:
         The figure.
@@ -46,7 +48,8 @@ def plot_over_time(
     diagrams = new_axes(size, len(groups)) if axes is None else _as_many(axes, list(groups))
     for ax, (unit, members) in zip(diagrams, groups.items(), strict=True):
         for name in members:
-            ax.plot(time, curves[name], label=name)
+            style = "steps-post" if name in steps else "default"
+            ax.plot(time, curves[name], label=name, drawstyle=style)
         label = f"in {unit or '1'}"
         ax.set_ylabel(f"{members[0]} {label}" if len(members) == 1 else label)
         if len(members) > 1:

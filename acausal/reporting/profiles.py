@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
 from jaxtyping import Float
 
 from acausal.reporting.drawing import need_axes, new_axes
-from acausal.reporting.html import Page
-from acausal.reporting.sections import AFTER, MEASURED, NARROW, figure
+from acausal.reporting.sections import AFTER, MEASURED, NARROW
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 SHOWN = 4.0
@@ -66,28 +63,6 @@ def plot_profile(profile: Profiled, axes: Any = None) -> Figure:
         axes: matplotlib axes; by default those of a new figure.
     """
     ax = new_axes(NARROW)[0] if axes is None else need_axes(axes, "axes")
-    _draw(ax, profile)
-    return cast("Figure", ax.figure)
-
-
-def add_profiles(page: Page, profiles: Sequence[Profiled]) -> None:
-    """Profiles of parameters, if there are any: whether the data determine them."""
-    if not profiles:
-        return
-    page.section("Profiles")
-    page.text(
-        "Everything else is trained again where one parameter is held. Values below the dotted line agree with the "
-        "data; where a curve stays below it, the parameter is not identifiable."
-    )
-    for profile in profiles:
-        page.text(profile.summary())
-        page.figure(
-            figure(NARROW, lambda ax, profile=profile: _draw(ax, profile)),
-            f"The profile of '{profile.name}'.",
-        )
-
-
-def _draw(ax: Axes, profile: Profiled) -> None:
     ax.plot(profile.values, profile.ratio, "o-", color=AFTER, lw=1.2, ms=3)
     ax.axhline(profile.bound, color=MEASURED, lw=0.9, ls=":")
     ax.axvline(profile.value, color=MEASURED, lw=0.9, ls="--")
@@ -97,3 +72,4 @@ def _draw(ax: Axes, profile: Profiled) -> None:
     unit = "" if profile.unit in ("", "1") else f" in {profile.unit}"
     ax.set(xlabel=f"{profile.name}{unit}", ylabel="likelihood ratio")
     ax.grid(alpha=0.25)
+    return cast("Figure", ax.figure)

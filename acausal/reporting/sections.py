@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -29,9 +29,6 @@ WIDE, NARROW = (9.0, 3.2), (6.0, 3.2)
 MEASURED, AFTER, BEFORE = "#22303c", "#1f77b4", "#d1603d"
 """Colours of curves."""
 
-DIVERGENCES_SHOWN = 50
-"""Divergences that are listed."""
-
 
 class LearnedLaw(NamedTuple):
     """A learned law.
@@ -48,48 +45,6 @@ class LearnedLaw(NamedTuple):
     samples: Float[np.ndarray, " n_samples"]
     argument: str = "argument"
     result: str = ""
-
-
-class Correlated(Protocol):
-    """Correlations of a target's residuals, such as `Residuals`."""
-
-    @property
-    def target(self) -> str:
-        """Its name."""
-        ...
-
-    @property
-    def own(self) -> Float[np.ndarray, " lags"]:
-        """The autocorrelation, from lag 1 on."""
-        ...
-
-    @property
-    def bound(self) -> float:
-        """The size of an autocorrelation that chance reaches."""
-        ...
-
-    @property
-    def inputs(self) -> Mapping[str, Float[np.ndarray, " lags"]]:
-        """By input, the correlation with it, about lag 0."""
-        ...
-
-    @property
-    def bounds(self) -> Mapping[str, float]:
-        """The same bounds by input."""
-        ...
-
-    def summary(self) -> str:
-        """What the correlations mean, as a sentence."""
-        ...
-
-
-class DivergedUpdate(Protocol):
-    """Something that diverged in an update; its text describes it."""
-
-    @property
-    def epoch(self) -> int:
-        """The update."""
-        ...
 
 
 def figure(size: tuple[float, float], draw: Callable[[Axes], None]) -> Figure:
@@ -142,37 +97,3 @@ def add_parameters(
         page.table(header, rows)
     for sentence in remarks:
         page.text(sentence)
-
-
-def add_residuals(page: Page, found: Sequence[Correlated]) -> None:
-    """Correlations of residuals with themselves and with inputs, target by target."""
-    page.section("Residuals")
-    for residuals in found:
-        page.text(residuals.summary())
-        rows = {"itself": (residuals.own, residuals.bound)}
-        rows |= {n: (c, residuals.bounds[n]) for n, c in residuals.inputs.items()}
-
-        def draw(ax: Axes, rows: Mapping[str, tuple[np.ndarray, float]] = rows) -> None:
-            for label, (values, bound) in rows.items():
-                lags = np.arange(len(values)) + (1 if label == "itself" else -(len(values) // 2))
-                (line,) = ax.plot(lags, values, lw=1.1, label=f"with {label}")
-                for side in (-bound, bound):
-                    ax.plot(lags[[0, -1]], [side, side], color=line.get_color(), lw=0.9, ls=":")
-            ax.set(xlabel="lag [samples]", ylabel="correlation")
-            ax.grid(alpha=0.25)
-            ax.legend(frameon=False)
-
-        page.figure(
-            figure(WIDE, draw),
-            f"Correlations of the residuals of '{residuals.target}'; dotted, what chance reaches.",
-        )
-
-
-def add_divergences(page: Page, divergences: Sequence[DivergedUpdate]) -> None:
-    """The divergences of a training, if there are any."""
-    if not divergences:
-        return
-    page.section("What diverged")
-    page.text(f"{len(divergences)} times; the first {DIVERGENCES_SHOWN} at most:")
-    rows = [(d.epoch, str(d)) for d in divergences[:DIVERGENCES_SHOWN]]
-    page.table(("epoch", "what"), rows)

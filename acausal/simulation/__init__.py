@@ -16,16 +16,19 @@ from acausal.simulation.fixed_steps import (
     inner_fractions as inner_fractions,
     integrate as integrate,
 )
+from acausal.simulation.hybrid import integrate_with_events as integrate_with_events
 from acausal.simulation.inputs import (
     TimeFunction as TimeFunction,
     announce_derivatives as announce_derivatives,
     functions_of_time as functions_of_time,
 )
+from acausal.simulation.log import Log as Log
 from acausal.simulation.sampled_inputs import (
     Samples as Samples,
     polynomials_over_steps as polynomials_over_steps,
 )
 from acausal.simulation.simulate import simulate as simulate
+from acausal.simulation.sliders import sliders as sliders
 from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
     BDF as BDF,
@@ -37,3 +40,4 @@ from acausal.simulation.solvers import (
     solver_named as solver_named,
 )
 from acausal.simulation.stability import long_steps as long_steps
+from acausal.simulation.sweep import Sweep as Sweep, sweep as sweep

@@ -20,6 +20,7 @@ from acausal._jax import Restarts, stored_scan
 from acausal.codegen import Values
 from acausal.data import deviation_from_line
 from acausal.simulation.inputs import TimeFunction
+from acausal.simulation.log import Log
 from acausal.simulation.sampled_inputs import Samples
 from acausal.simulation.solvers import EXPLICIT, Scheme
 
@@ -112,11 +113,13 @@ class Runs(eqx.Module):
         restarts: where they begin, and with which state.
         own: of the parameters that differ from run to run, their values at every step.
         places: where these lie in `Packed.values`.
+        count: how many there are.
     """
 
     restarts: Restarts
     own: Float[Array, "n n_own"] | None = None
     places: tuple[int, ...] = eqx.field(static=True, default=())
+    count: int = eqx.field(static=True, default=0)
 
 
 class Integrated(NamedTuple):
@@ -126,11 +129,13 @@ class Integrated(NamedTuple):
         x: the states at the steps' starts, shape (n, n_states).
         y: the outputs there, shape (n, n_outputs); ``None`` without any.
         end: the state after the last step, shape (n_states,).
+        log: what has happened, by a clock that begins with the first step; ``None`` for a model without events.
     """
 
     x: Float[Array, "n n_states"]
     y: Float[Array, "n n_outputs"] | None
     end: State
+    log: Log | None = None
 
 
 def integrate(

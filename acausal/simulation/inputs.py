@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Set
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
 import equinox as eqx
@@ -17,6 +17,7 @@ from acausal._jax import is_real, traced
 from acausal.by_name import names_in
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
+from acausal.simulation.host_function import on_host
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -33,7 +34,7 @@ KINKS = 10_000
 """Adaptive steps end at the samples of an input that is interpolated linearly, if these are at most so many."""
 
 STRAIGHT = 1e-9
-"""A change of slope that is no corner, relative to the largest slope."""
+"""A change of slope that is not a corner, relative to the largest slope."""
 
 REACHES = 0.01
 """Samples reach a time that lies beyond them by less than this part of a sample time: times are rounded."""
@@ -50,7 +51,7 @@ class Constant(eqx.Module):
 
 
 class Function(eqx.Module):
-    """A user's function of time, as an input."""
+    """A user's function of time, as an input; one that JAX can trace."""
 
     function: Callable[[ArrayLike], ArrayLike]
     name: str = eqx.field(static=True)
@@ -59,16 +60,10 @@ class Function(eqx.Module):
         """The function's value as a scalar array.
 
         Raises:
-            DataError: for a function that JAX cannot trace, that cannot be called with the time alone, or that does
-                not return a real scalar.
+            DataError: for a function that cannot be called with the time alone, or that does not return a real scalar.
         """
         try:
             value = self.function(t)
-        except jax.errors.JAXTypeError as error:
-            raise DataError(
-                f"Input '{self.name}' is a function that JAX cannot trace; write it with jax.numpy "
-                "(jnp.sin, jnp.where), or give samples: (times, values)."
-            ) from error
         except TypeError as error:
             if error.__traceback__ and error.__traceback__.tb_next:  # from inside of it
                 raise
@@ -124,6 +119,7 @@ def functions_of_time(
     given: Mapping[str, Any] | Data,
     span: Span,
     ends: Float[np.ndarray, " n_ends"] | None = None,
+    held: Set[str] = frozenset(),
 ) -> tuple[TimeFunction, ...]:
     """One function of time for each of the model's inputs.
 
@@ -131,10 +127,11 @@ def functions_of_time(
 
     Arguments:
         names: the model's inputs.
-        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; a function of time. Or
+        given: by name, a number; samples at ``ends``; a pair (times, samples); a `Signal`; any function of time. Or
             a record that holds them, in the model's units.
         span: the time for which they are needed.
         ends: ends of the fixed steps, for samples without times.
+        held: the inputs that keep each sample until the next, unless something else is said.
 
     Raises:
         DataError: for an input that is missing, unknown or malformed, that has no derivative where the model needs
@@ -145,10 +142,11 @@ def functions_of_time(
     functions: dict[str, TimeFunction] = {}
     for source in dict.fromkeys(sources.values()):
         kind: Interpolation = "cubic" if source in differentiated else "linear"
+        kind = "previous" if source in held else kind
         if isinstance(given, Data):
             function = given.signal(source, kind)
         else:
-            function = _function(source, given[source], ends, kind)
+            function = _function(source, given[source], ends, kind, span[0])
         functions[source] = _reaching(source, function, span)
     return tuple(_derived(name, source, functions[source]) for name, source in sources.items())
 
@@ -209,11 +207,14 @@ def _function(
     value: object,
     ends: Float[np.ndarray, " n_ends"] | None,
     interpolation: Interpolation,
+    start: float,
 ) -> TimeFunction:
     if isinstance(value, Signal | Constant):
         return value
     if callable(value):
-        return Function(cast(Callable[[ArrayLike], ArrayLike], value), name)
+        return on_host(value, name, start) or Function(
+            cast(Callable[[ArrayLike], ArrayLike], value), name
+        )
     if isinstance(value, tuple) and len(cast(tuple[Any, ...], value)) == 2:
         times, samples = cast(tuple[Any, Any], value)
         return Signal(times, samples, interpolation, name=name)

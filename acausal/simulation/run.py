@@ -53,7 +53,7 @@ class Run(NamedTuple):
         return self.start._replace(t=t, x=jnp.asarray(x), u=evaluate(self.inputs, t))
 
     def check_start(self) -> None:
-        """Refuse an initial state, or inputs at the start, that are not finite."""
+        """Refuse an initial state, or inputs or discrete variables at the start, that are not finite."""
         found = (
             ("The initial value of", self.system.states, self.start.x),
             ("At the start, the input", self.system.inputs, self.start.u),
@@ -64,6 +64,13 @@ class Run(NamedTuple):
             bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
             if len(bad):
                 raise SimulationError(f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.")
+
+        d = self.start.d
+        if d is not None and not traced(d) and not np.isfinite(np.asarray(d)).all():
+            place = int(np.argmin(np.isfinite(np.asarray(d))))
+            what = self.system.describe_discrete(place)
+            period = ", as its period is not above zero" if "sample(" in what else ""
+            raise SimulationError(f"At the start '{what}' is {float(d[place])}{period}.")
 
     def modes(self) -> NDArray[np.complex128]:
         """Eigenvalues of the Jacobian at the start, shape (n,), in 1/s.

@@ -60,7 +60,7 @@ def over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
 
 
 def polynomials_over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
-    """The inputs over fixed steps, all as samples: one that is no polynomial within a step is replaced by one.
+    """The inputs over fixed steps, all as samples: one that is not a polynomial within a step is replaced by one.
 
     It passes through the input at both ends of the step and at `FRACTIONS` of it.
     """

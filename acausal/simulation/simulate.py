@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import diffrax as dfx
 import jax.numpy as jnp
@@ -14,11 +15,13 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_real, need_double_precision, precision, traced
+from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, shown, user_level
 from acausal.simulation import solvers
 from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
+from acausal.simulation.hybrid import simulate_hybrid
 from acausal.simulation.inputs import (
     TimeFunction,
     announce_derivatives,
@@ -33,19 +36,21 @@ from acausal.simulation.step_grid import step_ends
 if TYPE_CHECKING:
     from acausal.system import System
 
+LOGGER = logging.getLogger(__name__)
+
 POINTS = 500
 """Points that an adaptive simulation saves by default."""
 
 
 def simulate(
     system: System,
-    t: tuple[float, float],
+    t: float | tuple[float, float],
     *,
     dt: float | None = None,
     saveat: ArrayLike | None = None,
     inputs: Mapping[str, Any] | Data | None = None,
     params: Mapping[str, Any] | None = None,
-    x0: Mapping[str, ArrayLike] | ArrayLike | None = None,
+    x0: Mapping[str, ArrayLike] | ArrayLike | Literal["steady"] | None = None,
     solver: str | solvers.Solver = "auto",
     rtol: Tolerance = 1e-6,
     atol: Tolerance = 1e-8,
@@ -61,19 +66,22 @@ def simulate(
 
     Arguments:
         system: a compiled model.
-        t: start and end, in seconds.
+        t: start and end, in seconds; one number is the end of a simulation that starts at 0.
         dt: fixed step in seconds; it must divide the span.
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
-            steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time that JAX can trace.
+            steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time. One that JAX
+            can trace is fast; any other is called back from the steps, and differentiated by difference quotients.
             Or a `Data` record or pandas DataFrame that holds the inputs. Samples that fall on the steps' ends cost
             nothing. They must reach from start to end, unless a `Signal` or `Data` says what comes before or after
             them. A derivative of an input, ``der(...)``, can be left out: it is that of the function, or of the
             interpolation, which is then cubic by default.
         params: as `system.parameters` gives them, the default.
-        x0: initial values by name, or the whole state; by default the model's start values.
+        x0: initial values by name, or the whole state; by default the model's start values. ``"steady"`` starts at
+            rest, with the inputs as they are then; fixed starts hold in any case.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
+            ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
         max_steps: limit of adaptive steps.
@@ -97,6 +105,8 @@ def simulate(
     """
     need_compiled(system, "simulate")
     need_double_precision()
+    if solver != "bdf" and not isinstance(solver, solvers.BDF):
+        system = system.watching(traced_names(params))
     check_tolerances(rtol, atol, len(system.states))
     kind = precision(dtype)
     start, end = _span(t)
@@ -106,20 +116,31 @@ def simulate(
     width = 2 + len(system.states) + 3 * len(system.inputs)
     ends = None if dt is None else step_ends(start, end, dt, width)
     given = inputs_by_name(system, inputs)
-    functions = functions_of_time(system.inputs, given, (start, end), ends)
+    functions = functions_of_time(system.inputs, given, (start, end), ends, system.held_inputs)
     _check_times(kind, ends, saved, functions)
     announce_derivatives(system.inputs, given)
     packed = system.pack(params)
     u_start = evaluate_all(functions, jnp.asarray([start]))[0]
-    x_start = system.initial_state(packed, x0, u_start, start)
-    run = Run(system, system.values(start, x_start, u_start, packed), functions, end)
+    steady = isinstance(x0, str) and x0 == "steady"
+    values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
+    run = Run(system, values, functions, end)
     run.check_start()
+    steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"
+    LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
+    if system.events is not None:
+        chosen = _chosen(solver, fixed=ends is not None, events=True)
+        saved = saved if saved is not None else ends
+        ts = np.linspace(start, end, POINTS) if saved is None else saved
+        forward = isinstance(adjoint, dfx.ForwardMode)
+        return simulate_hybrid(
+            run, ts, chosen, rtol, atol, max_steps, kind, ends=ends, forward=forward
+        )
     if ends is not None:
-        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver)
+        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
         direct = isinstance(adjoint, dfx.ForwardMode | dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     ts = np.linspace(start, end, POINTS) if saved is None else saved
-    chosen = None if solver == "auto" else solvers.solver_named(solver)
+    chosen = _chosen(solver)
     forward = isinstance(adjoint, dfx.ForwardMode)
     if adjoint is not None and not forward:
         warnings.warn(
@@ -130,14 +151,22 @@ def simulate(
     return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, kind, forward=forward)
 
 
-def _span(t: tuple[float, float]) -> tuple[float, float]:
+def _chosen(
+    solver: str | solvers.Solver, *, fixed: bool = False, events: bool = False
+) -> solvers.Solver | None:
+    """The solver; None where it is to be chosen by the model."""
+    return None if solver == "auto" else solvers.solver_named(solver, fixed=fixed, events=events)
+
+
+def _span(t: float | tuple[float, float]) -> tuple[float, float]:
     try:
         if not is_real(t):
             raise TypeError
-        start, end = (float(v) for v in t)
+        both = (0.0, t) if np.ndim(t) == 0 else t
+        start, end = (float(v) for v in cast(tuple[float, float], both))
     except (TypeError, ValueError):
         raise DataError(
-            f"t={shown(t)} is not a span of time; give (start, end) in seconds."
+            f"t={shown(t)} is not a span of time; give (start, end) in seconds, or the end."
         ) from None
     if not (np.isfinite(start) and np.isfinite(end) and end > start):
         raise DataError(
@@ -154,7 +183,7 @@ def _check_limit(max_steps: object) -> None:
 def _check_adjoint(adjoint: object) -> None:
     if not (adjoint is None or isinstance(adjoint, dfx.AbstractAdjoint)):
         raise DataError(
-            f"adjoint={shown(adjoint)} is no way to differentiate; leave it out, or give one of diffrax's, such as "
+            f"adjoint={shown(adjoint)} is not a way to differentiate; leave it out, or give one of diffrax's, such as "
             "diffrax.DirectAdjoint()."
         )
 

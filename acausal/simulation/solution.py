@@ -5,9 +5,9 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import equinox as eqx
 import jax
@@ -16,28 +16,34 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import traced
-from acausal.by_name import ByName, names_in
+from acausal.by_name import ByName, matching, names_in
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest, need_path, reason
 from acausal.simulation.finite import warn_of_nonfinite
+from acausal.simulation.inputs import TimeFunction, evaluate_all
+from acausal.simulation.log import Event, Log
 from acausal.simulation.statistics import Statistics
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from pandas import DataFrame
+    from xarray import Dataset
 
     from acausal.system import System
 
-AXES = Values(0, 0, 0, None)  # pyright: ignore[reportArgumentType]
+AXES = Values(0, 0, 0, None, 0)  # pyright: ignore[reportArgumentType]
 """Which of the values in a trajectory have an axis of time."""
+
+CURVES_VIEWED = 12
+"""Variables in the view that a notebook shows."""
 
 
 @partial(
     jax.tree_util.register_dataclass,
-    data_fields=["values", "statistics"],
+    data_fields=["values", "statistics", "log"],
     meta_fields=["system"],
-    drop_fields=["_observed"],
+    drop_fields=["functions", "_observed"],
 )
 @dataclass(frozen=True, eq=False)
 class Solution(ByName):
@@ -55,11 +61,15 @@ class Solution(ByName):
         values: times, states and inputs with a leading axis of n points, and parameters.
         system: the model.
         statistics: what the steps have cost; ``None`` for fixed ones.
+        log: times of the events and what came first, as arrays; `events` has them in words.
+        functions: the inputs as functions of time; not part of what JAX sees, nor of a copy in another process.
     """
 
     values: Values
     system: System
     statistics: Statistics | None = None
+    log: Log | None = None
+    functions: tuple[TimeFunction, ...] | None = field(default=None, repr=False)
     _observed: dict[str, Float[Array, " n"]] = field(
         default_factory=dict[str, Array], init=False, repr=False
     )
@@ -84,6 +94,56 @@ class Solution(ByName):
         """The model's parameters, `system.pack(params)`."""
         return self.values.packed
 
+    @property
+    def d(self) -> Float[Array, "n n_discrete"]:
+        """Discrete variables: those of watched conditions first."""
+        empty = jnp.zeros((self.t.shape[0], 0))
+        return empty if self.values.d is None else self.values.d
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What has happened, in order of time: instants, the condition that changed there first, and what it changed.
+
+        Raises:
+            DataError: while JAX traces, and for runs side by side (`jax.vmap`).
+        """
+        return () if self.log is None else self.log.events(self.system)
+
+    @cached_property
+    def before(self) -> Solution:
+        """All variables just before each event, as far as they are kept: ``run.before["motor.i"]``.
+
+        Raises:
+            DataError: as for `events`; and for a model with inputs, if JAX has returned the solution.
+        """
+        return self._beside(after=False)
+
+    @cached_property
+    def after(self) -> Solution:
+        """All variables just after each event; as `before`."""
+        return self._beside(after=True)
+
+    def _beside(self, *, after: bool) -> Solution:
+        log, n = None if self.log is None else self.log.kept(), len(self.system.states)
+        if log is None:
+            nothing = self.values._replace(t=self.t[:0], x=self.x[:0], u=self.u[:0])
+            return Solution(nothing, self.system)
+        side = log.after if after else log.before
+        t = np.asarray(log.t)[: len(side)]
+        if self.functions is None and self.system.inputs:
+            raise DataError(
+                "The inputs at events are not known of a solution that JAX has returned, or that was copied; "
+                "simulate outside of jax.jit."
+            )
+        at = jnp.asarray(t if after else np.nextafter(t, -np.inf))
+        u = evaluate_all(self.functions or (), at)
+        values = self.values._replace(t=jnp.asarray(t), x=side[:, :n], u=u, d=side[:, n:])
+        return Solution(values, self.system)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without inputs: they may be functions that cannot be pickled."""
+        return {**self.__dict__, "functions": None}
+
     def _column(self, name: str) -> Float[Array, " n"]:
         self._observe((name,))
         return self._observed[name]
@@ -98,9 +158,13 @@ class Solution(ByName):
         """The names that can be asked for."""
         return tuple(dict.fromkeys((*self.system.variables, *self.system.inputs)))
 
+    def unit(self, name: str) -> str:
+        """Unit of a variable, in Modelica's spelling; ``"s"`` for ``time``."""
+        return "s" if name == "time" else self.system.unit(name)
+
     def to_dict(self, names: Iterable[str] | None = None) -> dict[str, Float[np.ndarray, " n"]]:
-        """Time and variables (by default all) as arrays, under ``time`` and their names."""
-        names = self.names if names is None else names_in(names)
+        """Time and variables (by default all) as arrays, under ``time`` and their names; patterns as for `plot`."""
+        names = self.names if names is None else matching(names, self.names)
         return {"time": np.asarray(self.t), **self._columns(names)}
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> DataFrame:
@@ -124,7 +188,7 @@ class Solution(ByName):
             DataError: for an unknown name, or if the file cannot be written.
         """
         path, columns = need_path(path, "to_csv"), self.to_dict(names)
-        units = ("s" if n == "time" else self.system.unit(n) for n in columns)
+        units = map(self.unit, columns)
         try:
             with path.open("w", newline="", encoding="utf-8") as file:
                 writer = csv.writer(file)
@@ -133,11 +197,30 @@ class Solution(ByName):
         except OSError as error:
             raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
 
-    def plot(self, *names: str, axes: Sequence[Axes] | None = None) -> Figure:
+    def to_xarray(self, names: Iterable[str] | None = None) -> Dataset:
+        """An xarray Dataset of the variables (by default all) over ``time``, with their units as attributes.
+
+        Raises:
+            DataError: if xarray is not installed.
+        """
+        try:
+            import xarray as xr
+        except ImportError:
+            raise DataError("A dataset needs xarray: pip install 'acausal[xarray]'.") from None
+        time, columns = np.asarray(self.t), self.to_dict(names)
+        del columns["time"]
+        variables = {n: ("time", c, {"units": self.unit(n)}) for n, c in columns.items()}
+        return xr.Dataset(variables, {"time": ("time", time, {"units": "s"})})
+
+    def plot(self, *names: str | Iterable[str], axes: Sequence[Axes] | None = None) -> Figure:
         """Plot variables over time, those of one unit in one diagram.
 
+        Where events happened, both sides are drawn: what jumps is a vertical line at its instant, and discrete
+        variables are steps.
+
         Arguments:
-            names: the variables; without any, the states.
+            names: the variables, or lists of them; without any, the states. In a pattern, ``*`` stands for a word
+                between dots and ``**`` for any: ``"c.*"`` are the variables of ``c``, ``"**.v"`` all voltages.
             axes: matplotlib axes, one for each unit; by default a new figure's.
 
         Returns:
@@ -145,10 +228,29 @@ class Solution(ByName):
         """
         from acausal.reporting import plot_over_time
 
-        chosen = names_in(names[0] if len(names) == 1 else names)
-        curves = self._columns(chosen or self.system.states)
+        given = [name for some in names for name in names_in(some)]
+        chosen = matching(given, self.names) or self.system.states
+        time, curves = self._with_both_sides(chosen)
         units = {n: self.system.unit(n) for n in curves}
-        return plot_over_time(np.asarray(self.t), curves, units, axes=axes)
+        steps = [n for n in curves if self.system.is_discrete(n)]
+        return plot_over_time(time, curves, units, axes=axes, steps=steps)
+
+    def _with_both_sides(
+        self, names: Sequence[str]
+    ) -> tuple[Float[np.ndarray, " n"], dict[str, Float[np.ndarray, " n"]]]:
+        """Times and variables, with two more points for each event within the times, where these are known."""
+        time, curves = np.asarray(self.t), self._columns(names)
+        known = self.functions is not None or not self.system.inputs
+        if self.log is None or not len(time) or not known or not len(self.before.t):
+            return time, curves
+        events = np.asarray(self.before.t)
+        inside = np.repeat((events >= time[0]) & (events <= time[-1]), 2)
+        both = np.repeat(events, 2)[inside]
+        order = np.argsort(np.concatenate([both, time]), kind="stable")
+        before, after = self.before._columns(names), self.after._columns(names)
+        sides = {n: np.stack([before[n], after[n]], axis=1).ravel()[inside] for n in names}
+        merged = {n: np.concatenate([sides[n], curves[n]])[order] for n in names}
+        return np.concatenate([both, time])[order], merged
 
     def _columns(self, names: Sequence[str]) -> dict[str, Float[np.ndarray, " n"]]:
         self._observe(names)
@@ -166,6 +268,22 @@ class Solution(ByName):
             values = _read_all(self.system, new, self.values)
             self._observed.update(zip(new, values, strict=True))
         warn_of_nonfinite(self.system, self.values, {n: self._observed[n] for n in unread})
+
+    def _repr_html_(self) -> str:
+        from acausal.simulation.solution_view import solution_view
+
+        title = f"Solution of {self.system.flat.name}"
+        if traced(self.t) or self.t.ndim != 1 or not len(self.t):
+            return solution_view(title, [f"shape {self.t.shape}"], np.zeros(0), {}, {})
+        names = (*self.system.states, *self.system.discrete, *self.system.inputs)[:CURVES_VIEWED]
+        time, curves = self._with_both_sides(names or self.names[:CURVES_VIEWED])
+        about = [f"{len(self.t)} points from {float(self.t[0]):g} to {float(self.t[-1]):g} s"]
+        about += [f"{len(self.names)} variables, by name: solution['{self.names[0]}']"]
+        about += [f"{len(self.events)} events"] if self.log is not None else []
+        about += [str(self.statistics)] if self.statistics is not None else []
+        units = {n: self.system.unit(n) for n in curves}
+        steps = [n for n in curves if self.system.is_discrete(n)]
+        return solution_view(title, about, time, curves, units, steps)
 
     def __repr__(self) -> str:
         shape = f"{self.t.shape[0]} points"

@@ -74,15 +74,23 @@ SOLVERS: dict[str, Callable[[], Solver]] = {
 """Solvers by name; any other diffrax solver for ordinary differential equations can be passed itself."""
 
 
-def solver_named(solver: str | Solver) -> Solver:
+def solver_named(solver: str | Solver, *, fixed: bool = False, events: bool = False) -> Solver:
     """A solver from its name, or as it is.
 
+    Arguments:
+        solver: a name of `SOLVERS`, or ``"stiff"``: the best of them for stiff models with such steps.
+        fixed: whether the steps are fixed.
+        events: whether the model has events, which end the steps.
+
     Raises:
-        SimulationError: for a name that is not known, or anything that is no solver of ordinary differential equations.
+        SimulationError: for an unknown name, or anything that is not a solver of ordinary differential equations.
     """
+    if solver == "stiff":
+        solver = "kvaerno3" if fixed else "kvaerno5" if events else "bdf"
     if isinstance(solver, str):
         if solver not in SOLVERS:
-            raise SimulationError(f"No solver '{solver}': {nearest(solver, (*SOLVERS, 'auto'))}")
+            known = (*SOLVERS, "auto", "stiff")
+            raise SimulationError(f"No solver '{solver}': {nearest(solver, known)}")
         return SOLVERS[solver]()
     if isinstance(solver, type) and issubclass(solver, dfx.AbstractSolver | BDF):
         raise SimulationError(f"solver={solver.__name__} is a class: call it, {solver.__name__}().")
@@ -90,7 +98,7 @@ def solver_named(solver: str | Solver) -> Solver:
         return solver
     if not isinstance(solver, dfx.AbstractSolver):
         raise SimulationError(
-            f"solver={shortened(repr(solver))} is no solver; choose one of {', '.join(SOLVERS)}, "
+            f"solver={shortened(repr(solver))} is not a solver; choose one of {', '.join(SOLVERS)}, "
             "or a diffrax solver such as diffrax.Tsit5()."
         )
     if solver.term_structure is not dfx.AbstractTerm:

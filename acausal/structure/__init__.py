@@ -15,4 +15,7 @@ from acausal.structure.elimination_order import (
 )
 from acausal.structure.reduced_model import ReducedModel as ReducedModel, reduce as reduce
 from acausal.structure.sparse_loops import SparseGroup as SparseGroup, SparseLoop as SparseLoop
-from acausal.structure.state_dependence import jacobian_pattern as jacobian_pattern
+from acausal.structure.state_dependence import (
+    dependence_pattern as dependence_pattern,
+    jacobian_pattern as jacobian_pattern,
+)

@@ -223,12 +223,14 @@ def _result(
 def _best_members(model: FlatModel, classes: AliasClasses) -> Integers:
     """For every root the member that gives the class its name.
 
-    An input, else the most wanted state, else the one nearest to the top of the hierarchy, else the first declared.
+    An input, else a discrete variable, else the most wanted state, else the one nearest to the top of the hierarchy,
+    else the first declared.
     """
     n, total = model.n_variables, len(classes.root)
     order = np.arange(total)
     wanted = np.zeros(total)
     wanted[:n] = model.state - 2.0
+    wanted[model.discrete] = 50.0
     wanted[model.inputs] = 100.0
     differentiated = np.zeros(total, dtype=bool)
     differentiated[[b for b in classes.base if b >= 0]] = True

@@ -13,6 +13,7 @@ from acausal.flattening import FlatModel, Integers, Statement
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
+from acausal.structure.discrete import discrete_nodes
 from acausal.structure.jacobian import Point, is_constant, parameter_values, partials
 from acausal.structure.singularity import equation_name
 
@@ -32,6 +33,7 @@ class Equations:
     structure: graph.DifferentialStructure
     sign: list[int]
     base: list[int]
+    discrete: set[int]
     derived_from: dict[int, int] = field(default_factory=dict)
 
     @staticmethod
@@ -48,7 +50,8 @@ class Equations:
             parameters += group.parameters.tolist()
             modules += group.modules.tolist()
             component += group.components.tolist()
-        known = {aliases.zero, *(int(aliases.representative[i]) for i in model.inputs)}
+        discrete = set(discrete_nodes(model, aliases).tolist())
+        known = {aliases.zero, *discrete, *(int(aliases.representative[i]) for i in model.inputs)}
         derivative = aliases.derivative.tolist()
         for node in sorted(known):
             while derivative[node] >= 0:
@@ -75,6 +78,7 @@ class Equations:
             structure,
             aliases.derivative_sign.tolist(),
             aliases.base.tolist(),
+            discrete,
         )
         return system
 
@@ -251,8 +255,8 @@ class Equations:
 
     def _derivative(self, node: int) -> tuple[int, int]:
         """Node and sign of a node's derivative."""
-        if node == self.aliases.zero:
-            return node, 1
+        if node == self.aliases.zero or node in self.discrete:
+            return self.aliases.zero, 1
         derivative = self.structure.derivative_of(node)
         if node in self.known:
             self.known.add(derivative)

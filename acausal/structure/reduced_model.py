@@ -16,6 +16,7 @@ from acausal.flattening import FlatModel, Integers
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree, eliminate_aliases
 from acausal.structure.blocks import SolvingStep, order_steps
+from acausal.structure.discrete import check_jumps, discrete_nodes
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
@@ -36,6 +37,7 @@ class ReducedModel(LeavesCaches):
         inputs: nodes of the inputs; derivatives of inputs, where the equations need them, follow.
         input_orders: for every input, the one that it is a derivative of, and how often it is differentiated.
         input_signs: for every input the sign of its node.
+        discrete: nodes of what changes at events only; first those of watched conditions.
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
@@ -49,6 +51,7 @@ class ReducedModel(LeavesCaches):
     inputs: Integers
     input_orders: tuple[tuple[int, int], ...]
     input_signs: Integers
+    discrete: Integers
     base: Integers
     derivative: Integers
     derivative_sign: Integers
@@ -86,6 +89,11 @@ class ReducedModel(LeavesCaches):
         member[node[order]] = order
         member_sign[node[order]] = sign[order]
         return member, member_sign
+
+    def start_values(self, nodes: Integers) -> np.ndarray:
+        """Start values of nodes that have names, as far as they are numbers."""
+        member, sign = (a[nodes] for a in self.start_members)
+        return sign * self.model.start[member]
 
     def start_guess(self, nodes: Integers) -> np.ndarray:
         """Start values of nodes as far as they are numbers; a little off zero where none was given.
@@ -137,6 +145,7 @@ def reduce(model: FlatModel) -> ReducedModel:
 
 def _order(system: Equations, states: list[int]) -> ReducedModel:
     solved = set(states)
+    check_jumps(system.model, system.aliases, solved)
     unknowns = [v for v in system.unknowns() if v not in solved]
     incidence = [[v for v in row if v not in solved] for row in system.incidence]
     n_nodes = len(system.structure.derivative)
@@ -158,6 +167,7 @@ def _order(system: Equations, states: list[int]) -> ReducedModel:
         inputs=np.asarray(inputs, dtype=np.int64),
         input_orders=tuple(orders),
         input_signs=np.asarray(signs, dtype=np.int64),
+        discrete=discrete_nodes(system.model, system.aliases),
         base=np.asarray(system.base, dtype=np.int64),
         derivative=np.asarray(system.structure.derivative, dtype=np.int64),
         derivative_sign=np.asarray(system.sign, dtype=np.int64),

@@ -52,6 +52,21 @@ def jacobian_pattern(
     return len(columns), *found
 
 
+def dependence_pattern(
+    reduced: ReducedModel, wanted: Integers, sources: Integers, most: int
+) -> tuple[Integers, Integers] | None:
+    """The pairs (i, j) for which node ``wanted[i]`` depends on node ``sources[j]``; None if there are too many.
+
+    Arguments:
+        most: how many dependences may be listed, also of variables that are not wanted.
+    """
+    computations = [_COMPUTATION[type(step)](step) for step in reduced.steps]
+    try:
+        return dependence(computations, sources, wanted, len(reduced.derivative), most)
+    except TooManyError:
+        return None
+
+
 def _table(results: Integers, reads: Integers) -> Computation:
     """Rows that compute ``results[i]`` from ``reads[i]``."""
     rows = np.arange(len(results))

@@ -70,7 +70,7 @@ def build_problem(
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     system.pack(params)  # refuses what does not fit
-    chosen = _networks(options.train, params)
+    chosen = _networks(system, options.train, params)
     changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
     changed = changed.joined(moving)
@@ -90,7 +90,14 @@ def build_problem(
     shooting = "fit" in by_record(data, options.x0)
     solver = _solver(options, dtype)
     records, substeps = lay_out(
-        data, system.inputs, targets, system.states, options.dt, solver=solver, timing=times
+        data,
+        system.inputs,
+        targets,
+        system.states,
+        options.dt,
+        solver=solver,
+        timing=times,
+        held=system.held_inputs,
     )
     for record in data.values():
         announce_derivatives(system.inputs, record)
@@ -139,7 +146,8 @@ def build_problem(
 
 def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     """The steps of the integration: adaptive ones where tolerances or a solver ask for them."""
-    chosen = None if options.solver == "auto" else solver_named(options.solver)
+    fixed = options.dt is not None
+    chosen = None if options.solver == "auto" else solver_named(options.solver, fixed=fixed)
     by_tolerance = options.rtol is not None or options.atol is not None
     if chosen is not None and not isinstance(chosen, BDF) and not by_tolerance:
         return for_fixed_steps(chosen, dtype)
@@ -154,8 +162,11 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     return Adaptive(None if chosen is None else for_adaptive_steps(chosen), rtol, atol)
 
 
-def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[str, ...]:
-    found = networks(params)
+def _networks(
+    system: System, train: Iterable[str] | None, params: Mapping[str, Any]
+) -> tuple[str, ...]:
+    """The networks to train: by default all that an equation calls."""
+    found = [name for name in networks(params) if _is_called(system, name)]
     if train is None:
         return tuple(found)
     chosen = names_in(train, "train")
@@ -163,6 +174,13 @@ def _networks(train: Iterable[str] | None, params: Mapping[str, Any]) -> tuple[s
         if name not in found:
             raise TrainingError(f"There is no network '{name}' to train: {nearest(name, found)}")
     return chosen
+
+
+def _is_called(system: System, network: str) -> bool:
+    """Whether an equation calls a network; an option of its component may have left it out."""
+    layout, groups = system.layout, (g for g in system.flat.groups if g.template.modules)
+    target = layout.own_modules[layout.module_names.index(network)]
+    return any(bool((layout.module_of[group.modules] == target).any()) for group in groups)
 
 
 def _check_targets(system: System, targets: tuple[str, ...]) -> None:
@@ -173,6 +191,12 @@ def _check_targets(system: System, targets: tuple[str, ...]) -> None:
     if driven := [n for n in targets if n in system.inputs]:
         raise TrainingError(
             f"{listing(driven)}: a target is what the model computes, not its input."
+        )
+    modes = [n for n in targets if system.is_mode(n)]
+    if len(modes) == len(targets):
+        raise TrainingError(
+            f"{listing(modes)}: what changes at events only, by whole numbers, has no gradient; fit what changes "
+            f"continuously, and give measured modes: ac.compile(model, inputs={modes})."
         )
 
 

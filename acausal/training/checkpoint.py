@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 import warnings
 from collections.abc import Callable, Generator, Mapping
@@ -16,6 +17,8 @@ from acausal.errors import DataError, TrainingError, listing, reason, user_level
 from acausal.training.history import Rows
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.trainer import State
+
+LOGGER = logging.getLogger(__name__)
 
 KIND = "checkpoint of a training, version 3"
 
@@ -210,6 +213,7 @@ class _Keeper:
         finally:
             self.tried = time.monotonic()
         self.written = self.latest
+        LOGGER.debug("wrote checkpoint %s at epoch %d", self.path, _epochs(logs[0]))
         return None
 
     def _cannot_be_written(self, error: OSError) -> str:

@@ -69,7 +69,7 @@ def cross_validate(
 
     Raises:
         DataError, TrainingError: as `acausal.fit` does; for folds without samples to train on or to be judged on.
-        TypeError: for a keyword that is no option.
+        TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "cross_validate")
     chosen = FitOptions.of("cross_validate", options)

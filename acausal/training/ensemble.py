@@ -164,7 +164,7 @@ def ensemble(
     Raises:
         DataError, TrainingError: as `acausal.fit` does; if there are fewer than two members, or their networks are
             not alike.
-        TypeError: for a keyword that is no option.
+        TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "ensemble")
     if not isinstance(members, int | np.integer) or members < 2:

@@ -58,7 +58,7 @@ def fingerprint(
         seeds: one for each training.
         others: where all but the first training start.
         held: what is held out, if anything is.
-        data: all signals of the records; the start of trained states may follow from one that is no target.
+        data: all signals of the records; the start of trained states may follow from one that is not a target.
     """
     fields = {f.name: getattr(problem, f.name) for f in dataclasses.fields(problem)}
     named = {ARGUMENTS.get(n, n): field for n, field in fields.items() if n not in DERIVED}
@@ -188,7 +188,7 @@ def _pieces(thing: Any, above: tuple[int, ...]) -> Iterator[bytes]:
 
 
 def _number(number: Any) -> bytes:
-    """A number by its value: 1 and 1.0 are alike."""
+    """A number by its value: 1 and 1.0 are the same."""
     whole = isinstance(number, int | np.integer) or float(number).is_integer()
     return repr(int(number) if whole else float(number)).encode()
 

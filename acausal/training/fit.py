@@ -50,7 +50,7 @@ def fit(
     Raises:
         DataError: if the data do not fit the model, or the checkpoint is damaged or of another training.
         TrainingError: if there is nothing to train, the training cannot go on, or no checkpoint can be written.
-        TypeError: for a keyword that is no option.
+        TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "fit")
     chosen = FitOptions.of("fit", options)

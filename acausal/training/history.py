@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.errors import DataError, listing
+from acausal.training.happened import EventChange
 from acausal.training.objective.records import Places
 
 
@@ -62,6 +63,8 @@ class History:
         full_loss: loss over the whole record, (epochs done, loss) in rows.
         validation_loss: loss over the held-out samples, likewise; no rows without validation.
         divergences: what diverged and was left out.
+        events: of a model with events, by record, how many conditions change in it, at each evaluation of
+            ``full_loss``.
     """
 
     loss: Float[np.ndarray, " epochs"]
@@ -71,6 +74,18 @@ class History:
     full_loss: Float[np.ndarray, "k 2"]
     validation_loss: Float[np.ndarray, "k 2"]
     divergences: tuple[Divergence, ...]
+    events: dict[str, Int[np.ndarray, " k"]] = field(default_factory=dict[str, np.ndarray])
+
+    @property
+    def event_changes(self) -> tuple[EventChange, ...]:
+        """Where the number of events has changed from one evaluation to the next: there the loss may jump."""
+        epochs = self.full_loss[:, 0].astype(int).tolist()
+        return tuple(
+            EventChange(epochs[i + 1], epochs[i], int(counts[i + 1]), int(counts[i]), record)
+            for i in range(len(epochs) - 1)
+            for record, counts in self.events.items()
+            if counts[i + 1] != counts[i]
+        )
 
     @property
     def epochs(self) -> int:
@@ -85,11 +100,13 @@ class Evaluation(NamedTuple):
         epoch: updates done.
         loss: over the whole record.
         validation: loss over the held-out samples; NaN without validation.
+        events: how many there are in each record, in a model with events.
     """
 
     epoch: int
     loss: float
     validation: float
+    events: tuple[int, ...] = ()
 
 
 class Rows(NamedTuple):
@@ -106,7 +123,9 @@ class Rows(NamedTuple):
     def columns(self) -> dict[str, np.ndarray]:
         """All of it as arrays: a column each, of all updates, and the evaluations."""
         joined = {n: np.concatenate([c[n] for c in self.chunks]) for n in self.chunks[0]}
-        return {**joined, EVALUATIONS: np.asarray(self.evaluations, float).reshape(-1, 3)}
+        rows = [(*e[:3], *e.events) for e in self.evaluations]
+        width = len(rows[0]) if rows else 3
+        return {**joined, EVALUATIONS: np.asarray(rows, float).reshape(len(rows), width)}
 
 
 EVALUATIONS = "evaluations"
@@ -209,9 +228,9 @@ class Log:
         self.epochs += len(rejected)
         return new
 
-    def evaluated(self, loss: float, validation: float) -> None:
-        """Add a loss over the whole record, and over the held-out samples."""
-        self.evaluations.append(Evaluation(self.epochs, loss, validation))
+    def evaluated(self, loss: float, validation: float, events: tuple[int, ...] = ()) -> None:
+        """Add a loss over the whole record, and over the held-out samples, and the number of events."""
+        self.evaluations.append(Evaluation(self.epochs, loss, validation, events))
 
     @property
     def loss(self) -> float:
@@ -236,7 +255,10 @@ class Log:
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)
         rows = columns[EVALUATIONS].tolist()
-        self.evaluations += [Evaluation(int(epoch), *found) for epoch, *found in rows]
+        self.evaluations += [
+            Evaluation(int(epoch), loss, validation, tuple(map(int, events)))
+            for epoch, loss, validation, *events in rows
+        ]
 
     def history(self) -> History:
         """What was collected."""
@@ -248,8 +270,9 @@ class Log:
             {n: columns[_modifier(n)] for n in self._modifiers},
             columns["seconds"],
             evaluations[:, :2],
-            evaluations[~np.isnan(evaluations[:, 2])][:, ::2],
+            evaluations[~np.isnan(evaluations[:, 2])][:, [0, 2]],
             tuple(self.divergences),
+            dict(zip(self._places.names, evaluations[:, 3:].T.astype(int), strict=False)),
         )
 
 

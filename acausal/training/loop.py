@@ -215,11 +215,17 @@ class _Run:
                 ended - self.began,
                 per_epoch,
                 tuple(new),
+                self._events(),
             )
             for observe in self.observers:
                 observe(progress)
         self._evaluate_all(state)
         self._keep(i, state)
+
+    def _events(self) -> int | None:
+        """How many events there are in all records of the training that is ahead, as last counted."""
+        counted = self.members[self.going[0]].log.evaluations[-1].events
+        return sum(counted) if counted else None
 
     def _choose(self, i: int) -> None:
         """Choose the trainings that go on; their number depends on the updates that were planned up to now."""

@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 
+from acausal.training.happened import events_in
 from acausal.training.history import History, Log
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
@@ -92,7 +93,8 @@ class Member:
         new = Best(
             _finite_or_inf(simulated.loss), validation, self.log.epochs, trainable, simulated
         )
-        self.log.evaluated(new.loss, math.nan if validation is None else validation)
+        events = events_in(self.problem.records, simulated.log)
+        self.log.evaluated(new.loss, math.nan if validation is None else validation, events)
         if (
             self.log.epochs == 0
             or self._deciding(new) < self._deciding(self.best)

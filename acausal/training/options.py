@@ -175,9 +175,9 @@ class FitOptions:
             weight) -> scalar of shapes (M, k), (M, k), (k,), (M, k); averaged over a batch's sequences. The weight is
             zero where nothing is measured. ``"likelihood"``: maximum likelihood of normal errors, in which each target
             counts by its noise, as estimated or given by `acausal.Likelihood`; ``"huber"`` and ``"student"``, or
-            `acausal.Huber` and `acausal.Student`, bear outliers. Sequences estimate the noise each for itself, from
+            `acausal.Huber` and `acausal.Student`, tolerate outliers. Sequences estimate the noise each for itself, from
             some dozens of samples or more.
-        record_weights: ``"samples"``: all samples count alike; ``"records"``: all records do, however long they are;
+        record_weights: ``"samples"``: all samples count equally; ``"records"``: all records do, however long they are;
             or factors of their samples' weights by name of a record, 1 where there is none.
         sample_weights: by target a factor, or a function of time [s] that gives the weight of a sample then; 0 leaves
             it out. Only the ratios of all weights matter. Sequences are drawn as often as their samples count.
@@ -205,7 +205,7 @@ class FitOptions:
         dt: step of the integration in seconds, a whole part of the sample time (the default).
         solver: of the fixed steps, by name or a diffrax solver. ``"auto"`` and ``"bdf"`` choose their steps, and any
             solver with an error estimate does if ``rtol`` or ``atol`` is given. Such steps end at every sample of a
-            model with inputs.
+            model with inputs. ``"stiff"`` is BDF, and Kvaerno3 with ``dt``.
         rtol: relative tolerance of adaptive steps, 1e-6 by default.
         atol: absolute tolerance of adaptive steps in the states' units, 1e-8 by default.
         x0: state at a record's start, for sequences that begin there and for the loss over the whole record:
@@ -331,6 +331,21 @@ class FitOptions:
             if count < 1:
                 raise TrainingError(f"epochs={self.epochs}; at least one is needed.")
 
+    def described(self) -> dict[str, str]:
+        """The options that say how a training was done, as texts by name: those given, and the most important ones."""
+        found = {
+            "strategy": ", then ".join(self.parts),
+            "updates": ", ".join(map(str, self.updates)),
+        }
+        found["optimizer"] = _name_of_optimizer(self)
+        for name in fields(self):
+            value = getattr(self, name.name)
+            important = name.name in ("loss", "solver")
+            if name.name in _NOT_DESCRIBED or not (important or value is not name.default):
+                continue
+            found[name.name] = _in_words(value)
+        return found
+
     @cached_property
     def penalties(self) -> tuple[Regularizer, ...]:
         """The regularizers, also if a single one is given."""
@@ -355,6 +370,33 @@ class FitOptions:
         if isinstance(self.epochs, int | float):
             return (self.epochs,) * len(self.parts)
         return tuple(self.epochs)
+
+
+_NOT_DESCRIBED = (
+    "train", "modifiers", "strategy", "epochs", "optimizer", "devices", "progress", "observers", "checkpoint",
+    "checkpoint_every", "resume",
+)  # fmt: skip
+"""Options that change nothing of the result, or that are told otherwise."""
+
+
+def _name_of_optimizer(options: FitOptions) -> str:
+    if options.optimizer is not None:
+        return "of the user (optax)"
+    known = {"whole_record": "L-BFGS", "gauss_newton": "Levenberg-Marquardt"}
+    adam = "Adam, its rate falling from 0.01 to 0.0001 as a cosine"
+    return ", then ".join(known.get(part, adam) for part in options.parts)
+
+
+def _in_words(value: Any) -> str:
+    """A value of an option as a text without addresses of memory."""
+    if isinstance(value, str | bool | int | float):
+        return str(value)
+    if isinstance(value, Mapping):
+        return ", ".join(f"{n}: {_in_words(v)}" for n, v in cast(Mapping[str, Any], value).items())
+    if isinstance(value, tuple | list):
+        return ", ".join(map(_in_words, cast(Sequence[Any], value)))
+    name = getattr(value, "__name__", type(value).__name__)
+    return name if " at 0x" in repr(value) or len(repr(value)) > 80 else repr(value)
 
 
 Function = TypeVar("Function", bound=Callable[..., Any])

@@ -253,7 +253,7 @@ def _check(problem: Problem, name: str, points: int, width: float, level: float)
     names = problem.modifiers.names
     if name not in names:
         raise TrainingError(
-            f"profile: '{name}' is no parameter that was trained: {nearest(name, names)}"
+            f"profile: '{name}' is not a parameter that was trained: {nearest(name, names)}"
             if names
             else f"profile: '{name}' was not trained; no parameter was, see modifiers=."
         )

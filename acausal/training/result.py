@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,24 +12,17 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from acausal.analysis import Distilled, distill
+from acausal.analysis import Distilled, distill, labels
 from acausal.data import RecordsLike
 from acausal.errors import TrainingError, nearest, need_path
 from acausal.networks import remove_offset
-from acausal.reporting import (
-    LearnedLaw,
-    Page,
-    add_divergences,
-    add_laws,
-    add_losses,
-    add_parameters,
-    add_profiles,
-    add_records,
-    add_residuals,
-)
+from acausal.pages import write_page
+from acausal.reporting import LearnedLaw, PageContent
+from acausal.training.export_with_card import export_with_card
+from acausal.training.fit_page import fit_content
+from acausal.training.fit_view import fit_view
 from acausal.training.history import History
 from acausal.training.member import Trained
-from acausal.training.objective.arguments import labels
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
@@ -92,6 +85,7 @@ class Fit:
         interrupted: whether the user ended it early.
         starts: what several starts of the parameters reached; ``None`` for one.
         problem, trained: the training problem and what was trained, for further questions.
+        settings: how it was trained: the seed and the options, as texts by name.
     """
 
     system: System
@@ -113,6 +107,7 @@ class Fit:
     problem: Problem
     trained: Trainable
     starts: Starts | None = None
+    settings: Mapping[str, str] = field(default_factory=dict[str, str])
 
     @property
     def x0(self) -> dict[str, float]:
@@ -197,7 +192,7 @@ class Fit:
             record: what this record alone determines; by default all together.
 
         Raises:
-            TrainingError: for a name that is no record, or if the model diverges over a record.
+            TrainingError: for a name that is not a record, or if the model diverges over a record.
         """
         if record not in self._confidences:
             problem = self.problem if record is None else self._alone(record)
@@ -267,7 +262,7 @@ class Fit:
         """The residuals of every target: over one record, or over all of them.
 
         Raises:
-            TrainingError: for a name that is no record.
+            TrainingError: for a name that is not a record.
         """
         if record is not None and record not in self.records:
             raise TrainingError(f"There is no record '{record}': {nearest(record, self.records)}")
@@ -305,58 +300,34 @@ class Fit:
         return network
 
     def report(
-        self, folder: str | Path, title: str = "Training", *, profiles: Sequence[Profile] = ()
+        self, path: str | Path, title: str = "Training", *, profiles: Sequence[Profile] = ()
     ) -> Path:
-        """Write a self-contained page about the training, ``index.html`` in a folder; returns its path.
+        """Write a page about the training, one HTML file that needs no network; returns the file.
+
+        It shows the model, component by component, with what it has learned, the records before and after training, the
+        laws, the parameters, and how sure all of it is. With ``pip install 'acausal[page]'`` plots can be zoomed and
+        read.
 
         Arguments:
-            folder: where.
+            path: a folder, in which ``index.html`` is written, or a file that ends in ``.html``.
             title: of the page.
             profiles: from `profile`, to show whether parameters are identifiable.
+
+        Raises:
+            DataError: if it cannot be written.
         """
+        need_path(path, "report")
+        return write_page(self.page_content(title, profiles), path)
+
+    def page_content(self, title: str = "", profiles: Sequence[Profile] = ()) -> PageContent:
+        """All that the page of the training shows; arguments as of `report`."""
         trained = ", ".join((*self.seen, *self.modifiers))
         end = ", ended by the user" if self.interrupted else ""
-        page = Page(
-            title,
+        lead = (
             f"{trained} trained on {self.samples_trained} samples of {', '.join(self.problem.targets)} in "
-            f"{self.seconds:.3g} s, {self.history.epochs} updates{end}.",
+            f"{self.seconds:.3g} s, {self.history.epochs} updates{end}."
         )
-        page.table(("figure", "before", "after"), self._losses())
-        add_losses(page, {"whole record": self.history})
-        if self.starts is not None:
-            page.text(self.starts.summary())
-            page.table(self.starts.header, self.starts.rows())
-        units = {name: self.system.unit(name) for name in self.problem.targets}
-        add_records(page, "Measured and simulated", self.before, self.records, units)
-        if self.held_out:
-            add_records(page, "Held out", {}, self.held_out, units)
-        if np.isfinite(self.loss):
-            sure = self.confidence()
-            add_laws(page, self.with_bands(sure.laws))
-            header = ("parameter", "value", "change", "one sigma")
-            add_parameters(page, header, self._parameters(sure), sure.summary())
-            self._add_own(page, sure)
-            add_profiles(page, profiles)
-            add_residuals(page, self.residuals())
-        else:
-            page.text(
-                "The trained model diverges over the record; what it has learned cannot be assessed."
-            )
-        add_divergences(page, self.history.divergences)
-        return page.write(need_path(folder, "report") / "index.html")
-
-    def _add_own(self, page: Page, sure: Confidence) -> None:
-        """The parameters that differ between records, in a table."""
-        names = self.problem.per_record.names
-        if not names:
-            return
-        page.section("Parameters of records")
-        header = ("record", *(f"{n} [{self.system.unit(n)}]" for n in names))
-        rows = [
-            (name, *(f"{r.parameters[n]:.5g} ± {sure.per_record[n][k]:.2g}" for n in names))
-            for k, (name, r) in enumerate(self.records.items())
-        ]
-        page.table(header, rows)
+        return fit_content(self, self.before, title or "Training", lead, self._losses(), profiles)
 
     def _losses(self) -> list[tuple[str, str, str]]:
         """Losses before and after, in rows."""
@@ -365,17 +336,6 @@ class Fit:
             rows.append(
                 ("loss over what is held out", f"{before:.4g}", f"{self.validation_loss:.4g}")
             )
-        return rows
-
-    def _parameters(self, sure: Confidence) -> list[tuple[str, str, str, str]]:
-        """Value, change and standard deviation of every trained parameter, in rows."""
-        written, rows = self.problem.modifiers.written, []
-        params = self.problem.assemble(self.trained)
-        for name, change in self.modifiers.items():
-            unit = self.problem.unit(name)
-            value = f"{float(params[name]):.6g} {unit}".removesuffix(" 1")
-            sigma = written(name, sure.parameters[name], ".2g", unit)
-            rows.append((name, value, written(name, change, "+.3g", unit), sigma))
         return rows
 
     def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
@@ -388,9 +348,80 @@ class Fit:
 
         return {name: law(name, band) for name, band in bands.items()}
 
+    @property
+    def ranges(self) -> dict[str, tuple[tuple[float, float], ...]]:
+        """By network, the least and the greatest value of each argument in one simulation of every record.
+
+        `export` takes them as ``ranges``. A network that was called with values that are not finite has none.
+        """
+        return {
+            name: tuple(zip(seen.min(axis=0).tolist(), seen.max(axis=0).tolist(), strict=True))
+            for name, seen in self.arguments.items()
+            if np.isfinite(seen).all()
+        }
+
+    def export(
+        self,
+        path: str | Path,
+        *,
+        confidence: Confidence | None = None,
+        notes: Mapping[str, object] | None = None,
+        overwrite: bool = False,
+        **options: Any,
+    ) -> Path:
+        """Write the trained model for other tools, and a model card beside it.
+
+        The ending of the path chooses the form: ``.fmu``, ``.c`` (and its header), ``.onnx``, ``.jax``, ``.mlir``,
+        ``.mlirbc``, ``.mo``; see `acausal.export`. An FMU and C tell when a network leaves its `ranges`. The card
+        has the name of the file and ``.md``, and says the same as JSON in ``.json``: what was trained on which data,
+        losses, ranges, promises, versions, and the file's hash.
+
+        Arguments:
+            path: of the file.
+            confidence: from `confidence`, to tell how well laws and parameters are known.
+            notes: further lines of the card, by title, such as ``{"loss of the linear model": 0.44}``.
+            overwrite: whether files of these names may be replaced.
+            options: of the function that writes this form, such as ``outputs=["body.a"]``; ``ranges={}`` leaves the
+                flag out.
+
+        Returns:
+            The path.
+
+        Raises:
+            DataError, ExportError: for an unknown ending, or as the function for this form does.
+        """
+        return export_with_card(self, path, confidence, notes, overwrite, options)
+
     def remove_offset(self) -> dict[str, Any]:
         """The parameters with every trained network less its value at zero, ``F(x) − F(0)``: the paper's (5)."""
         return remove_offset(self.params, tuple(self.seen))
+
+    def _repr_html_(self) -> str:
+        written, params = self.problem.modifiers.written, self.problem.assemble(self.trained)
+        losses = [("loss over the record", self.loss_before, self.loss)]
+        for before in self.history.validation_loss[:1, 1].tolist():
+            losses.append(("loss over what is held out", before, self.validation_loss or np.nan))
+        parameters = [
+            (
+                n,
+                f"{float(params[n]):.6g} {unit}".removesuffix(" 1"),
+                written(n, change, "+.3g", unit),
+            )
+            for n, change in self.modifiers.items()
+            for unit in [self.problem.unit(n)]
+        ]
+        end = ", ended by the user" if self.interrupted else ""
+        return fit_view(
+            f"Fit of {', '.join((*self.seen, *self.modifiers))}",
+            f"{self.samples_trained} samples, {self.history.epochs} updates in {self.seconds:.3g} s{end}; "
+            f"best after update {self.best_epoch}",
+            losses,
+            self.rms,
+            {n: self.system.unit(n) for n in self.problem.targets},
+            parameters,
+            next(iter(self.records.values())),
+            self.history,
+        )
 
     def __repr__(self) -> str:
         times = self.problem.timing
@@ -428,6 +459,7 @@ def result(
     trained: Trained,
     held: HeldOut | None = None,
     starts: Starts | None = None,
+    settings: Mapping[str, str] | None = None,
 ) -> Fit:
     """The result of a training."""
     best, history = on_default_device(trained.best, problem.mesh), trained.history
@@ -454,4 +486,5 @@ def result(
         problem=problem,
         trained=best.trainable,
         starts=starts,
+        settings=dict(settings or {}),
     )

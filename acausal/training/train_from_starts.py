@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import warnings
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import replace
@@ -24,6 +25,8 @@ from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
+from acausal.training.happened import grazing
+from acausal.training.log_progress import log_progress
 from acausal.training.loop import train
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import hold_out, split
@@ -39,6 +42,8 @@ from acausal.training.strategy import legs
 
 if TYPE_CHECKING:
     from acausal.system import System
+
+LOGGER = logging.getLogger(__name__)
 
 DIVERGED = 1e3
 """A sequence whose normalised error is larger has diverged."""
@@ -71,6 +76,7 @@ def train_from_starts(
     for seed in seeds:
         if not isinstance(seed, int | np.integer):
             raise TrainingError(f"seed={shown(seed)}; give a whole number.")
+    system = system.watching(_trained_numbers(options))
     given = {n: record.for_system(system) for n, record in records_of(data).items()}
     kept = split(given, options.validation)
     names = names_in(targets, "targets")
@@ -88,13 +94,19 @@ def train_from_starts(
         else fingerprint(problem, plan, seeds, starts[1:], held, kept.training)
     )
     path, stored = _checkpoint(options, identity)
+    what = ", ".join((*problem.networks, *problem.modifiers.names))
+    LOGGER.info("training %s of %s by %s", what, system.flat.name, " and ".join(options.parts))
     first = jax.process_index() == 0
     with (
         display(options.progress and first, sum(leg.epochs for leg in plan)) as show,
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
-        observers = (show, *options.all_observers)
+        observers = (show, log_progress, *options.all_observers)
         trained = train(problem, starts, plan, keys, observers, keep, stored, held, chosen)
+    for one in trained:
+        LOGGER.info(
+            "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
+        )
     spread = None
     if options.starts > 1:
         spread = starts_of(problem, starts, trained)
@@ -102,7 +114,18 @@ def train_from_starts(
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in concerns(own, start, one):
             warnings.warn(sentence, stacklevel=user_level())
-    return tuple(result(own, one, held, spread) for own, one in zip(problems, trained, strict=True))
+    settings = [{"seed": str(seed), **options.described()} for seed in seeds]
+    return tuple(
+        result(own, one, held, spread, said)
+        for own, one, said in zip(problems, trained, settings, strict=True)
+    )
+
+
+def _trained_numbers(options: FitOptions) -> tuple[str, ...]:
+    """The parameters that are trained beside networks."""
+    own = options.modifiers
+    named = () if own is None or isinstance(own, Iterator) else tuple(own)
+    return (*named, *(options.per_record or ()))
 
 
 def limit_of(options: FitOptions) -> float:
@@ -162,6 +185,17 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
         yield "The trained model diverges over the whole record: its loss is infinite."
     elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
         yield f"Training found nothing better than its start. {sentence}"
+    if not problem.sequences.whole and (remembered := problem.system.remembered):
+        yield (
+            f"Sequences begin with the start values of {listing(remembered)}, whatever they are in the record: "
+            "take whole records (sequence_length=None), or give them as inputs: "
+            f"ac.compile(model, inputs={[remembered[0]]})."
+        )
+    if clause := grazing(problem.system, problem.records, trained.best.simulated.log):
+        yield (
+            f"The condition {clause}: there the gradient does not exist, or is huge, and training may not get past it. "
+            "Leave this part of the record out, or start from other values."
+        )
     unmoved = _unmoved(start, trained.last)
     exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
     if unmoved and len(diverged) < epochs and not exact:
@@ -190,7 +224,8 @@ def _reasons(unmoved: Sequence[str], in_switches: Set[str]) -> Iterator[str]:
     if switching:
         yield (
             f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, and has "
-            "no gradient. Smooth it (tanh in the place of sign), or leave it out (train=..., modifiers=...)."
+            "no gradient. Smooth it (tanh in the place of sign), make it an event (ac.where(..., events=True), or for "
+            "the library's ac.compile(model, events=True)), or leave it out (train=..., modifiers=...)."
         )
     if others:
         yield (

@@ -6,3 +6,4 @@ It knows flat models; neither JAX nor structure.
 
 from acausal.units.check import check_dimensions as check_dimensions
 from acausal.units.conversion import convert as convert
+from acausal.units.si import InSI as InSI, in_si as in_si

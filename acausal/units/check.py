@@ -7,7 +7,7 @@ its slots. Values and starts given by expressions are checked, too, and connecte
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -15,7 +15,16 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import UnitError, shortened
-from acausal.flattening import Binding, EquationGroup, FlatModel, Integers, Layout, Statement, tiled
+from acausal.flattening import (
+    Binding,
+    EquationGroup,
+    FlatModel,
+    Integers,
+    Layout,
+    Statement,
+    Template,
+    tiled,
+)
 from acausal.modeling import Declaration, Module
 from acausal.units.dimensions import SECOND, Dimension, described, dimension
 from acausal.units.infer import Finding, Signature, SlotDimensions, examine
@@ -114,7 +123,7 @@ def _signature(module: Module) -> Signature:
 
 def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
     found: dict[tuple[str, str], list[str]] = {}
-    for group in (*flat.groups, *flat.initial):
+    for group in (*flat.groups, *flat.initial, *_at_events(flat)):
         if group.components[0] < 0:  # a connection
             continue
         slots = _slots(group, measures)
@@ -129,6 +138,25 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         first = f"{cls} '{names[0]}'" if names[0] else cls
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
         yield f"{first}{more}: {wrong}"
+
+
+def _at_events(flat: FlatModel) -> Iterator[EquationGroup]:
+    """What holds at events as equations: conditions, discrete variables and what they become, states that jump."""
+    events = flat.events
+    yield from (guard.group for guard in events.guards)
+    for update in (*events.updates, *events.jumps):
+        own, template = update.group, update.group.template
+        assert isinstance(template, Template)
+        name = flat.layout.variable(int(update.targets[0])).rpartition(".")[2]
+        target = sp.Symbol(f"new {name}", real=True)
+        equation = replace(
+            template,
+            residual=target - template.residual,
+            variables=(target, *template.variables),
+            orders=(0, *template.orders),
+        )
+        variables = np.concatenate([update.targets[:, None], own.variables], axis=1)
+        yield replace(own, template=equation, variables=variables)
 
 
 def _slots(group: EquationGroup, measures: _Measures) -> SlotDimensions:

@@ -1,34 +1,7 @@
-/* The quarter vehicle with two 1-16-16-1 networks, Heun's method and its discrete adjoint, by hand.
-
-   States: height and speed of the body, of the wheel, height of the road. The backward sweep repeats every step from
-   its stored state. Weights lie as in the file's structures, which Python fills and reads as flat arrays. */
-#include <math.h>
+/* Heun's method and its discrete adjoint, by hand. The backward sweep repeats every step from its stored state. */
+#include "vehicle.h"
 #include <stdlib.h>
 #include <string.h>
-
-enum { WIDTH = 16, STATES = 5, OUTPUTS = 2 };
-
-typedef struct { double w1[WIDTH], b1[WIDTH], w2[WIDTH][WIDTH], b2[WIDTH], w3[WIDTH], b3; } Net;
-typedef struct { double w2[WIDTH][WIDTH]; } Transposed;
-typedef struct { double x, h1[WIDTH], h2[WIDTH]; } Activations;
-typedef struct { Activations spring, damper; } Stage;
-typedef struct { double body, wheel, c, d, tyre_c, tyre_d, travel, speed, force; } Vehicle;
-
-static double forward(const Net *net, const Transposed *transposed, double in, double scale, double force, Activations *a) {
-  a->x = in / scale;
-  for (int i = 0; i < WIDTH; i++) {
-    double z = net->w1[i] * a->x + net->b1[i];
-    a->h1[i] = z > 0 ? z : 0;
-  }
-  double z[WIDTH];
-  for (int i = 0; i < WIDTH; i++) z[i] = net->b2[i];
-  for (int j = 0; j < WIDTH; j++)
-    for (int i = 0; i < WIDTH; i++) z[i] += transposed->w2[j][i] * a->h1[j];
-  for (int i = 0; i < WIDTH; i++) a->h2[i] = z[i] > 0 ? z[i] : 0;
-  double y = net->b3;
-  for (int i = 0; i < WIDTH; i++) y += net->w3[i] * a->h2[i];
-  return force * y;
-}
 
 /* From the adjoint of the force to that of the network's input; adds to the gradient by weights. */
 static double backward(const Net *net, const Activations *a, double scale, double force, double to_force, Net *gradient) {
@@ -53,18 +26,6 @@ static double backward(const Net *net, const Activations *a, double scale, doubl
   return to_x / scale;
 }
 
-static void field(const Vehicle *p, const Net *nets, const Transposed *t, const double *x, double u, double *dx, Stage *s) {
-  double travel = x[2] - x[0], speed = x[3] - x[1];
-  double f = p->c * travel + p->d * speed + forward(&nets[0], &t[0], travel, p->travel, p->force, &s->spring)
-             + forward(&nets[1], &t[1], speed, p->speed, p->force, &s->damper);
-  double tyre = p->tyre_c * (x[4] - x[2]) + p->tyre_d * (u - x[3]);
-  dx[0] = x[1];
-  dx[1] = f / p->body;
-  dx[2] = x[3];
-  dx[3] = (tyre - f) / p->wheel;
-  dx[4] = u;
-}
-
 /* Adds the adjoint of dx, pulled back, to that of x. */
 static void field_adjoint(const Vehicle *p, const Net *nets, const Stage *s, const double *to_dx, double *to_x, Net *gradient) {
   double to_tyre = to_dx[3] / p->wheel, to_f = to_dx[1] / p->body - to_tyre;
@@ -83,9 +44,7 @@ static void field_adjoint(const Vehicle *p, const Net *nets, const Stage *s, con
 double gradient(const Vehicle *p, const Net *nets, int count, int n, double h, const double *x0, const double *u0,
                 const double *u1, const double *y, const double *sigma, Net *result) {
   Transposed transposed[2];
-  for (int k = 0; k < 2; k++)
-    for (int i = 0; i < WIDTH; i++)
-      for (int j = 0; j < WIDTH; j++) transposed[k].w2[j][i] = nets[k].w2[i][j];
+  transpose(nets, transposed);
   double *states = malloc(sizeof(double) * n * STATES), *errors = malloc(sizeof(double) * n * OUTPUTS), total = 0;
   memset(result, 0, 2 * sizeof(Net));
   for (int b = 0; b < count; b++, x0 += STATES, u0 += n, u1 += n, y += n * OUTPUTS) {

@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.thermal.interfaces import HeatPort_a
 
 from .interfaces import ChargePort, PartialDiffusion
@@ -14,6 +15,8 @@ __modelica__ = None
 
 class ChargeStorage(ac.Component):
     """Charge at one state of charge: ``Q der(soc) = port.i``, ``soc = port.soc``."""
+
+    ICON = icons.CHARGE
 
     Q = ac.Parameter(unit="C", min=0, doc="capacity")
     soc = ac.Variable(unit="1", start=0.5, state="prefer", doc="state of charge")
@@ -30,6 +33,8 @@ class Diffusion(PartialDiffusion):
     ``tau_actual = tau exp(E_a/R (1/T - 1/T_ref) + net(soc, T_ref/T - 1))`` with the mean ``soc`` of both ends, and
     without ``net`` where not ``learned``: then the time constant depends on the temperature alone.
     """
+
+    ICON = icons.CONDUCTION
 
     Q = ac.Parameter(unit="C", min=0, doc="charge that flows in one time constant")
     tau = ac.Parameter(unit="s", min=0, doc="time constant at T_ref")
@@ -51,6 +56,8 @@ class Particle(ac.Component):
 
     With ``fixed_start`` all shells start at ``soc_start``; else that is a guess, and the model says where they start.
     """
+
+    ICON = icons.CHARGE
 
     surface = ChargePort()
     heatPort = HeatPort_a(when="useHeatPort")

@@ -20,6 +20,7 @@ class ChargePort(ac.Connector):
     across = "dsoc"
     through = "i"
     power = False
+    COLOR = "#8f6fc4"
 
 
 class PartialThermal(ConditionalHeatPort):

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 from acausal.components.electrical.interfaces import OnePort
 
 from .interfaces import PartialDepending
@@ -16,6 +16,8 @@ class SeriesResistance(OnePort, PartialDepending):
 
     ``R_actual = R exp(E_a/R_gas (1/T - 1/T_ref) + net(soc, T_ref/T - 1))``.
     """
+
+    ICON = icons.RESISTOR
 
     R = ac.Parameter(unit="Ohm", min=0, doc="resistance at T_ref")
     R_actual = ac.Variable(unit="Ohm", nominal=1e-3, doc="actual resistance")
@@ -35,6 +37,8 @@ class ChargeTransfer(OnePort, PartialDepending):
     logarithm. ``LossPower = v i`` is never negative.
     """
 
+    ICON = icons.RESISTOR
+
     I_0 = ac.Parameter(unit="A", min=0, doc="exchange current at T_ref")
     I_actual = ac.Variable(unit="A", start=1.0, nominal=10.0, doc="actual exchange current")
 
@@ -52,6 +56,8 @@ class Relaxation(OnePort, PartialDepending):
     ``R_actual = R exp(E_a/R_gas (1/T - 1/T_ref) + net(soc, T_ref/T - 1))``. The time constant ``tau`` is the same at
     all temperatures; so the capacitance is ``tau/R_actual``.
     """
+
+    ICON = icons.RESISTOR
 
     R = ac.Parameter(unit="Ohm", min=0, doc="resistance at T_ref")
     tau = ac.Parameter(unit="s", min=0, doc="time constant")

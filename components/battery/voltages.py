@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.electrical.interfaces import OnePort
 
 from .interfaces import ChargePort, PartialThermal
@@ -24,6 +25,8 @@ class OpenCircuitVoltage(OnePort, PartialThermal):
         entropy: its derivative by the temperature, by default a small free one; it promises nothing.
         modifiers: options and parameters.
     """
+
+    ICON = icons.CELL
 
     width = ac.Option(12, doc="neurons of the networks' hidden layers")
     U_nominal = ac.Parameter(3.7, unit="V", doc="voltage that the curve is added to")

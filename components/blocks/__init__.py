@@ -9,22 +9,25 @@ sine = blocks.Sine(f=50.0)
 
 from acausal.components.modelica import export
 
-from . import discrete as discrete
+from . import discrete as discrete, math_boolean as math_boolean, math_integer as math_integer
+from .averages import *
 from .continuous import *
 from .controllers import *
 from .conversions import *
+from .extrema import *
 from .filters import *
 from .integrators import *
 from .interfaces import *
 from .logical import *
 from .lookup import *
 from .math import *
+from .memory import *
 from .motions import *
 from .nonlinear import *
 from .periodic import *
 from .refused import *
-from .refused_math import *
 from .routing import *
+from .show import *
 from .sources import *
 from .statistics import *
 from .tables import *
@@ -32,4 +35,4 @@ from .truth_sources import *
 from .unit_conversions import *
 from .waves import *
 
-export(__name__, "discrete")
+export(__name__, "discrete", "math_boolean", "math_integer")

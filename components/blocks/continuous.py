@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .canonical import canonical_form, dot
 from .conventions import INIT
@@ -14,6 +15,8 @@ __modelica__ = "Modelica.Blocks.Continuous"
 class FirstOrder(SISO, PartialStart):
     """Lag ``k/(T s + 1)``: ``der(y) = (k u - y)/T``."""
 
+    ICON = icons.LAG
+
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(unit="s", doc="time constant")
     y = ac.Output(start="y_start", doc="output signal")
@@ -24,6 +27,8 @@ class FirstOrder(SISO, PartialStart):
 
 class SecondOrder(SISO, PartialStart):
     """``k/((s/w)**2 + 2 D s/w + 1)``: ``der(y) = yd``, ``der(yd) = w (w (k u - y) - 2 D yd)``."""
+
+    ICON = icons.OSCILLATION
 
     k = ac.Parameter(1.0, doc="gain")
     w = ac.Parameter(unit="rad/s", doc="angular frequency")
@@ -51,6 +56,8 @@ class TransferFunction(SISO):
     In controller canonical form: ``a[1] der(x[1]) = u - a[2] x[1] - ... - a[n+1] x[n]``,
     ``der(x[i]) = x[i-1]``. (Modelica's states are the same; inside, it scales them by ``a[n+1]``.)
     """
+
+    ICON = icons.TRANSFER
 
     b = ac.Parameter([1.0], shape=":", doc="numerator, highest power first")
     a = ac.Parameter([1.0], shape=":", doc="denominator, highest power first")
@@ -91,6 +98,8 @@ class StateSpace(MIMO):
     ``initType``: ``NoInit``, ``SteadyState`` or ``InitialState`` (Modelica's ``InitialOutput``, a least
     squares problem, is not available).
     """
+
+    ICON = icons.STATE_SPACE
 
     A = ac.Parameter(shape=(":", ":"), doc="state matrix")
     B = ac.Parameter(shape=(":", ":"), doc="input matrix")

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import INIT
 from .integrators import Derivative, Integrator
@@ -20,6 +21,8 @@ _CONTROLLER = ("P", "PI", "PD", "PID")
 
 class PI(SISO, PartialState):
     """``k (1 + 1/(T s))``: ``der(x) = u/T``, ``y = k (x + u)``."""
+
+    ICON = icons.PI
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(unit="s", min=0, doc="time constant")
@@ -39,6 +42,8 @@ class PID(SISO):
     The integrator starts at ``xi_start``, the state of the derivative at ``xd_start``; ``initType`` as
     in Modelica.
     """
+
+    ICON = icons.PID
 
     k = ac.Parameter(1.0, doc="gain")
     Ti = ac.Parameter(unit="s", min=0, doc="time constant of the integrator")
@@ -80,6 +85,8 @@ class LimPID(SVcontrol):
     `addSat`, `gainTrack`, `addD`, `D`, `addPID`, `gainPID`, `addFF`, `limiter`. ``strict`` and
     ``homotopyType`` have no effect. Choose options where the controller is made.
     """
+
+    ICON = icons.PID
 
     controllerType = ac.Option("PID", choices=_CONTROLLER, doc="type of controller")
     k = ac.Parameter(1.0, min=0, doc="gain")

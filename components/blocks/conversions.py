@@ -14,7 +14,8 @@ class RealToInteger(SISO):
     """The nearest integer; halves are rounded away from zero."""
 
     def equations(self) -> Iterator[ac.Eq]:
-        rounded = ac.where(self.u > 0, ac.floor(self.u + 0.5), -ac.floor(0.5 - self.u))
+        up, down = (ac.floor(0.5 + u, events=None) for u in (self.u, -self.u))
+        rounded = ac.where(self.u > 0, up, -down)
         yield ac.Eq(self.y, rounded)
 
 
@@ -51,7 +52,7 @@ class RealToBoolean(SISO):
     threshold = ac.Parameter(0.5, doc="value from which on the output is true")
 
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u >= self.threshold))
+        yield ac.Eq(self.y, truth(self.u >= self.threshold, events=None))
 
 
 class IntegerToBoolean(SISO):

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import INIT
 from .interfaces import SISO
@@ -52,6 +53,8 @@ class CriticalDamping(SISO):
     ``alpha = sqrt(2**(1/n) - 1)`` makes the amplitude -3 dB at ``f``, or 1 if not ``normalized``.
     """
 
+    ICON = icons.LAG
+
     n = ac.Option(2, doc="order of the filter")
     f = ac.Parameter(unit="Hz", doc="cut-off frequency")
     normalized = ac.Option(True, doc="whether the amplitude at f is -3 dB")
@@ -77,6 +80,8 @@ class LowpassButterworth(SISO):
     Sections of second order, ``der(x1) = x2``, ``der(x2) = w**2 (z - x1) - 2 D w x2`` with
     ``w = 2 pi f``, then for an odd order ``der(xr) = w (z - xr)``; ``z`` is what comes from before.
     """
+
+    ICON = icons.LAG
 
     n = ac.Option(2, doc="order of the filter")
     f = ac.Parameter(unit="Hz", doc="cut-off frequency")
@@ -138,6 +143,8 @@ class Filter(SISO):
     ``der(x1) = a x1 - b x2 + (a**2 + b**2)/b z``, ``der(x2) = b x1 + a x2``; ``z`` comes from before.
     By default it starts in steady state. ``A_ripple`` is fixed when the filter is made.
     """
+
+    ICON = icons.LAG
 
     analogFilter = ac.Option("CriticalDamping", choices=CHARACTERISTICS, doc="characteristic")
     filterType = ac.Option("LowPass", choices=_FILTER_TYPE, doc="type of the filter")

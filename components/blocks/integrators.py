@@ -1,53 +1,85 @@
 """Integrators and derivatives."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
-from .conventions import INIT
+from .conventions import INIT, TRUE
 from .interfaces import SISO, PartialStart, PartialState
 
 __modelica__ = "Modelica.Blocks.Continuous"
 
 
-class Integrator(SISO, PartialStart):
-    """``der(y) = k u``, from ``y = y_start``. There is no reset: that needs events."""
+class _Resettable(SISO, PartialStart):
+    """What integrators share: their output can be reset."""
+
+    use_reset = ac.Option(False, doc="whether there is the input reset")
+    use_set = ac.Option(False, doc="whether there is the input set")
+    reset = ac.Input(when="use_reset", doc="when the output is reset")
+    set = ac.Input(when="_has_set", doc="what it is reset to")
+    y = ac.Output(start="y_start", state="_kind", doc="output signal")
+
+    @property
+    def _has_set(self) -> bool:
+        return self.use_reset and self.use_set
+
+    @property
+    def _kind(self) -> str:
+        return "always" if self.use_reset else "default"
+
+    def _resetting(self, limited: Callable[[Any], Any]) -> Iterator[Any]:
+        """The reset, to a limited value."""
+        if self.use_reset:
+            value = self.set if self.use_set else self.y_start
+            yield ac.When(self.reset > TRUE, ac.Reinit(self.y, limited(value)))
+
+
+class Integrator(_Resettable):
+    """``der(y) = k u``, from ``y = y_start``.
+
+    With ``use_reset`` the output becomes ``y_start`` where ``reset`` turns true, or with ``use_set`` the input
+    ``set``.
+    """
+
+    ICON = icons.INTEGRATOR
 
     k = ac.Parameter(1.0, doc="gain")
-    use_reset = ac.Option(False, choices=(False,), doc="reset is not available")
-    use_set = ac.Option(False, choices=(False,), doc="reset is not available")
     initType = ac.Option("InitialState", choices=INIT, doc="type of initialization")
-    y = ac.Output(start="y_start", doc="output signal")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield ac.Eq(ac.der(self.y), self.k * self.u)
+        yield from self._resetting(lambda value: value)
 
 
-class LimIntegrator(SISO, PartialStart):
+class LimIntegrator(_Resettable):
     """Integrator that stops at limits: ``der(y) = k u``, but 0 where that leads out of them.
 
-    ``outMin`` (default ``-outMax``) and ``outMax`` bound ``y``. There is no reset; ``strict`` and
-    ``limitsAtInit`` have no effect.
+    ``outMin`` (default ``-outMax``) and ``outMax`` bound ``y``, also where it is reset as an `Integrator`'s;
+    ``strict`` and ``limitsAtInit`` have no effect.
     """
+
+    ICON = icons.INTEGRATOR
 
     k = ac.Parameter(1.0, doc="gain")
     outMax = ac.Parameter(doc="upper limit")
     outMin = ac.Parameter(lambda self: -self.outMax, doc="lower limit")
-    use_reset = ac.Option(False, choices=(False,), doc="reset is not available")
-    use_set = ac.Option(False, choices=(False,), doc="reset is not available")
     initType = ac.Option("InitialState", choices=INIT, doc="type of initialization")
     limitsAtInit = ac.Option(True, doc="without effect")
     strict = ac.Option(False, doc="without effect")
-    y = ac.Output(start="y_start", doc="output signal")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         rate = self.k * self.u
         upwards = ac.where(self.y > self.outMax, ac.minimum(rate, 0), rate)
         yield ac.Eq(ac.der(self.y), ac.where(self.y < self.outMin, ac.maximum(rate, 0), upwards))
+        yield from self._resetting(lambda v: ac.maximum(ac.minimum(v, self.outMax), self.outMin))
 
 
 class Derivative(SISO, PartialState):
     """Approximate derivative ``k s/(T s + 1)``: ``y = k (u - x)/T``, ``der(x) = (u - x)/T``."""
+
+    ICON = icons.DERIVATIVE
 
     k = ac.Parameter(1.0, doc="gain")
     T = ac.Parameter(0.01, unit="s", min=0, doc="time constant, greater than zero")
@@ -63,6 +95,8 @@ class Derivative(SISO, PartialState):
 
 class Der(SISO):
     """``y = der(u)``: the input must be differentiable in the model."""
+
+    ICON = icons.DERIVATIVE
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.der(self.u))

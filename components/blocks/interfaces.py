@@ -1,11 +1,11 @@
 """Bases of blocks: which signals enter and leave. Signals have no unit unless a block says so."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import acausal as ac
 
-from .conventions import INIT
+from .conventions import INIT, SMALL, first_true
 
 __modelica__ = "Modelica.Blocks.Interfaces"
 
@@ -91,12 +91,78 @@ class SIMO(ac.Component):
     y = ac.Output(shape="nout", doc="output signals")
 
 
+class PartialBooleanMISO(ac.Component):
+    """``nu`` inputs ``u`` that are truth values, one output ``y``."""
+
+    nu = ac.Option(0, doc="number of inputs")
+    u = ac.Input(shape="nu", doc="input signals, 1 or 0")
+    y = ac.Output(doc="output signal, 1 or 0")
+
+
+class Switching(ac.Component):
+    """What switches share: ``nu`` inputs ``u``, each with a value in ``expr`` for when it is the first that is true.
+
+    The values are given as a list, or stated by equations of the enclosing model.
+    """
+
+    __modelica__ = None
+
+    nu = ac.Option(0, doc="number of inputs")
+    u = ac.Input(shape="nu", doc="input signals, 1 or 0")
+    expr = ac.Variable(shape="nu", doc="output for each")
+
+    def __init__(self, *, expr: Sequence[Any] | None = None, **modifiers: Any) -> None:
+        super().__init__(**modifiers)
+        self.given = None if expr is None else [int(v) if isinstance(v, bool) else v for v in expr]
+        if self.given is not None and len(self.given) != self.nu:
+            raise ac.DeclarationError(
+                f"{type(self).__name__}: expr has {len(self.given)} values for nu={self.nu} inputs; give one for each"
+            )
+
+    def _chosen(self, otherwise: Any) -> Any:
+        """The value that belongs to the first input that is true."""
+        return first_true(self.u, self.expr, otherwise)
+
+    def equations(self) -> Iterator[Any]:
+        for value, given in zip(self.expr, self.given or (), strict=False):
+            yield ac.Eq(value, given)
+
+
+class PartialRealMISO(PartialBooleanMISO):
+    """``nu`` inputs ``u``, one output ``y``."""
+
+    significantDigits = ac.Option(3, doc="without effect")
+
+
+class PartialIntegerMISO(PartialBooleanMISO):
+    """``nu`` inputs ``u`` that are integers, one output ``y``."""
+
+
+class IntegerMIBooleanMOs(MIMOs):
+    """``n`` inputs ``u`` that are integers, ``n`` outputs ``y`` that are truth values."""
+
+
+class partialBooleanSI3SO(SI2SO):  # noqa: N801 (Modelica's name)
+    """Three inputs ``u1``, ``u2``, ``u3``, one output ``y``."""
+
+    u3 = ac.Input(doc="third input signal")
+
+
 class SVcontrol(ac.Component):
     """Set point ``u_s`` and measurement ``u_m`` enter, actuator signal ``y`` leaves."""
 
     u_s = ac.Input(doc="set point")
     u_m = ac.Input(doc="measurement")
     y = ac.Output(doc="actuator signal")
+
+
+class MVcontrol(ac.Component):
+    """A controller of ``n`` signals: set points ``u_s`` and measurements ``u_m`` enter, actuators ``y`` leave."""
+
+    n = ac.Option(1, doc="number of signals of each kind")
+    u_s = ac.Input(shape="n", doc="set points")
+    u_m = ac.Input(shape="n", doc="measurements")
+    y = ac.Output(shape="n", doc="actuator signals")
 
 
 class SignalSource(SO):
@@ -153,8 +219,70 @@ class PartialState(ac.Component):
                 pass
 
 
+class DiscreteBlock(ac.Component):
+    """What sampled blocks share: ``sampleTrigger`` is true at ``startTime + k samplePeriod``, k = 0, 1, ...
+
+    ``firstTrigger`` is true from the first of these instants to the second.
+    """
+
+    samplePeriod = ac.Parameter(
+        unit="s", min=SMALL, doc="time between two samples, greater than zero"
+    )
+    startTime = ac.Parameter(0.0, unit="s", doc="first sample time")
+    sampleTrigger = ac.Variable(doc="true at sample times")
+    firstTrigger = ac.Discrete(kind="bool", doc="true after the first sample")
+
+    @property
+    def _sampling(self) -> Any:
+        return ac.sample(self.startTime, self.samplePeriod)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(self.sampleTrigger, self._sampling)
+        first = ac.time <= self.startTime + self.samplePeriod / 2
+        yield ac.When(self._sampling, ac.Eq(self.firstTrigger, ac.where(first, 1, 0)))
+
+
+class DiscreteSISO(DiscreteBlock):
+    """A sampled block with one input ``u`` and one output ``y``."""
+
+    u = ac.Input(doc="continuous input signal")
+    y = ac.Output(doc="sampled output signal")
+
+
+class DiscreteMIMO(DiscreteBlock):
+    """A sampled block with ``nin`` inputs ``u`` and ``nout`` outputs ``y``; a subclass says how many."""
+
+    u = ac.Input(shape="nin", doc="continuous input signals")
+    y = ac.Output(shape="nout", doc="sampled output signals")
+
+
+class DiscreteMIMOs(DiscreteBlock):
+    """A sampled block with ``n`` inputs ``u`` and as many outputs ``y``."""
+
+    n = ac.Option(1, doc="number of inputs and of outputs")
+    u = ac.Input(shape="n", doc="continuous input signals")
+    y = ac.Output(shape="n", doc="sampled output signals")
+
+
+class SVdiscrete(DiscreteBlock):
+    """A sampled controller: set point ``u_s`` and measurement ``u_m`` enter, actuator signal ``y`` leaves."""
+
+    u_s = ac.Input(doc="set point")
+    u_m = ac.Input(doc="measurement")
+    y = ac.Output(doc="actuator signal")
+
+
+class MVdiscrete(DiscreteBlock):
+    """A sampled controller of ``n`` signals."""
+
+    n = ac.Option(1, doc="number of signals of each kind")
+    u_s = ac.Input(shape="n", doc="set points")
+    u_m = ac.Input(shape="n", doc="measurements")
+    y = ac.Output(shape="n", doc="actuator signals")
+
+
 class NeedsDiscreteStates(ac.Component):
-    """Base of blocks that Modelica has and that cannot be made yet: they remember, or wait for events.
+    """Base of blocks that Modelica has and that cannot be made yet: they need more than states and events.
 
     Raises:
         DeclarationError: always.
@@ -162,7 +290,20 @@ class NeedsDiscreteStates(ac.Component):
 
     __modelica__ = None
 
+    needs = "discrete states"
+
     def __init__(self, **modifiers: Any) -> None:
         raise ac.DeclarationError(
-            f"{type(self).__name__} needs discrete states, which acausal does not have yet"
+            f"{type(self).__name__} needs {self.needs}, which acausal does not have yet"
         )
+
+
+BooleanSISO = partialBooleanSISO = PartialBooleanSISO_small = SISO
+PartialIntegerSISO = IntegerSIBooleanSO = partialBooleanThresholdComparison = SISO
+partialBooleanSI = SI
+SI2BooleanSO = partialBooleanSI2SO = partialBooleanComparison = SI2SO
+IntegerSO = partialBooleanSO = partialBooleanSource = BooleanSignalSource = SO
+IntegerSignalSource = SignalSource
+IntegerMO = MO
+BooleanMIMOs = MIMOs
+MI2BooleanMOs = MI2MO

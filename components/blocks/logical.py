@@ -1,13 +1,14 @@
 """Truth values: comparisons, logical operations and switches.
 
-A truth value is a real signal, 1 or 0; what comes in counts as true above 0.5. Blocks that remember, such
-as a hysteresis, are in `acausal.components.blocks.refused`.
+A truth value is a real signal, 1 or 0; what comes in counts as true above 0.5. Comparisons are events in models that
+have others. Blocks that remember, such as a hysteresis, are in `acausal.components.blocks.memory`.
 """
 
 from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import TRUE, truth
 from .interfaces import SI2SO, SISO
@@ -29,12 +30,16 @@ class _Operation(SI2SO):
 class And(_Operation):
     """1 where ``u1`` and ``u2`` are true."""
 
+    ICON = icons.block("and")
+
     def operation(self, first: Any, second: Any) -> Any:
         return first & second
 
 
 class Or(_Operation):
     """1 where ``u1`` or ``u2`` is true, or both."""
+
+    ICON = icons.block("or")
 
     def operation(self, first: Any, second: Any) -> Any:
         return first | second
@@ -43,12 +48,16 @@ class Or(_Operation):
 class Xor(_Operation):
     """1 where either ``u1`` or ``u2`` is true, not both."""
 
+    ICON = icons.block("xor")
+
     def operation(self, first: Any, second: Any) -> Any:
         return (first & ~second) | (~first & second)
 
 
 class Nor(_Operation):
     """1 where neither ``u1`` nor ``u2`` is true."""
+
+    ICON = icons.block("nor")
 
     def operation(self, first: Any, second: Any) -> Any:
         return ~(first | second)
@@ -57,12 +66,16 @@ class Nor(_Operation):
 class Nand(_Operation):
     """1 unless ``u1`` and ``u2`` are true."""
 
+    ICON = icons.block("nand")
+
     def operation(self, first: Any, second: Any) -> Any:
         return ~(first & second)
 
 
 class Not(SISO):
     """1 where ``u`` is false."""
+
+    ICON = icons.block("not")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, truth(self.u <= TRUE))
@@ -77,61 +90,79 @@ class _Threshold(SISO):
 class GreaterThreshold(_Threshold):
     """1 where ``u > threshold``."""
 
+    ICON = icons.block(">")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u > self.threshold))
+        yield ac.Eq(self.y, truth(self.u > self.threshold, events=None))
 
 
 class GreaterEqualThreshold(_Threshold):
     """1 where ``u >= threshold``."""
 
+    ICON = icons.block("≥")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u >= self.threshold))
+        yield ac.Eq(self.y, truth(self.u >= self.threshold, events=None))
 
 
 class LessThreshold(_Threshold):
     """1 where ``u < threshold``."""
 
+    ICON = icons.block("<")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u < self.threshold))
+        yield ac.Eq(self.y, truth(self.u < self.threshold, events=None))
 
 
 class LessEqualThreshold(_Threshold):
     """1 where ``u <= threshold``."""
 
+    ICON = icons.block("≤")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u <= self.threshold))
+        yield ac.Eq(self.y, truth(self.u <= self.threshold, events=None))
 
 
 class Greater(SI2SO):
     """1 where ``u1 > u2``."""
 
+    ICON = icons.block(">")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u1 > self.u2))
+        yield ac.Eq(self.y, truth(self.u1 > self.u2, events=None))
 
 
 class GreaterEqual(SI2SO):
     """1 where ``u1 >= u2``."""
 
+    ICON = icons.block("≥")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u1 >= self.u2))
+        yield ac.Eq(self.y, truth(self.u1 >= self.u2, events=None))
 
 
 class Less(SI2SO):
     """1 where ``u1 < u2``."""
 
+    ICON = icons.block("<")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u1 < self.u2))
+        yield ac.Eq(self.y, truth(self.u1 < self.u2, events=None))
 
 
 class LessEqual(SI2SO):
     """1 where ``u1 <= u2``."""
 
+    ICON = icons.block("≤")
+
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, truth(self.u1 <= self.u2))
+        yield ac.Eq(self.y, truth(self.u1 <= self.u2, events=None))
 
 
 class Switch(ac.Component):
     """``y = u1`` where ``u2`` is true, else ``y = u3``."""
+
+    ICON = icons.SWITCHED
 
     u1 = ac.Input(doc="output where u2 is true")
     u2 = ac.Input(doc="which input is passed: the first above 0.5, else the third")

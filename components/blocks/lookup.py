@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import MI2MO, SI2SO, MIMOs
 from .tables import PartialColumns
@@ -20,6 +21,8 @@ class CombiTable1Ds(PartialColumns):
 
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
+
+    ICON = icons.LOOKUP
 
     u = ac.Input(doc="argument")
     y = ac.Output(shape="nout", doc="values")
@@ -39,6 +42,8 @@ class CombiTable1Dv(PartialColumns, MIMOs):
 
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
+
+    ICON = icons.LOOKUP
 
     @property
     def n(self) -> int:
@@ -97,6 +102,8 @@ class _Table2D(ac.Component):
     ``LastTwoPoints``, or ``HoldLastPoint`` and ``NoExtrapolation``, which both hold the values at the border.
     The values are a module, ``surface``, among the model's parameters.
     """
+
+    ICON = icons.LOOKUP
 
     table = ac.Option(None, doc="grid and values")
     smoothness = ac.Option(

@@ -4,8 +4,10 @@ from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import acausal as ac
+from acausal.components import icons
 
-from .interfaces import MIMO, MISO, SI2SO, SISO, SO
+from .conventions import truth
+from .interfaces import MIMO, MISO, SI2SO, SISO, SO, Switching
 
 __modelica__ = "Modelica.Blocks.Math"
 
@@ -26,6 +28,8 @@ class InverseBlockConstraints(ac.Component):
 class Gain(SISO):
     """``y = k u``."""
 
+    ICON = icons.GAIN
+
     k = ac.Parameter(doc="gain")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -34,6 +38,8 @@ class Gain(SISO):
 
 class MatrixGain(MIMO):
     """``y = K u`` with a matrix ``K``."""
+
+    ICON = icons.GAIN
 
     K = ac.Parameter([[1.0, 0.0], [0.0, 1.0]], shape=(":", ":"), doc="gain matrix")
 
@@ -55,6 +61,8 @@ class MatrixGain(MIMO):
 class MultiSum(SO):
     """``y = k[1] u[1] + ... + k[nu] u[nu]``."""
 
+    ICON = icons.SUM
+
     nu = ac.Option(0, doc="number of inputs")
     k = ac.Parameter(1.0, shape="nu", doc="gains")
     u = ac.Input(shape="nu", doc="input signals")
@@ -65,6 +73,8 @@ class MultiSum(SO):
 
 class MultiProduct(SO):
     """``y = u[1] ... u[nu]``; 0 without inputs."""
+
+    ICON = icons.PRODUCT
 
     nu = ac.Option(0, doc="number of inputs")
     u = ac.Input(shape="nu", doc="input signals")
@@ -79,6 +89,8 @@ class MultiProduct(SO):
 class Sum(MISO):
     """``y = k[1] u[1] + ... + k[nin] u[nin]``."""
 
+    ICON = icons.SUM
+
     k = ac.Parameter(1.0, shape="nin", doc="gains")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -88,12 +100,16 @@ class Sum(MISO):
 class Feedback(SI2SO):
     """``y = u1 - u2``."""
 
+    ICON = icons.FEEDBACK
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.u1 - self.u2)
 
 
 class Add(SI2SO):
     """``y = k1 u1 + k2 u2``."""
+
+    ICON = icons.ADD
 
     k1 = ac.Parameter(1.0, doc="gain of u1")
     k2 = ac.Parameter(1.0, doc="gain of u2")
@@ -104,6 +120,8 @@ class Add(SI2SO):
 
 class Add3(SI2SO):
     """``y = k1 u1 + k2 u2 + k3 u3``."""
+
+    ICON = icons.ADD
 
     k1 = ac.Parameter(1.0, doc="gain of u1")
     k2 = ac.Parameter(1.0, doc="gain of u2")
@@ -128,12 +146,16 @@ class LinearDependency(SI2SO):
 class Product(SI2SO):
     """``y = u1 u2``."""
 
+    ICON = icons.PRODUCT
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.u1 * self.u2)
 
 
 class Division(SI2SO):
     """``y = u1/u2``."""
+
+    ICON = icons.DIVISION
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.u1 / self.u2)
@@ -153,6 +175,18 @@ class Polynomial(SISO):
         yield ac.Eq(self.y, value)
 
 
+class MultiSwitch(Switching):
+    """The value in ``expr`` that belongs to the first input that is true, else ``y_default``."""
+
+    y_default = ac.Parameter(0.0, doc="output where no input is true")
+    precision = ac.Option(3, doc="without effect")
+    y = ac.Output(doc="output signal")
+
+    def equations(self) -> Iterator[Any]:
+        yield from super().equations()
+        yield ac.Eq(self.y, self._chosen(self.y_default))
+
+
 class _Function(SISO):
     """``y = function(u)``."""
 
@@ -165,12 +199,16 @@ class _Function(SISO):
 class Abs(_Function):
     """``y = |u|``; ``generateEvent`` has no effect."""
 
+    ICON = icons.block("abs")
+
     generateEvent = ac.Option(False, doc="without effect")
     function = staticmethod(ac.Abs)
 
 
 class Sign(_Function):
     """``y = sign(u)``; ``generateEvent`` has no effect."""
+
+    ICON = icons.block("sign")
 
     generateEvent = ac.Option(False, doc="without effect")
     function = staticmethod(ac.sign)
@@ -179,11 +217,15 @@ class Sign(_Function):
 class Sqrt(_Function):
     """``y = sqrt(u)``, ``u >= 0``."""
 
+    ICON = icons.block("√")
+
     function = staticmethod(ac.sqrt)
 
 
 class Sin(_Function):
     """``y = sin(u)``."""
+
+    ICON = icons.block("sin")
 
     function = staticmethod(ac.sin)
 
@@ -191,11 +233,15 @@ class Sin(_Function):
 class Cos(_Function):
     """``y = cos(u)``."""
 
+    ICON = icons.block("cos")
+
     function = staticmethod(ac.cos)
 
 
 class Tan(_Function):
     """``y = tan(u)``."""
+
+    ICON = icons.block("tan")
 
     function = staticmethod(ac.tan)
 
@@ -203,11 +249,15 @@ class Tan(_Function):
 class Asin(_Function):
     """``y = asin(u)``, ``-1 <= u <= 1``."""
 
+    ICON = icons.block("asin")
+
     function = staticmethod(ac.asin)
 
 
 class Acos(_Function):
     """``y = acos(u)``, ``-1 <= u <= 1``."""
+
+    ICON = icons.block("acos")
 
     function = staticmethod(ac.acos)
 
@@ -215,11 +265,15 @@ class Acos(_Function):
 class Atan(_Function):
     """``y = atan(u)``."""
 
+    ICON = icons.block("atan")
+
     function = staticmethod(ac.atan)
 
 
 class Atan2(SI2SO):
     """``y = atan2(u1, u2)``: the angle whose tangent is ``u1/u2``, in the right quadrant."""
+
+    ICON = icons.block("atan2")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.atan2(self.u1, self.u2))
@@ -228,11 +282,15 @@ class Atan2(SI2SO):
 class Sinh(_Function):
     """``y = sinh(u)``."""
 
+    ICON = icons.block("sinh")
+
     function = staticmethod(ac.sinh)
 
 
 class Cosh(_Function):
     """``y = cosh(u)``."""
+
+    ICON = icons.block("cosh")
 
     function = staticmethod(ac.cosh)
 
@@ -240,17 +298,23 @@ class Cosh(_Function):
 class Tanh(_Function):
     """``y = tanh(u)``."""
 
+    ICON = icons.block("tanh")
+
     function = staticmethod(ac.tanh)
 
 
 class Exp(_Function):
     """``y = exp(u)``."""
 
+    ICON = icons.block("exp")
+
     function = staticmethod(ac.exp)
 
 
 class Log(SISO):
     """``y = log(u)/log(base)``, ``u > 0``: the natural logarithm by default."""
+
+    ICON = icons.block("log")
 
     base = ac.Parameter(2.718281828459045, min=0, doc="base of the logarithm")
 
@@ -260,6 +324,8 @@ class Log(SISO):
 
 class Log10(SISO):
     """``y = log10(u)``, ``u > 0``."""
+
+    ICON = icons.block("log10")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.log(self.u) / ac.log(10.0))
@@ -320,16 +386,24 @@ class Pythagoras(SI2SO):
     """``y = sqrt(u1**2 + u2**2)``; with ``u1IsHypotenuse`` ``sqrt(u1**2 - u2**2)``, 0 if negative."""
 
     u1IsHypotenuse = ac.Option(False, doc="whether u1 is the hypotenuse")
+    valid = ac.Output(doc="whether the output is valid, 1 or 0")
+    y2 = ac.Variable(doc="square of the output")
 
     def equations(self) -> Iterator[ac.Eq]:
         if self.u1IsHypotenuse:
-            yield ac.Eq(self.y, ac.sqrt(ac.maximum(self.u1**2 - self.u2**2, 0)))
+            yield ac.Eq(self.y2, self.u1**2 - self.u2**2)
+            yield ac.Eq(self.valid, truth(self.y2 >= 0, events=None))
+            yield ac.Eq(self.y, ac.sqrt(ac.maximum(self.y2, 0)))
         else:
-            yield ac.Eq(self.y, ac.sqrt(self.u1**2 + self.u2**2))
+            yield ac.Eq(self.y2, self.u1**2 + self.u2**2)
+            yield ac.Eq(self.valid, 1)
+            yield ac.Eq(self.y, ac.sqrt(self.y2))
 
 
 class Max(SI2SO):
     """``y = max(u1, u2)``."""
+
+    ICON = icons.block("max")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.maximum(self.u1, self.u2))
@@ -337,6 +411,8 @@ class Max(SI2SO):
 
 class Min(SI2SO):
     """``y = min(u1, u2)``."""
+
+    ICON = icons.block("min")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, ac.minimum(self.u1, self.u2))

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import MO
 
@@ -50,7 +51,7 @@ def _path(distances: Sequence[Any], speeds: Sequence[Any], accelerations: Sequen
 def _pieces(t: Any, bounds: Sequence[Any], values: Sequence[Any]) -> Any:
     value = values[-1]
     for bound, piece in zip(reversed(bounds), reversed(values[:-1]), strict=True):
-        value = ac.where(t < bound, piece, value)
+        value = ac.where(t < bound, piece, value, events=None)
     return value
 
 
@@ -64,6 +65,8 @@ class KinematicPTP(MO):
     Each of the three is a vector with one element per output, or with one element for all. At least
     one distance must not be zero.
     """
+
+    ICON = icons.RAMP
 
     deltaq = ac.Parameter([1.0], shape=":", doc="distance to move")
     qd_max = ac.Parameter([1.0], shape=":", min=0, doc="greatest speed")
@@ -89,6 +92,8 @@ class KinematicPTP2(ac.Component):
     As fast as ``qd_max`` and ``qdd_max`` allow; vectors as in `KinematicPTP`. ``endTime`` [s] is when
     the motion stops. The output ``moving`` of Modelica is Boolean and not there.
     """
+
+    ICON = icons.RAMP
 
     q_begin = ac.Parameter([0.0], shape=":", doc="start position")
     q_end = ac.Parameter([1.0], shape=":", doc="end position")

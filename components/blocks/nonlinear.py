@@ -6,6 +6,7 @@ from operator import mul
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .canonical import canonical_form
 from .conventions import INIT
@@ -16,6 +17,8 @@ __modelica__ = "Modelica.Blocks.Nonlinear"
 
 class Limiter(SISO):
     """``y = min(max(u, uMin), uMax)``; ``strict`` and ``homotopyType`` have no effect."""
+
+    ICON = icons.LIMITER
 
     uMax = ac.Parameter(doc="upper limit")
     uMin = ac.Parameter(lambda self: -self.uMax, doc="lower limit")
@@ -32,6 +35,8 @@ class VariableLimiter(SISO):
     ``strict``, ``homotopyType`` and ``ySimplified`` have no effect.
     """
 
+    ICON = icons.LIMITER
+
     strict = ac.Option(False, doc="without effect")
     homotopyType = ac.Option("Linear", doc="without effect")
     ySimplified = ac.Option(0.0, doc="without effect")
@@ -44,6 +49,8 @@ class VariableLimiter(SISO):
 
 class DeadZone(SISO):
     """``y = 0`` for ``uMin <= u <= uMax``, else how far ``u`` lies beyond."""
+
+    ICON = icons.DEAD_ZONE
 
     uMax = ac.Parameter(doc="upper end of the dead zone")
     uMin = ac.Parameter(lambda self: -self.uMax, doc="lower end of the dead zone")
@@ -58,6 +65,8 @@ class SlewRateLimiter(PartialStart, SISO):
 
     ``SteadyState``: the output starts at the input, ``y = u``. ``strict`` has no effect.
     """
+
+    ICON = icons.LIMITER
 
     Rising = ac.Parameter(1.0, unit="1/s", min=0, doc="greatest rate")
     Falling = ac.Parameter(lambda self: -self.Rising, unit="1/s", max=0, doc="least rate")
@@ -85,6 +94,8 @@ class PadeDelay(SISO):
     ``c(k, p) = (n+m-k)! p!/((n+m)! k! (p-k)!)``. The states ``x`` are those of `TransferFunction`; they start
     at rest, so that ``y = u``. ``balance``, the scaling of the states, has no effect.
     """
+
+    ICON = icons.block("delay")
 
     delayTime = ac.Parameter(unit="s", min=0, doc="delay of the output")
     n = ac.Option(1, doc="order of the denominator")

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import INSTANT
 from .interfaces import SO, SignalSource
@@ -18,6 +19,8 @@ class RealExpression(SO):
     `equations` instead and give no expression.
     """
 
+    ICON = icons.EXPRESSION
+
     def __init__(self, *, y: Any = None, **modifiers: Any) -> None:
         super().__init__(**modifiers)
         self.expression = y
@@ -30,6 +33,8 @@ class RealExpression(SO):
 class Constant(SO):
     """``y = k``."""
 
+    ICON = icons.CONSTANT
+
     k = ac.Parameter(doc="constant output")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -39,6 +44,8 @@ class Constant(SO):
 class ContinuousClock(SignalSource):
     """The time since ``startTime``: ``y = offset + max(time - startTime, 0)``."""
 
+    ICON = icons.CLOCK
+
     def equations(self) -> Iterator[ac.Eq]:
         yield ac.Eq(self.y, self.offset + ac.maximum(ac.time - self.startTime, 0))
 
@@ -46,14 +53,19 @@ class ContinuousClock(SignalSource):
 class Step(SignalSource):
     """``y = offset``, from ``startTime`` on ``y = offset + height``."""
 
+    ICON = icons.STEP
+
     height = ac.Parameter(1.0, doc="height of the step")
 
     def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self.offset + ac.where(ac.time < self.startTime, 0, self.height))
+        before = ac.time < self.startTime
+        yield ac.Eq(self.y, self.offset + ac.where(before, 0, self.height, events=None))
 
 
 class Ramp(SignalSource):
     """``y`` rises by ``height`` during ``duration`` [s] and stays there."""
+
+    ICON = icons.RAMP
 
     height = ac.Parameter(1.0, doc="height of the ramp")
     duration = ac.Parameter(unit="s", min=0, doc="duration of the ramp; 0 gives a step")
@@ -61,12 +73,15 @@ class Ramp(SignalSource):
     def equations(self) -> Iterator[ac.Eq]:
         t = ac.time - self.startTime
         rise = self.height * t / ac.maximum(self.duration, INSTANT)
-        ramp = ac.where(t < 0, 0, ac.where(t < self.duration, rise, self.height))
+        risen = ac.where(t < self.duration, rise, self.height, events=None)
+        ramp = ac.where(t < 0, 0, risen, events=None)
         yield ac.Eq(self.y, self.offset + ramp)
 
 
 class LogFrequencySweep(SO):
     """From ``wMin`` to ``wMax`` during ``duration`` [s], with a logarithm that is linear in time."""
+
+    ICON = icons.SINE
 
     wMin = ac.Parameter(min=0, doc="start frequency")
     wMax = ac.Parameter(min=0, doc="end frequency")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import MO, SO
 from .interpolation import EXTRAPOLATION, SMOOTHNESS, interpolant, rows
@@ -20,6 +21,8 @@ class _TimeTable(ac.Component):
     The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s].
     """
 
+    ICON = icons.TABLE
+
     table = ac.Option(None, doc="rows of time and values")
     timeScale = ac.Parameter(1.0, unit="s", min=0, doc="unit of the table's times")
     startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
@@ -30,7 +33,7 @@ class _TimeTable(ac.Component):
 
     def _equation(self, y: Any, offset: Any, column: Any) -> ac.Eq:
         value = column((ac.time - self.shiftTime) / self.timeScale)
-        return ac.Eq(y, offset + ac.where(ac.time < self.startTime, 0, value))
+        return ac.Eq(y, offset + ac.where(ac.time < self.startTime, 0, value, events=None))
 
 
 class TimeTable(SO, _TimeTable):
@@ -128,6 +131,8 @@ class SampledSignal(SO):
 
     The samples are a module, ``signal``, among the model's parameters.
     """
+
+    ICON = icons.TABLE
 
     __modelica__ = None
 

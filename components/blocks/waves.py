@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .conventions import INSTANT
 from .interfaces import SO, SignalSource
@@ -14,6 +15,8 @@ __modelica__ = "Modelica.Blocks.Sources"
 class _Wave(SignalSource):
     """A wave from ``startTime`` on; before, ``y = offset``, or if ``continuous`` its first value."""
 
+    ICON = icons.SINE
+
     amplitude = ac.Parameter(1.0, doc="amplitude")
     f = ac.Parameter(unit="Hz", doc="frequency")
     phase = ac.Parameter(0.0, unit="rad", doc="phase at startTime")
@@ -23,7 +26,7 @@ class _Wave(SignalSource):
         t = ac.time - self.startTime
         wave = self.amplitude * shape(2 * ac.pi * self.f * t + self.phase)
         before = self.amplitude * shape(self.phase) if self.continuous else 0
-        return ac.Eq(self.y, self.offset + ac.where(t < 0, before, wave))
+        return ac.Eq(self.y, self.offset + ac.where(t < 0, before, wave, events=None))
 
 
 class Sine(_Wave):
@@ -42,6 +45,8 @@ class Cosine(_Wave):
 
 class _VariableWave(SO):
     """A wave whose ``amplitude`` and frequency ``f`` [Hz] are inputs: ``der(phi) = 2 pi f``."""
+
+    ICON = icons.SINE
 
     useConstantAmplitude = ac.Option(False, doc="whether the amplitude is constantAmplitude")
     constantAmplitude = ac.Parameter(1.0, doc="amplitude without input")
@@ -82,6 +87,8 @@ class CosineVariableFrequencyAndAmplitude(_VariableWave):
 class Sinc(SignalSource):
     """``y = offset + amplitude sin(x)/x`` with ``x = 2 pi f (time - startTime)``."""
 
+    ICON = icons.SINE
+
     amplitude = ac.Parameter(1.0, doc="amplitude")
     f = ac.Parameter(unit="Hz", doc="frequency")
 
@@ -89,11 +96,13 @@ class Sinc(SignalSource):
         t = ac.time - self.startTime
         x = 2 * ac.pi * self.f * ac.maximum(t, INSTANT)
         sinc = self.amplitude * ac.sin(x) / x
-        yield ac.Eq(self.y, self.offset + ac.where(t < 0, 0, sinc))
+        yield ac.Eq(self.y, self.offset + ac.where(t < 0, 0, sinc, events=None))
 
 
 class ExpSine(SignalSource):
     """``y = offset + amplitude exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
+
+    ICON = icons.SINE
 
     amplitude = ac.Parameter(1.0, doc="amplitude")
     f = ac.Parameter(unit="Hz", doc="frequency")
@@ -104,7 +113,8 @@ class ExpSine(SignalSource):
         t = ac.maximum(ac.time - self.startTime, 0)
         sine = ac.sin(2 * ac.pi * self.f * t + self.phase)
         wave = self.amplitude * ac.exp(-self.damping * t) * sine
-        yield ac.Eq(self.y, self.offset + ac.where(ac.time < self.startTime, 0, wave))
+        before = ac.time < self.startTime
+        yield ac.Eq(self.y, self.offset + ac.where(before, 0, wave, events=None))
 
 
 class Exponentials(SignalSource):
@@ -113,6 +123,8 @@ class Exponentials(SignalSource):
     ``outMax (1 - exp(-t/riseTimeConst))`` for ``t = time - startTime < riseTime``; after that the value
     reached decays with ``fallTimeConst`` (default: ``riseTimeConst``).
     """
+
+    ICON = icons.LAG
 
     outMax = ac.Parameter(1.0, doc="height for an infinite rise time")
     riseTime = ac.Parameter(unit="s", min=0, doc="rise time")

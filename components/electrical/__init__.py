@@ -14,8 +14,10 @@ from acausal.components.modelica import export
 from . import op_amp_circuits as op_amp_circuits, utilities as utilities
 from .adaptors import *
 from .amplifiers import *
+from .arcs import *
 from .basic import *
 from .bipolar import *
+from .converters import *
 from .currents import *
 from .diodes import *
 from .emf import *
@@ -25,10 +27,10 @@ from .inductors import *
 from .interfaces import *
 from .lines import *
 from .mosfets import *
-from .refused import *
 from .sensors import *
 from .switches import *
 from .thyristors import *
+from .triac import *
 from .utilities import (
     Nand as Nand,
     NonlinearResistor as NonlinearResistor,

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import NegativePin, PositivePin
 
@@ -16,6 +17,8 @@ class OpAmp(ac.Component):
     ``out.v = (VMax.v + VMin.v)/2 + a vin/(1 + a |2 vin/(VMax.v - VMin.v)|)`` with ``a = |Slope|`` and
     ``vin = in_p.v - in_n.v``. Current flows at ``out`` only.
     """
+
+    ICON = icons.OP_AMP
 
     Slope = ac.Parameter(doc="slope of the characteristic at vin = 0")
     in_p = PositivePin()
@@ -48,6 +51,8 @@ class OpAmpDetailed(ac.Component):
 
     Conelly, Choi: Macromodelling with SPICE, 1992. It starts with ``v_source = q_fp1``.
     """
+
+    ICON = icons.OP_AMP
 
     Rdm = ac.Parameter(2e6, unit="Ohm", doc="input resistance, differential mode")
     Rcm = ac.Parameter(2e9, unit="Ohm", doc="input resistance, common mode")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import ConditionalHeatPort, OnePort, Pin, TwoPort
 
@@ -11,6 +12,8 @@ __modelica__ = "Modelica.Electrical.Analog.Basic"
 
 class Ground(ac.Component):
     """The potential zero: ``p.v = 0``. Every circuit needs one."""
+
+    ICON = icons.GROUND
 
     p = Pin()
 
@@ -23,6 +26,8 @@ class Resistor(OnePort, ConditionalHeatPort):
 
     ``R_actual = R (1 + alpha (T_heatPort - T_ref))`` [Ohm]; ``R`` may be zero or negative.
     """
+
+    ICON = icons.RESISTOR
 
     R = ac.Parameter(unit="Ohm", doc="resistance at T_ref")
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
@@ -43,6 +48,8 @@ class Conductor(OnePort, ConditionalHeatPort):
     ``G_actual = G/(1 + alpha (T_heatPort - T_ref))`` [S]; ``G`` may be zero or negative.
     """
 
+    ICON = icons.RESISTOR
+
     G = ac.Parameter(unit="S", doc="conductance at T_ref")
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
@@ -59,6 +66,8 @@ class Conductor(OnePort, ConditionalHeatPort):
 class Capacitor(OnePort):
     """Linear capacitor: ``i = C der(v)``."""
 
+    ICON = icons.CAPACITOR
+
     C = ac.Parameter(unit="F", min=0, doc="capacitance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -68,6 +77,8 @@ class Capacitor(OnePort):
 
 class Inductor(OnePort):
     """Linear inductor: ``v = L der(i)``."""
+
+    ICON = icons.INDUCTOR
 
     L = ac.Parameter(unit="H", min=0, doc="inductance")
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar, NamedTuple
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 
 from .diodes import _TemperatureDependent
 from .interfaces import NegativePin, Pin
@@ -35,6 +35,8 @@ class _Bipolar(_TemperatureDependent):
     ``c = Tau is_t exp(v/w)/w + C (1 - v/Phi)**-M`` with ``w = N vt_t``; exponentials are linear
     outside of ``EMin`` ... ``EMax``, the power above 0. The substrate takes ``iS = -Ccs der(vcs)``.
     """
+
+    ICON = icons.TRANSISTOR
 
     polarity: ClassVar[int] = 1
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import waveforms
 from .interfaces import CurrentSource, NegativePin, OnePort, PositivePin
@@ -13,6 +14,8 @@ __modelica__ = "Modelica.Electrical.Analog.Sources"
 
 class SignalCurrent(ac.Component):
     """A current given by a signal ``i`` [A]: ``i = p.i = -n.i``, ``v = p.v - n.v`` [V]."""
+
+    ICON = icons.CURRENT
 
     p = PositivePin()
     n = NegativePin()
@@ -27,6 +30,8 @@ class SignalCurrent(ac.Component):
 
 class ConstantCurrent(OnePort):
     """``i = I``."""
+
+    ICON = icons.CURRENT
 
     I = ac.Parameter(unit="A", doc="constant current")
 

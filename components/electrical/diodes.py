@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 
 from .interfaces import ConditionalHeatPort, OnePort
 from .laws import exlin
@@ -33,6 +33,8 @@ class Diode(OnePort, _TemperatureDependent):
     ``i = id (T/TNOM)**(XTI/N) exp((T/TNOM - 1) EG/(N vt_t)) + v/R`` with ``T = T_heatPort`` and the
     thermal voltage ``vt_t = k T/q``. ``LossPower = v i``.
     """
+
+    ICON = icons.DIODE
 
     Ids = ac.Parameter(1e-6, unit="A", doc="saturation current")
     Vt = ac.Parameter(0.04, unit="V", doc="thermal voltage (kT/qn) without temperature dependency")
@@ -68,6 +70,8 @@ class Diode2(OnePort, ConditionalHeatPort):
     exponent 100, where Modelica's overflows.
     """
 
+    ICON = icons.DIODE
+
     Vf = ac.Parameter(0.7, unit="V", min=0, doc="forward voltage")
     Ids = ac.Parameter(1e-13, unit="A", doc="reverse saturation current")
     Rs = ac.Parameter(16.0, unit="Ohm", doc="series resistance")
@@ -101,6 +105,8 @@ class ZDiode(OnePort, ConditionalHeatPort):
     Both exponentials are linear beyond ``Maxexp``. ``LossPower = v i``; the law does not depend on the
     temperature.
     """
+
+    ICON = icons.ZENER
 
     Ids = ac.Parameter(1e-6, unit="A", doc="saturation current")
     Vt = ac.Parameter(0.04, unit="V", doc="thermal voltage (kT/qn)")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.mechanics import rotational, translational
 
 from .interfaces import OnePort
@@ -16,6 +17,8 @@ class RotationalEMF(OnePort):
     ``tau = flange.tau`` [N.m] is the cut torque, ``tauElectrical = -tau``. With ``useSupport`` the torque
     acts against the flange ``support``, else against the ground.
     """
+
+    ICON = icons.EMF
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
     k = ac.Parameter(unit="N.m/A", doc="torque per current, = voltage per speed")
@@ -44,6 +47,8 @@ class TranslationalEMF(OnePort):
     ``f = flange.f`` [N] is the cut force, ``fElectrical = -f``. With ``useSupport`` the force acts against
     the flange ``support``, else against the ground.
     """
+
+    ICON = icons.EMF
 
     useSupport = ac.Option(False, doc="whether there is a support flange; else fixed to the ground")
     k = ac.Parameter(unit="N/A", doc="force per current, = voltage per speed")

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import IdealSemiconductor, OnePort, TwoPort
 from .laws import TRUE
@@ -19,10 +20,24 @@ class IdealDiode(IdealSemiconductor):
         return self.s < 0
 
 
+class IdealThyristor(IdealSemiconductor):
+    """Ideal thyristor: fired by the signal ``fire > 0.5`` above ``Vknee``, it conducts until ``s < 0``."""
+
+    ICON = icons.THYRISTOR
+
+    fire = ac.Input(kind="bool", doc="fires above 0.5 (Modelica: true)")
+
+    @property
+    def _blocks(self) -> Any:
+        return (self.s < 0) | ((ac.pre(self.off) > TRUE) & (self.fire <= TRUE))
+
+
 class IdealGTOThyristor(IdealSemiconductor):
     """Ideal switching transistor: it conducts above ``Vknee`` while the signal ``fire > 0.5``."""
 
-    fire = ac.Input(doc="may conduct above 0.5 (Modelica: true)")
+    ICON = icons.THYRISTOR
+
+    fire = ac.Input(kind="bool", doc="may conduct above 0.5 (Modelica: true)")
 
     @property
     def _blocks(self) -> Any:
@@ -34,6 +49,8 @@ class IdealTransformer(TwoPort):
 
     Without ``considerMagnetization`` ``im1 = 0``; with it ``v1 = der(psim1)``, ``psim1 = Lm1 im1``.
     """
+
+    ICON = icons.TRANSFORMER
 
     n = ac.Parameter(doc="turns ratio, primary to secondary voltage")
     considerMagnetization = ac.Option(False, doc="whether there is a magnetizing current")
@@ -58,6 +75,8 @@ class IdealTransformer(TwoPort):
 class Idle(OnePort):
     """An interruption: ``i = 0``."""
 
+    ICON = icons.IDLE
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.i, 0)
@@ -65,6 +84,8 @@ class Idle(OnePort):
 
 class Short(OnePort):
     """A short cut: ``v = 0``."""
+
+    ICON = icons.SHORT
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

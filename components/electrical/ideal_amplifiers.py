@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import NegativePin, PositivePin, TwoPort
 
@@ -16,6 +17,8 @@ _LIMITER_HOMOTOPY = ("NoHomotopy", "Linear", "UpperLimit", "LowerLimit")
 class IdealOpAmp(TwoPort):
     """Nullator and norator: ``v1 = 0`` and ``i1 = 0``; ``v2`` and ``i2`` are what the circuit asks for."""
 
+    ICON = icons.OP_AMP
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.v1, 0)
@@ -24,6 +27,8 @@ class IdealOpAmp(TwoPort):
 
 class _ThreePins(ac.Component):
     """Two inputs without current and an output that gives any current."""
+
+    ICON = icons.OP_AMP
 
     in_p = PositivePin()
     in_n = NegativePin()
@@ -42,49 +47,87 @@ class IdealOpAmp3Pin(_ThreePins):
         yield ac.Eq(self.in_p.v, self.in_n.v)
 
 
-class _Limited(_ThreePins):
-    """An output between two limits, along whose characteristic the variable ``s`` runs, from -1 to 1 inside.
+_TRIED = 1e-3
+"""So far within a limit, relative to the range, an amplifier is tried that is to leave it."""
 
-    Stated in ``s`` the law is as steep inside as outside, so that Newton's method finds the way.
+
+class _Limited(_ThreePins):
+    """An output between two limits, with a memory of the limit that it is at.
+
+    A loop with positive feedback has several solutions. The amplifier stays at its limit while that is one; then its
+    output is tried a little within, and goes back to the limit's side of the range or runs away to the other limit.
     """
 
-    s = ac.Variable(doc="position on the characteristic; the limits are at -1 and 1")
+    mode = ac.Discrete(
+        "_first_mode",
+        kind="int",
+        doc="1 at the upper limit, -1 at the lower, 0 between; 2 and -2 while leaving a limit is tried",
+    )
+    pull = ac.Discrete(doc="how much the input asks for a higher output, before the last event")
+    push = ac.Variable(
+        start=1.0, doc="while leaving is tried: above zero if it leads to the middle"
+    )
 
-    def _characteristic(self, low: Any, high: Any) -> tuple[Any, Any]:
-        """The output, and by how much the input is beyond what gives that output."""
-        inside = ac.maximum(ac.minimum(self.s, 1), -1)
-        middle, half = (high + low) / 2, (high - low) / 2
-        return middle + half * inside, half * (self.s - inside)
+    @property
+    def _first_mode(self) -> int:
+        """The mode before the first event."""
+        return 0
+
+    def _output(self, low: Any, high: Any, between: Any) -> Any:
+        """The output; ``between`` is what it is within the limits."""
+        m, step = ac.pre(self.mode), _TRIED * (high - low)
+        upper = ac.where(m > 1.5, high - step, ac.where(m > 0.5, high, between))
+        return ac.where(m < -1.5, low + step, ac.where(m < -0.5, low, upper))
+
+    def _changes(self, above: Any, below: Any, pull: Any) -> Iterator[ac.Eq]:
+        """The mode, from whether the input asks for more or less than the limits, and by how much."""
+        m, rise = ac.pre(self.mode), pull - ac.pre(self.pull)
+        yield ac.Eq(self.pull, pull)
+        yield ac.Eq(self.push, ac.where(m > 1.5, rise, ac.where(m < -1.5, -rise, 1)))
+        away = self.push > 0
+        upper = ac.where(m > 1.5, ac.where(away, 0, -1), ac.where(above, 1, 2))
+        lower = ac.where(m < -1.5, ac.where(away, 0, 1), ac.where(below, -1, -2))
+        middle = ac.where(above, 1, ac.where(below, -1, 0))
+        yield ac.Eq(self.mode, ac.where(m > 0.5, upper, ac.where(m < -0.5, lower, middle)))
 
 
 class IdealOpAmpLimited(_Limited):
     """Ideal amplifier whose output stays between the potentials of ``VMin`` and ``VMax``.
 
     ``vin = in_p.v - in_n.v`` is zero while the output is within; below zero ``out.v = VMin.v``, above
-    zero ``out.v = VMax.v``.
+    zero ``out.v = VMax.v``. Steps end where it comes to a limit or leaves it.
     """
 
     VMax = PositivePin()
     VMin = NegativePin()
     vin = ac.Variable(unit="V", doc="input voltage")
+    s = ac.Variable(doc="position on the characteristic; the limits are at -1 and 1")
+
+    @property
+    def _first_mode(self) -> int:
+        return 1  # without feedback there is no solution between the limits
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.VMax.i, 0)
         yield ac.Eq(self.VMin.i, 0)
-        output, excess = self._characteristic(self.VMin.v, self.VMax.v)
+        low, high, m = self.VMin.v, self.VMax.v, ac.pre(self.mode)
         yield ac.Eq(self.vin, self.in_p.v - self.in_n.v)
+        excess = ac.where(m > 0.5, self.s - 1, ac.where(m < -0.5, self.s + 1, 0))
         yield ac.Eq(self.vin, excess)
-        yield ac.Eq(self.out.v, output)
+        between = (high + low) / 2 + (high - low) / 2 * self.s
+        yield ac.Eq(self.out.v, self._output(low, high, between))
+        yield from self._changes(self.s > 1, self.s < -1, self.vin)
 
 
 class IdealizedOpAmpLimited(_Limited):
     """Amplifier with the gain ``V0``: ``v_out = V0 v_in``, bounded to the supply ``vns`` ... ``vps``.
 
     The supply is ``Vps`` and ``Vns`` [V], or with ``useSupply`` the potentials of the pins ``s_p`` and
-    ``s_n``, between which the power for the output is taken: ``i_s = p_s/(vps - vns)``. ``strict`` and
-    ``homotopyType`` have no effect. The law has no memory: a Schmitt trigger, which is in one of two states
-    by its past, cannot be made of it.
+    ``s_n``, between which the power for the output is taken: ``i_s = p_s/(vps - vns)``. Steps end where the output
+    comes to a limit or leaves it. With positive feedback it stays at a limit as long as it can (Schmitt trigger);
+    ``homotopyType`` says where it begins: at the limit of ``"UpperLimit"`` or ``"LowerLimit"`` if that is a solution.
+    ``strict`` has no effect.
     """
 
     V0 = ac.Parameter(15000.0, doc="no-load gain")
@@ -92,7 +135,9 @@ class IdealizedOpAmpLimited(_Limited):
     Vps = ac.Parameter(15.0, unit="V", doc="positive supply without pins")
     Vns = ac.Parameter(-15.0, unit="V", doc="negative supply without pins")
     strict = ac.Option(True, doc="without effect")
-    homotopyType = ac.Option("NoHomotopy", choices=_LIMITER_HOMOTOPY, doc="without effect")
+    homotopyType = ac.Option(
+        "NoHomotopy", choices=_LIMITER_HOMOTOPY, doc="where the output begins, if there is a choice"
+    )
     s_p = PositivePin(when="useSupply")
     s_n = NegativePin(when="useSupply")
     vps = ac.Variable(unit="V", doc="positive supply")
@@ -103,6 +148,10 @@ class IdealizedOpAmpLimited(_Limited):
     p_out = ac.Variable(unit="W", doc="power into the output")
     p_s = ac.Variable(unit="W", doc="power from the supply")
     i_s = ac.Variable(unit="A", doc="current from the supply")
+
+    @property
+    def _first_mode(self) -> int:
+        return {"UpperLimit": 1, "LowerLimit": -1}.get(self.homotopyType, 0)
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -117,6 +166,6 @@ class IdealizedOpAmpLimited(_Limited):
         if self.useSupply:
             yield ac.Eq(self.s_p.i, self.i_s)
             yield ac.Eq(self.s_n.i, -self.i_s)
-        output, excess = self._characteristic(self.vns, self.vps)
-        yield ac.Eq(self.v_out, output)
-        yield ac.Eq(self.v_in, output / self.V0 + excess)
+        wanted = self.V0 * self.v_in
+        yield ac.Eq(self.v_out, self._output(self.vns, self.vps, wanted))
+        yield from self._changes(wanted > self.vps, wanted < self.vns, wanted - self.v_out)

@@ -5,6 +5,7 @@ from math import pi
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import NegativePin, OnePort, PositivePin, TwoPort
 
@@ -18,6 +19,8 @@ class SaturatingInductor(OnePort):
     ``Lact = Psi/i`` [H]. ``Ipar`` [A] follows from ``Lact = Lnom`` at ``i = Inom``; this needs
     ``Linf < Lnom < Lzer``. No hysteresis.
     """
+
+    ICON = icons.SATURATING
 
     Inom = ac.Parameter(unit="A", min=0, doc="nominal current")
     Lnom = ac.Parameter(unit="H", min=0, doc="inductance at the nominal current")
@@ -63,6 +66,8 @@ class Transformer(TwoPort):
 
     ``dv = v1 - v2`` [V]. The coupling must not be perfect: ``L1 L2 > M**2``.
     """
+
+    ICON = icons.TRANSFORMER
 
     L1 = ac.Parameter(unit="H", doc="primary inductance")
     L2 = ac.Parameter(unit="H", doc="secondary inductance")

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.thermal.interfaces import HeatPort_a
 
 from .laws import contact
@@ -24,6 +25,7 @@ class Pin(ac.Connector):
     pair = ("p", "n")
     across = "v"
     through = "i"
+    COLOR = "#4a7fd6"
 
 
 PositivePin = Pin
@@ -111,13 +113,16 @@ class IdealSemiconductor(OnePort, ConditionalHeatPort):
     """An ideal characteristic with a knee, along which the parameter ``s`` runs; ``LossPower = v i``.
 
     Conducting ``v = Ron s + Vknee``, ``i = s + Goff Vknee``; blocking (``off``) ``v = s + Vknee``,
-    ``i = Goff (s + Vknee)``. A subclass says when it blocks. ``off`` is 1 then, else 0.
+    ``i = Goff (s + Vknee)``. A subclass says when it blocks; steps end where it begins or ceases to. ``off`` is
+    1 while blocking, else 0.
     """
+
+    ICON = icons.DIODE
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while conducting")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while blocking")
     Vknee = ac.Parameter(0.0, unit="V", min=0, doc="forward threshold voltage")
-    off = ac.Variable(start=1.0, doc="1 while blocking, else 0")
+    off = ac.Discrete(True, kind="bool", doc="1 while blocking, else 0")
     s = ac.Variable(doc="position on the characteristic; the knee is at 0")
 
     @property
@@ -127,33 +132,34 @@ class IdealSemiconductor(OnePort, ConditionalHeatPort):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        off = self._blocks
-        yield ac.Eq(self.off, ac.where(off, 1, 0))
-        yield ac.Eq(self.v, self.s * ac.where(off, 1, self.Ron) + self.Vknee)
-        yield ac.Eq(self.i, self.s * ac.where(off, self.Goff, 1) + self.Goff * self.Vknee)
+        yield ac.Eq(self.off, ac.where(self._blocks, 1, 0))
+        yield ac.Eq(self.v, self.s * ac.where(self.off, 1, self.Ron) + self.Vknee)
+        yield ac.Eq(self.i, self.s * ac.where(self.off, self.Goff, 1) + self.Goff * self.Vknee)
         yield ac.Eq(self.LossPower, self.v * self.i)
 
 
 class IdealSwitch(OnePort, ConditionalHeatPort):
     """A switch: ``i = Goff v`` while open (``off``), ``v = Ron i`` while closed; ``LossPower = v i``.
 
-    ``Ron`` or ``Goff`` may be zero where the circuit allows it. A subclass says when it is open. ``off`` is
-    1 then, else 0.
+    ``Ron`` or ``Goff`` may be zero where the circuit allows it. A subclass says when it is open; steps end where
+    that changes. ``off`` is 1 while open, else 0.
     """
+
+    ICON = icons.SWITCH
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while closed")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while open")
-    off = ac.Variable(doc="1 while open, else 0")
+    off = ac.Discrete(False, kind="bool", doc="1 while open, else 0")
 
     @property
     def _open(self) -> Any:
         """The condition for being open."""
         raise NotImplementedError
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def equations(self) -> Iterator[Any]:
         yield from super().equations()
         yield ac.Eq(self.off, ac.where(self._open, 1, 0))
-        yield contact(self._open, self.v, self.i, self.Ron, self.Goff)
+        yield contact(self.off, self.v, self.i, self.Ron, self.Goff)
         yield ac.Eq(self.LossPower, self.v * self.i)
 
 
@@ -185,6 +191,8 @@ class _Source(OnePort):
 class VoltageSource(_Source):
     """A voltage that follows a signal: ``v = signalSource.y``, with ``offset`` and ``startTime``."""
 
+    ICON = icons.VOLTAGE
+
     offset = ac.Parameter(0.0, unit="V", doc="offset of the voltage")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -194,6 +202,8 @@ class VoltageSource(_Source):
 
 class CurrentSource(_Source):
     """A current that follows a signal: ``i = signalSource.y``, with ``offset`` and ``startTime``."""
+
+    ICON = icons.CURRENT
 
     offset = ac.Parameter(0.0, unit="A", doc="offset of the current")
 

@@ -9,8 +9,13 @@ TRUE = 0.5
 
 
 def contact(open_: Any, v: Any, i: Any, Ron: Any, Goff: Any) -> ac.Eq:
-    """A contact: ``i = Goff v`` while open, ``v = Ron i`` while closed. ``Ron`` or ``Goff`` may be 0."""
-    return ac.Eq(v * ac.where(open_, Goff, 1), i * ac.where(open_, 1, Ron))
+    """A contact: ``i = Goff v`` while open, ``v = Ron i`` while closed. ``Ron`` or ``Goff`` may be 0.
+
+    Steps end where it opens or closes.
+    """
+    return ac.Eq(
+        v * ac.where(open_, Goff, 1, events=True), i * ac.where(open_, 1, Ron, events=True)
+    )
 
 
 def exlin(x: Any, high: Any) -> Any:

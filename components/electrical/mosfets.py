@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import acausal as ac
+from acausal.components import icons
 
 from .diodes import _TemperatureDependent
 from .interfaces import Pin
@@ -21,6 +22,8 @@ class _MOS(_TemperatureDependent):
     ``vt_t = Vt (1 + kvt (T_heatPort - Tnom))`` and ``k2_t = K2 (1 + kk2 (T_heatPort - Tnom))``.
     Gate and bulk carry no current; ``LossPower = D.i (D.v - S.v)``.
     """
+
+    ICON = icons.TRANSISTOR
 
     polarity: ClassVar[int] = 1
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import NegativePin, PositivePin
 
@@ -11,6 +12,8 @@ __modelica__ = "Modelica.Electrical.Analog.Sensors"
 
 class PotentialSensor(ac.Component):
     """Potential of a pin: ``phi = p.v`` [V]."""
+
+    ICON = icons.SENSOR
 
     p = PositivePin()
     phi = ac.Output(unit="V", doc="potential of the pin")
@@ -22,6 +25,8 @@ class PotentialSensor(ac.Component):
 
 class VoltageSensor(ac.Component):
     """Voltage between two pins: ``v = p.v - n.v`` [V]; no current flows."""
+
+    ICON = icons.SENSOR2
 
     p = PositivePin()
     n = NegativePin()
@@ -35,6 +40,8 @@ class VoltageSensor(ac.Component):
 
 class CurrentSensor(ac.Component):
     """Current in a branch: ``i = p.i`` [A]; the voltage is zero."""
+
+    ICON = icons.SENSOR2
 
     p = PositivePin()
     n = NegativePin()

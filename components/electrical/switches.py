@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import ConditionalHeatPort, IdealSwitch, NegativePin, Pin, PositivePin
 from .laws import TRUE, contact
@@ -14,7 +15,7 @@ __modelica__ = "Modelica.Electrical.Analog.Ideal"
 class IdealOpeningSwitch(IdealSwitch):
     """A contact that the signal ``control`` opens: open where ``control > 0.5``."""
 
-    control = ac.Input(doc="open above 0.5 (Modelica: true)")
+    control = ac.Input(kind="bool", doc="open above 0.5 (Modelica: true)")
 
     @property
     def _open(self) -> Any:
@@ -24,7 +25,7 @@ class IdealOpeningSwitch(IdealSwitch):
 class IdealClosingSwitch(IdealSwitch):
     """A contact that the signal ``control`` closes: closed where ``control > 0.5``."""
 
-    control = ac.Input(doc="closed above 0.5 (Modelica: true)")
+    control = ac.Input(kind="bool", doc="closed above 0.5 (Modelica: true)")
 
     @property
     def _open(self) -> Any:
@@ -60,6 +61,8 @@ class ControlledIdealClosingSwitch(_PinControlled, IdealSwitch):
 
 class _Contacts(ConditionalHeatPort):
     """Several contacts with one ``Ron`` and ``Goff``, in one of two positions."""
+
+    ICON = icons.SWITCH
 
     Ron = ac.Parameter(1e-5, unit="Ohm", min=0, doc="resistance while closed")
     Goff = ac.Parameter(1e-5, unit="S", min=0, doc="conductance while open")
@@ -124,7 +127,7 @@ class _Intermediate(_Contacts):
 class _BySignal(_Contacts):
     """In the second position where the signal ``control`` is above 0.5."""
 
-    control = ac.Input(doc="second position above 0.5 (Modelica: true)")
+    control = ac.Input(kind="bool", doc="second position above 0.5 (Modelica: true)")
 
     @property
     def _first(self) -> Any:

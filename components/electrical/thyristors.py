@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .ideal import IdealDiode
 from .interfaces import ConditionalHeatPort, NegativePin, PositivePin
@@ -43,6 +44,8 @@ class Thyristor(_Ratings):
     ``vAK > VDRM``, plus up to ``10 vAK`` while a gate current above 0.95 ``IGT`` flows. The exponential of
     the breakthrough is linear from the exponent 100, where Modelica's overflows.
     """
+
+    ICON = icons.THYRISTOR
 
     Anode = PositivePin()
     Cathode = NegativePin()
@@ -95,6 +98,8 @@ class SimpleTriac(_Ratings):
 
     ``thyristor`` conducts from ``n`` to ``p``, ``thyristor1`` from ``p`` to ``n``; ``g`` is the gate.
     """
+
+    ICON = icons.THYRISTOR
 
     n = NegativePin()
     p = PositivePin()

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import ConditionalHeatPort, NegativePin, OnePort, PositivePin
 
@@ -18,6 +19,8 @@ class VariableResistor(OnePort, ConditionalHeatPort):
 
     ``R_actual = R (1 + alpha (T_heatPort - T_ref))`` [Ohm].
     """
+
+    ICON = icons.VARIABLE_RESISTOR
 
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
@@ -38,6 +41,8 @@ class VariableConductor(OnePort, ConditionalHeatPort):
     ``G_actual = G/(1 + alpha (T_heatPort - T_ref))`` [S].
     """
 
+    ICON = icons.VARIABLE_RESISTOR
+
     T_ref = ac.Parameter(300.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the resistance")
     T = ac.Parameter(lambda self: self.T_ref, unit="K", doc="temperature without heat port")
@@ -56,6 +61,8 @@ class VariableCapacitor(OnePort):
 
     With ``UIC`` the voltage starts at ``IC`` [V].
     """
+
+    ICON = icons.CAPACITOR
 
     Cmin = ac.Parameter(_EPS, unit="F", min=0, doc="lower bound of the capacitance")
     IC = ac.Parameter(0.0, unit="V", doc="initial voltage, with UIC")
@@ -78,6 +85,8 @@ class VariableInductor(OnePort):
 
     With ``UIC`` the current starts at ``IC`` [A].
     """
+
+    ICON = icons.INDUCTOR
 
     Lmin = ac.Parameter(_EPS, unit="H", min=0, doc="lower bound of the inductance")
     IC = ac.Parameter(0.0, unit="A", doc="initial current, with UIC")
@@ -102,6 +111,8 @@ class Potentiometer(ConditionalHeatPort):
     ``Rn = r R (1 + alpha (T_heatPort - T_ref))``, ``Rp`` the rest, and ``r`` bounded to 0 ... 1: the
     parameter ``rConstant``, or with ``useRinput`` the input ``r``.
     """
+
+    ICON = icons.VARIABLE_RESISTOR
 
     R = ac.Parameter(unit="Ohm", doc="whole resistance at T_ref")
     T_ref = ac.Parameter(293.15, unit="K", doc="reference temperature")

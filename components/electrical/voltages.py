@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import waveforms
 from .interfaces import NegativePin, OnePort, PositivePin, VoltageSource
@@ -13,6 +14,8 @@ __modelica__ = "Modelica.Electrical.Analog.Sources"
 
 class SignalVoltage(ac.Component):
     """A voltage given by a signal ``v`` [V]: ``v = p.v - n.v``, ``i = p.i`` [A]."""
+
+    ICON = icons.VOLTAGE
 
     p = PositivePin()
     n = NegativePin()
@@ -27,6 +30,8 @@ class SignalVoltage(ac.Component):
 
 class ConstantVoltage(OnePort):
     """``v = V``."""
+
+    ICON = icons.VOLTAGE
 
     V = ac.Parameter(unit="V", doc="constant voltage")
 
@@ -107,6 +112,8 @@ class TableVoltage(waveforms.Table, VoltageSource):
 
 class SupplyVoltage(ac.Component):
     """Two constant voltages: ``Vps`` from ``ground`` to ``pin_p``, ``Vns`` from ``ground`` to ``pin_n``."""
+
+    ICON = icons.VOLTAGE
 
     Vps = ac.Parameter(15.0, unit="V", doc="positive supply")
     Vns = ac.Parameter(-15.0, unit="V", doc="negative supply")

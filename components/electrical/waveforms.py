@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import blocks
+from acausal.components import blocks, icons
+from acausal.components.blocks.conventions import SMALL
 
 from .interfaces import CurrentSource, OnePort, VoltageSource
 
@@ -107,7 +108,7 @@ class Pulse(Waveform):
     """Pulses of ``width`` per cent of the ``period``."""
 
     width = ac.Parameter(min=0, max=100, doc="width of the pulse in per cent of the period")
-    period = ac.Parameter(unit="s", min=0, doc="duration of one period")
+    period = ac.Parameter(unit="s", min=SMALL, doc="duration of one period")
 
     def _signal(self) -> ac.Component:
         return blocks.Pulse(amplitude=self._amplitude, width=self.width, period=self.period)
@@ -116,7 +117,7 @@ class Pulse(Waveform):
 class SawTooth(Waveform):
     """A rise in each ``period``."""
 
-    period = ac.Parameter(unit="s", min=0, doc="duration of one period")
+    period = ac.Parameter(unit="s", min=SMALL, doc="duration of one period")
 
     def _signal(self) -> ac.Component:
         return blocks.SawTooth(amplitude=self._amplitude, period=self.period)
@@ -128,7 +129,7 @@ class Trapezoid(Waveform):
     rising = ac.Parameter(unit="s", min=0, doc="duration of the rise")
     width = ac.Parameter(unit="s", min=0, doc="duration at the amplitude")
     falling = ac.Parameter(unit="s", min=0, doc="duration of the fall")
-    period = ac.Parameter(unit="s", min=0, doc="duration of one period")
+    period = ac.Parameter(unit="s", min=SMALL, doc="duration of one period")
     nperiod = ac.Option(-1, doc="number of periods; endless if negative")
 
     forwarded = ("nperiod",)
@@ -191,6 +192,8 @@ class VariableWave(OnePort):
 class VariableVoltage(VariableWave):
     """A voltage with the amplitude ``V`` as input."""
 
+    ICON = icons.VOLTAGE
+
     constantAmplitude = ac.Parameter(1.0, unit="V", doc="amplitude without input")
     offset = ac.Parameter(0.0, unit="V", doc="offset of the voltage")
     V = ac.Input(unit="V", when="not useConstantAmplitude", doc="amplitude")
@@ -206,6 +209,8 @@ class VariableVoltage(VariableWave):
 
 class VariableCurrent(VariableWave):
     """A current with the amplitude ``I`` as input."""
+
+    ICON = icons.CURRENT
 
     constantAmplitude = ac.Parameter(1.0, unit="A", doc="amplitude without input")
     offset = ac.Parameter(0.0, unit="A", doc="offset of the current")

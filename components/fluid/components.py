@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 from acausal.components.thermal.interfaces import HeatPort
 from acausal.components.translational.interfaces import PartialElementaryOneFlangeAndSupport2
 
@@ -25,6 +25,8 @@ class Pipe(TwoPort, SimpleFriction):
     Heat into a pipe without a flow warms its medium; if that has no mass, without limit.
     """
 
+    ICON = icons.PIPE
+
     useHeatPort = ac.Option(False, doc="whether there is a heat port")
     h_g = ac.Parameter(0.0, unit="m", doc="height of flowPort_b above flowPort_a")
     g = ac.Parameter(nature.g_n, unit="m/s2", min=0, doc="gravity")
@@ -43,6 +45,8 @@ class Pipe(TwoPort, SimpleFriction):
 
 class _Valve(TwoPort):
     """What valves share: a part of the power lost, ``Q_flow = frictionLoss V_flow dp``, heats the medium."""
+
+    ICON = icons.VALVE
 
     tapT = 1
     frictionLoss = ac.Parameter(
@@ -120,6 +124,8 @@ class OpenTank(SinglePortBottom):
     Modelica stops a simulation whose level leaves ``[0, hTank]``; here it goes on.
     """
 
+    ICON = icons.TANK
+
     ATank = ac.Parameter(unit="m2", min=0, doc="cross section of the tank")
     hTank = ac.Parameter(unit="m", min=0, doc="height of the tank")
     pAmbient = ac.Parameter(0.0, unit="Pa", doc="ambient pressure")
@@ -156,6 +162,8 @@ class Cylinder(SinglePortLeft, PartialElementaryOneFlangeAndSupport2):
     with ``der(H) = flowPort.H_flow``. Modelica stops a simulation whose piston leaves ``(0, L]``; here it
     goes on, but its temperature is undefined at ``s = 0``.
     """
+
+    ICON = icons.CYLINDER
 
     A = ac.Parameter(unit="m2", min=0, doc="cross section of the piston")
     L = ac.Parameter(unit="m", min=0, doc="length of the cylinder")

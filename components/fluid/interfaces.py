@@ -27,6 +27,7 @@ class FlowPort(ac.Connector):
     across = "dp"
     through = "m_flow"
     power = False
+    COLOR = "#2f8fd0"
 
     @classmethod
     def carried(cls, enters: Any, leaves: Any) -> Iterator[ac.Eq]:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .bases import PartialAdiabatic, PartialMedium
 from .interfaces import FlowPort
@@ -12,6 +13,8 @@ __modelica__ = "Modelica.Thermal.FluidHeatFlow.Sensors"
 
 class AbsoluteSensor(PartialMedium):
     """One flow port that is measured without a flow: ``flowPort.m_flow = 0``, ``flowPort.H_flow = 0``."""
+
+    ICON = icons.SENSOR
 
     __modelica__ = "Modelica.Thermal.FluidHeatFlow.Interfaces"
 
@@ -26,6 +29,8 @@ class AbsoluteSensor(PartialMedium):
 
 class RelativeSensor(PartialMedium):
     """Two flow ports between which is measured, without a flow in either."""
+
+    ICON = icons.SENSOR2
 
     __modelica__ = "Modelica.Thermal.FluidHeatFlow.Interfaces"
 
@@ -42,6 +47,8 @@ class RelativeSensor(PartialMedium):
 
 class FlowSensor(PartialAdiabatic):
     """Two flow ports through which flows what is measured: ``dp = 0``, no volume and no heat."""
+
+    ICON = icons.SENSOR2
 
     __modelica__ = "Modelica.Thermal.FluidHeatFlow.Interfaces"
 

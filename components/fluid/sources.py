@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.mechanics.rotational import Flange
 
 from .bases import PartialAdiabatic, PartialSinglePort
@@ -15,6 +16,8 @@ class Ambient(PartialSinglePort):
 
     What flows in is lost; what flows out has temperature ``T``.
     """
+
+    ICON = icons.AMBIENT
 
     usePressureInput = ac.Option(False, doc="whether the pressure is a signal")
     constantAmbientPressure = ac.Parameter(
@@ -42,6 +45,8 @@ class AbsolutePressure(PartialSinglePort):
     flow could pass, use `Ambient`.
     """
 
+    ICON = icons.AMBIENT
+
     Exchange = False
 
     p = ac.Parameter(0.0, unit="Pa", doc="pressure")
@@ -57,6 +62,8 @@ class VolumeFlow(PartialAdiabatic):
 
     It is ``constantVolumeFlow``, or the signal ``volumeFlow`` with ``useVolumeFlowInput``.
     """
+
+    ICON = icons.PUMP
 
     useVolumeFlowInput = ac.Option(False, doc="whether the volume flow is a signal")
     constantVolumeFlow = ac.Parameter(
@@ -76,6 +83,8 @@ class PressureIncrease(PartialAdiabatic):
     It is ``constantPressureIncrease``, or the signal ``pressureIncrease`` with
     ``usePressureIncreaseInput``.
     """
+
+    ICON = icons.PUMP
 
     usePressureIncreaseInput = ac.Option(False, doc="whether the pressure increase is a signal")
     constantPressureIncrease = ac.Parameter(
@@ -99,6 +108,8 @@ class IdealPump(PartialAdiabatic):
     intercepts are ``dp1 = dp0 r |r|`` and ``V_flow1 = V_flow0 r``. So ``dp = -dp0 |r| (r - V_flow/V_flow0)``
     and ``flange_a.tau = dp0/wNominal sign(r) (r - V_flow/V_flow0) V_flow``, which hold at rest too.
     """
+
+    ICON = icons.PUMP
 
     wNominal = ac.Parameter(unit="rad/s", min=0, doc="nominal speed")
     dp0 = ac.Parameter(unit="Pa", doc="pressure increase without flow, at nominal speed")

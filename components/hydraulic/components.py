@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.nature import g_n
 
 from .interfaces import FluidPort, PartialTwoPortTransport
@@ -16,6 +17,8 @@ class OpenTank(ac.Component):
     pressure, ``port.p = p_ambient + rho g level``; what enters at the top falls in freely, ``topPort.p = p_ambient``.
     ``level`` [m] is preferred as a state. A rim is a `Weir` at ``port``.
     """
+
+    ICON = icons.TANK
 
     crossArea = ac.Parameter(unit="m2", min=0, doc="cross section of the tank")
     rho = ac.Parameter(RHO, unit="kg/m3", min=0, doc="density of the liquid")
@@ -35,6 +38,8 @@ class OpenTank(ac.Component):
 class LinearResistance(PartialTwoPortTransport):
     """Laminar flow: ``m_flow = k dp``."""
 
+    ICON = icons.PIPE
+
     k = ac.Parameter(unit="kg/(s.Pa)", min=0, doc="hydraulic conductance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -49,6 +54,8 @@ class Orifice(PartialTwoPortTransport):
     without a pressure drop, the root is ``dp / (dp**2 + dp_small**2)**(1/4)``, as in Modelica's
     ``Fluid.Utilities.regRoot``.
     """
+
+    ICON = icons.ORIFICE
 
     area = ac.Parameter(unit="m2", min=0, doc="cross section of the hole")
     C_d = ac.Parameter(0.61, min=0, doc="discharge coefficient")
@@ -69,6 +76,8 @@ class Weir(PartialTwoPortTransport):
     not matter, and nothing comes back.
     """
 
+    ICON = icons.ORIFICE
+
     height = ac.Parameter(unit="m", doc="height of the rim above the tank's bottom")
     width = ac.Parameter(unit="m", min=0, doc="length of the rim that is flown over")
     C_d = ac.Parameter(0.61, min=0, doc="discharge coefficient")
@@ -87,6 +96,8 @@ class Weir(PartialTwoPortTransport):
 
 class StaticHead(PartialTwoPortTransport):
     """A difference in height without friction: ``dp = rho g height_ab``."""
+
+    ICON = icons.HEAD
 
     height_ab = ac.Parameter(unit="m", doc="height of port_b above port_a")
     rho = ac.Parameter(RHO, unit="kg/m3", min=0, doc="density of the liquid")

@@ -15,6 +15,7 @@ class FluidPort(ac.Connector):
     across = "dp"
     through = "m_flow"
     power = False
+    COLOR = "#2f8fd0"
 
 
 FluidPort_a = FluidPort

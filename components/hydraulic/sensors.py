@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import FluidPort, PartialTwoPortTransport
 from .water import RHO
@@ -10,6 +11,8 @@ from .water import RHO
 
 class Pressure(ac.Component):
     """Pressure ``p = port.p`` [Pa]."""
+
+    ICON = icons.SENSOR
 
     port = FluidPort()
     p = ac.Output(unit="Pa", doc="pressure at the port")
@@ -21,6 +24,8 @@ class Pressure(ac.Component):
 
 class RelativePressure(ac.Component):
     """Pressure drop ``p_rel = port_a.p - port_b.p`` [Pa]."""
+
+    ICON = icons.SENSOR2
 
     port_a = FluidPort()
     port_b = FluidPort()
@@ -34,6 +39,8 @@ class RelativePressure(ac.Component):
 
 class PartialFlowSensor(PartialTwoPortTransport):
     """What flow sensors share: the liquid passes without a pressure drop, ``dp = 0``."""
+
+    ICON = icons.SENSOR2
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

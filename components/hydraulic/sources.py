@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import FluidPort
 
@@ -12,6 +13,8 @@ class Boundary(ac.Component):
 
     With ``use_p_in`` the pressure is the signal ``p_in``.
     """
+
+    ICON = icons.AMBIENT
 
     use_p_in = ac.Option(False, doc="whether the pressure is a signal")
     p = ac.Parameter(0.0, unit="Pa", when="not use_p_in", doc="pressure")
@@ -27,6 +30,8 @@ class MassFlowSource(ac.Component):
 
     A pump from a reservoir, say. With ``use_m_flow_in`` the flow is the signal ``m_flow_in``.
     """
+
+    ICON = icons.PUMP
 
     use_m_flow_in = ac.Option(False, doc="whether the mass flow rate is a signal")
     m_flow = ac.Parameter(unit="kg/s", when="not use_m_flow_in", doc="mass flow rate")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 from acausal.components.electrical.interfaces import ConditionalHeatPort, OnePort
 
 from .interfaces import (
@@ -26,6 +26,8 @@ _EPS = 100 * 2.220446049250313e-16
 class Ground(ac.Component):
     """The magnetic potential zero: ``port.V_m = 0``. Every magnetic circuit needs one."""
 
+    ICON = icons.GROUND
+
     port = MagneticPort()
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -37,6 +39,8 @@ class _Converter(OnePort, TwoPort):
 
     ``L_stat`` [H], for information, is ``|Psi/i|``. The current is preferred as a state.
     """
+
+    ICON = icons.CONVERTER
 
     N = ac.Parameter(doc="number of turns")
     i = ac.Variable(unit="A", state="prefer", doc="current from p to n")
@@ -94,6 +98,8 @@ class ElectroMagneticConverterWithLeakageInductance(_Converter):
 class ConstantReluctance(TwoPort):
     """``V_m = Phi R_m``."""
 
+    ICON = icons.RELUCTANCE
+
     R_m = ac.Parameter(1.0, unit="1/H", doc="magnetic reluctance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -103,6 +109,8 @@ class ConstantReluctance(TwoPort):
 
 class ConstantPermeance(TwoPort):
     """``Phi = G_m V_m``."""
+
+    ICON = icons.RELUCTANCE
 
     G_m = ac.Parameter(1.0, unit="H", doc="magnetic permeance")
 
@@ -114,6 +122,8 @@ class ConstantPermeance(TwoPort):
 class VariableReluctance(TwoPort):
     """``V_m = Phi R_m`` with the reluctance as a signal ``R_m`` [1/H]."""
 
+    ICON = icons.RELUCTANCE
+
     R_m = ac.Input(unit="1/H", doc="magnetic reluctance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -123,6 +133,8 @@ class VariableReluctance(TwoPort):
 
 class VariablePermeance(TwoPort):
     """``Phi = G_m V_m`` with the permeance as a signal ``G_m`` [H]."""
+
+    ICON = icons.RELUCTANCE
 
     G_m = ac.Input(unit="H", doc="magnetic permeance")
 
@@ -156,6 +168,8 @@ class EddyCurrent(TwoPort, ConditionalHeatPort):
     ``V_m = G der(Phi)``.
     """
 
+    ICON = icons.RELUCTANCE
+
     useConductance = ac.Option(False, doc="whether G replaces rho, l and A")
     G = ac.Parameter(1 / 0.098e-6, unit="S", min=0, doc="conductance of the path, A/(rho l)")
     rho = ac.Parameter(0.098e-6, unit="Ohm.m", doc="resistivity; that of iron at 20 degC")
@@ -176,6 +190,8 @@ class EddyCurrent(TwoPort, ConditionalHeatPort):
 class Idle(TwoPortExtended):
     """An interruption: ``Phi = 0`` at both ports."""
 
+    ICON = icons.IDLE
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.Phi, 0)
@@ -184,6 +200,8 @@ class Idle(TwoPortExtended):
 
 class Short(TwoPort):
     """A short cut: ``V_m = 0``."""
+
+    ICON = icons.SHORT
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

@@ -8,6 +8,7 @@ potential difference, the field strength along the tube's length. The product of
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 __modelica__ = "Modelica.Magnetic.FluxTubes.Interfaces"
 
@@ -22,6 +23,7 @@ class MagneticPort(ac.Connector):
     across = "V_m"
     through = "Phi"
     power = False
+    COLOR = "#c77f1a"
 
 
 PositiveMagneticPort = MagneticPort
@@ -57,6 +59,8 @@ class TwoPort(TwoPortExtended):
 
 class Reluctance(TwoPort):
     """A flux tube with ``V_m = Phi R_m`` and ``R_m = 1/G_m``; a subclass states one of the two."""
+
+    ICON = icons.RELUCTANCE
 
     __modelica__ = None
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 
 from .hard_magnetic import BaseData
 from .interfaces import TwoPort
@@ -18,6 +18,8 @@ class GenericLinearPermanentMagnet(TwoPort):
     ``V_m = H l``, ``Phi = B A``. ``B_r`` [T] and ``mu_r`` are those of the record ``mat``, one of
     `hard_magnetic`, unless given.
     """
+
+    ICON = icons.MAGNET
 
     l = ac.Parameter(0.1, unit="m", doc="length in the direction of flux")
     A = ac.Parameter(1e-4, unit="m2", doc="cross-section")

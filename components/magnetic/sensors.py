@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import TwoPortElementary
 
@@ -11,6 +12,8 @@ __modelica__ = "Modelica.Magnetic.FluxTubes.Sensors"
 
 class MagneticPotentialDifferenceSensor(TwoPortElementary):
     """Magnetic potential difference: ``V_m = port_p.V_m - port_n.V_m`` [A]; no flux passes."""
+
+    ICON = icons.SENSOR2
 
     V_m = ac.Output(unit="A", doc="magnetic potential difference")
     Phi = ac.Variable(unit="Wb", doc="magnetic flux from port_p to port_n, zero")
@@ -25,6 +28,8 @@ class MagneticPotentialDifferenceSensor(TwoPortElementary):
 
 class MagneticFluxSensor(TwoPortElementary):
     """Flux in a branch: ``Phi = port_p.Phi`` [Wb]; ``port_p.V_m = port_n.V_m``."""
+
+    ICON = icons.SENSOR2
 
     Phi = ac.Output(unit="Wb", doc="magnetic flux from port_p to port_n")
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import TwoPortElementary
 
@@ -11,6 +12,8 @@ __modelica__ = "Modelica.Magnetic.FluxTubes.Sources"
 
 class _Source(TwoPortElementary):
     """``V_m = port_p.V_m - port_n.V_m``, ``Phi = port_p.Phi = -port_n.Phi``; one of them is given."""
+
+    ICON = icons.VOLTAGE
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

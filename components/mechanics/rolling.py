@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import rotational, translational
 
@@ -19,6 +20,8 @@ class PartialElementaryRotationalToTranslational(ac.Component):
     The supports exist with ``useSupportR`` and ``useSupportT``; else that side works against the
     ground. ``supportR.tau = -flangeR.tau``, ``supportT.f = -flangeT.f``.
     """
+
+    ICON = icons.ROLLING
 
     __modelica__ = (
         "Modelica.Mechanics.Rotational.Interfaces",

@@ -20,6 +20,7 @@ class Flange(ac.Connector):
     through = "tau"
     rate = "w_rel"
     second_minus_first = True
+    COLOR = "#7d8590"
 
 
 Flange_a = Flange

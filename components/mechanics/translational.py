@@ -20,6 +20,7 @@ class Flange(ac.Connector):
     through = "f"
     rate = "v_rel"
     second_minus_first = True
+    COLOR = "#3f9b57"
 
 
 Flange_a = Flange

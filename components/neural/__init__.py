@@ -12,6 +12,7 @@ from acausal.components.modelica import export
 
 from .characteristic import *
 from .compliance import *
+from .friction import *
 from .hysteresis import *
 from .inductance import *
 from .interfaces import *

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.translational import Flange
 
 from .units import across_unit, flow_unit
@@ -74,6 +75,8 @@ class PartialTwoPort(ac.Component):
 
 class PartialNetwork(ac.Component):
     """An element with a network, and the options of it that all such elements have."""
+
+    ICON = icons.NEURAL
 
     width = ac.Option(16, doc="neurons in each hidden layer")
     depth = ac.Option(2, doc="hidden layers")

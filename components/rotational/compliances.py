@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.laws import bounded
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
@@ -19,6 +20,8 @@ _NO_BACKLASH = 1e-10
 class Spring(PartialCompliant):
     """Linear spring: ``tau = c (phi_rel - phi_rel0)``."""
 
+    ICON = icons.SPRING
+
     c = ac.Parameter(unit="N.m/rad", min=0, doc="spring constant")
     phi_rel0 = ac.Parameter(0.0, unit="rad", doc="angle of the unstretched spring")
 
@@ -29,6 +32,8 @@ class Spring(PartialCompliant):
 
 class Damper(PartialCompliantWithRelativeStates, PartialElementaryConditionalHeatPortWithoutT):
     """Linear damper: ``tau = d w_rel``, ``lossPower = tau w_rel``."""
+
+    ICON = icons.DAMPER
 
     d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping constant")
 
@@ -46,6 +51,8 @@ class SpringDamper(
     ``lossPower = d w_rel**2`` is what the damper takes.
     """
 
+    ICON = icons.SPRING_DAMPER
+
     c = ac.Parameter(unit="N.m/rad", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping constant")
     phi_rel0 = ac.Parameter(0.0, unit="rad", doc="angle of the unstretched spring")
@@ -58,6 +65,8 @@ class SpringDamper(
 
 class _Backlash(PartialCompliantWithRelativeStates, PartialElementaryConditionalHeatPortWithoutT):
     """Spring and damper behind a backlash; a subclass says how much the damper counts in contact."""
+
+    ICON = icons.BACKLASH
 
     c = ac.Parameter(unit="N.m/rad", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping constant")
@@ -75,9 +84,12 @@ class _Backlash(PartialCompliantWithRelativeStates, PartialElementaryConditional
         yield from super().equations()
         angle = self.phi_rel - self.phi_rel0
         pushes = self.tau_c * (self.tau_c + self.tau_d) > 0
+        touches = (angle > self.b / 2) | (angle < -self.b / 2)
 
         def contact(always: Any, pushing: Any) -> Any:
-            return ac.where(self.b <= _NO_BACKLASH, always, ac.where(pushes, pushing, 0))
+            touching = ac.where(pushes, pushing, 0)
+            behind = ac.where(touches, touching, 0, events=None)
+            return ac.where(self.b <= _NO_BACKLASH, always, behind)
 
         yield ac.Eq(self.tau_c, self.c * (angle - bounded(angle, self.b / 2)))
         yield ac.Eq(self.tau_d, self.d * self.w_rel)
@@ -104,5 +116,5 @@ class ElastoBacklash2(_Backlash):
     """Spring and damper behind a backlash; the torque never pulls, and jumps at contact.
 
     As `ElastoBacklash`, but ``tau_d`` counts fully: ``tau = tau_c + tau_d`` while that has the sign of
-    ``tau_c``, else 0.
+    ``tau_c``, else 0. In models with events, steps end where contact begins.
     """

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.choices import STATE_SELECT
 
 from .interfaces import Flange, PartialTwoFlanges
@@ -12,6 +13,8 @@ __modelica__ = "Modelica.Mechanics.Rotational.Components"
 
 class Fixed(ac.Component):
     """A flange fixed in the housing: ``flange.phi = phi0`` [rad]."""
+
+    ICON = icons.FIXED
 
     phi0 = ac.Parameter(0.0, unit="rad", doc="fixed angle")
     flange = Flange()
@@ -26,6 +29,8 @@ class Inertia(PartialTwoFlanges):
     Both flanges have its angle ``phi`` [rad]. ``phi`` and the speed ``w`` [rad/s] are preferred as
     states (Modelica: ``default``).
     """
+
+    ICON = icons.INERTIA
 
     J = ac.Parameter(unit="kg.m2", min=0, doc="moment of inertia")
     stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of phi and w as states")
@@ -48,6 +53,8 @@ class Disc(PartialTwoFlanges):
     ``0 = flange_a.tau + flange_b.tau``.
     """
 
+    ICON = icons.DISC
+
     deltaPhi = ac.Parameter(0.0, unit="rad", doc="fixed angle, = flange_b.phi - flange_a.phi")
     phi = ac.Variable(unit="rad", doc="angle of the centre")
 
@@ -62,6 +69,8 @@ class Coupling(PartialTwoFlanges):
 
     Both flanges take the same torque ``tau = flange_a.tau = flange_b.tau``; ``w = der(flange_a.phi)``.
     """
+
+    ICON = icons.DISC
 
     w = ac.Variable(unit="rad/s", doc="speed of flange_a")
     tau = ac.Variable(unit="N.m", doc="torque of both flanges")

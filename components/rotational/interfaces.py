@@ -4,7 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.choices import STATE_SELECT
+from acausal.components.mechanics.friction import Contact
 from acausal.components.mechanics.rotational import Flange, Support
 
 __modelica__ = "Modelica.Mechanics.Rotational.Interfaces"
@@ -133,6 +135,8 @@ class PartialElementaryTwoFlangesAndSupport2(PartialTwoFlanges):
 class PartialTorque(PartialElementaryOneFlangeAndSupport2):
     """A torque ``tau = -flange.tau`` [N.m] that drives what is connected to the flange."""
 
+    ICON = icons.TORQUE
+
     tau = ac.Variable(unit="N.m", doc="driving torque, = -flange.tau")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -142,6 +146,8 @@ class PartialTorque(PartialElementaryOneFlangeAndSupport2):
 
 class PartialAbsoluteSensor(ac.Component):
     """One flange that is measured without a torque: ``flange.tau = 0``."""
+
+    ICON = icons.SENSOR
 
     flange = Flange()
 
@@ -153,18 +159,49 @@ class PartialAbsoluteSensor(ac.Component):
 class PartialRelativeSensor(PartialTwoFlanges):
     """Two flanges between which is measured, without inertia: ``flange_a.tau + flange_b.tau = 0``."""
 
+    ICON = icons.SENSOR2
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.flange_a.tau + self.flange_b.tau, 0)
 
 
-class PartialFriction(ac.Component):
-    """What friction elements share: the speed ``w_small`` [rad/s] that smooths the law around rest.
+class PartialFriction(Contact):
+    """What friction elements share: a contact that slides or is stuck, as ``mode`` says.
 
-    Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
-    creeps instead, and it is stiffer for a smaller ``w_small``.
+    ``mode`` is -1 sliding backward, 0 stuck, 1 sliding forward, 2 free, 3 unknown. A stuck contact is ``locked``:
+    its acceleration ``a_relfric`` is 0, and its friction is what that takes, the path parameter ``sa``. Where ``sa``
+    exceeds ``tau0_max``, sliding begins (``startForward``), and ends where the speed ``w_relfric`` becomes 0. With
+    ``smooth`` there are neither modes nor events: the law of `acausal.components.laws.coulomb` creeps at rest, and it
+    is stiffer for a smaller ``w_small``. A subclass states ``w_relfric``, ``a_relfric``,
+    ``tau0``, ``tau0_max`` and ``free``, and its torque.
     """
 
-    DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")
+    w_small = ac.Parameter(
+        1e10,
+        unit="rad/s",
+        min=0,
+        doc="a sliding contact turns back where Reinit gives it more speed against its direction; "
+        "with smooth the speed below which friction is smoothed, 1e-4 rad/s unless it is given",
+    )
+    w_relfric = ac.Variable(unit="rad/s", when="_locks", doc="speed of the surfaces")
+    a_relfric = ac.Variable(unit="rad/s2", when="_locks", doc="acceleration of the surfaces")
+    tau0 = ac.Variable(unit="N.m", when="_locks", doc="friction at rest, sliding forward")
+    tau0_max = ac.Variable(unit="N.m", when="_locks", doc="greatest friction while locked")
 
-    w_small = ac.Parameter(1e-4, unit="rad/s", min=0, doc="speed below which friction is smoothed")
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        if not self.smooth:
+            yield from self._contact(
+                self.w_relfric, self.a_relfric, self.tau0, self.tau0_max, self.w_small
+            )
+
+    @property
+    def _width(self) -> Any:
+        """Speed below which the smooth law is smoothed."""
+        return _smooth_width(self.w_small)
+
+
+def _smooth_width(w_small: Any) -> Any:
+    """Speed below which a smooth law is smoothed: ``w_small``, or 1e-4 rad/s where that keeps its default."""
+    return ac.where(w_small < 1e9, w_small, 1e-4)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import PartialElementaryOneFlangeAndSupport2
 
@@ -17,6 +18,8 @@ class Position(PartialElementaryOneFlangeAndSupport2):
     ``a = ((phi_ref - phi) w_crit - 1.3617 w) w_crit / 0.6180`` with ``w_crit = 2 pi f_crit``,
     ``w = der(phi)``, ``a = der(w)``.
     """
+
+    ICON = icons.MOVED
 
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
@@ -56,6 +59,8 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
     starts at ``w_ref``: ``a = (w_ref - w) 2 pi f_crit``, ``a = der(w)``.
     """
 
+    ICON = icons.MOVED
+
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
     w_ref = ac.Input(unit="rad/s", doc="reference speed")
@@ -87,6 +92,8 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
 class Accelerate(PartialElementaryOneFlangeAndSupport2):
     """The flange follows an acceleration signal ``a_ref`` [rad/s2]; ``phi`` and ``w`` start at 0."""
 
+    ICON = icons.MOVED
+
     a_ref = ac.Input(unit="rad/s2", doc="reference acceleration")
     phi = ac.Variable(
         unit="rad", fixed=True, state="prefer", doc="angle of the flange relative to the support"
@@ -108,6 +115,8 @@ class Move(PartialElementaryOneFlangeAndSupport2):
     together.
     """
 
+    ICON = icons.MOVED
+
     u = ac.Input(shape=3, doc="angle, speed and acceleration of the flange")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -117,6 +126,8 @@ class Move(PartialElementaryOneFlangeAndSupport2):
 
 class ConstantSpeed(PartialElementaryOneFlangeAndSupport2):
     """The flange turns with constant speed ``w_fixed`` [rad/s], whatever the torque."""
+
+    ICON = icons.MOVED
 
     w_fixed = ac.Parameter(unit="rad/s", doc="speed")
     w = ac.Variable(unit="rad/s", doc="speed of the flange relative to the support")

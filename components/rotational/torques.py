@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.laws import (
     REGULARIZATION,
     eddy_current,
@@ -21,6 +22,8 @@ __modelica__ = "Modelica.Mechanics.Rotational.Sources"
 class Torque(PartialElementaryOneFlangeAndSupport2):
     """A torque signal ``tau`` [N.m] that drives what is connected: ``flange.tau = -tau``."""
 
+    ICON = icons.TORQUE
+
     tau = ac.Input(unit="N.m", doc="driving torque")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -33,6 +36,8 @@ class Torque2(PartialTwoFlanges):
 
     A positive torque drives what is connected at ``flange_b`` forward, at ``flange_a`` backward.
     """
+
+    ICON = icons.TORQUE2
 
     tau = ac.Input(unit="N.m", doc="driving torque")
 
@@ -51,7 +56,7 @@ class TorqueStep(PartialTorque):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        step = ac.where(ac.time < self.startTime, 0, self.stepTorque)
+        step = ac.where(ac.time < self.startTime, 0, self.stepTorque, events=None)
         yield ac.Eq(self.tau, self.offsetTorque + step)
 
 
@@ -156,6 +161,8 @@ class EddyCurrentTorque(
     ``r = w_normalized = w/(w_nominal (1 + alpha (TheatPort - TRef)))`` with the temperature
     coefficient ``alpha`` of `acausal.components.laws.temperature_factor`; ``lossPower = tau w``.
     """
+
+    ICON = icons.BRAKE
 
     useExcitationInput = ac.Option(False, doc="whether excitation is an input")
     constantExcitation = ac.Parameter(1.0, doc="relative excitation without input")

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import compliances, components
 from .adaptors import GeneralAngleToTorqueAdaptor, GeneralTorqueToAngleAdaptor
@@ -60,6 +61,8 @@ class InverseInertia(ac.Component):
 
 class SpringDamperNoRelativeStates(PartialCompliant):
     """Spring and damper side by side, without states of their own: ``tau = c (phi_rel - phi_rel0) + d w_rel``."""
+
+    ICON = icons.SPRING_DAMPER
 
     c = ac.Parameter(unit="N.m/rad", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.m.s/rad", min=0, doc="damping constant")

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import Element1D, HeatPort
 
@@ -15,6 +16,8 @@ class HeatCapacitor(ac.Component):
 
     ``T`` [K] is preferred as a state; its start value is a guess unless it is given as fixed.
     """
+
+    ICON = icons.HEAT_CAPACITY
 
     C = ac.Parameter(unit="J/K", min=0, doc="heat capacity")
     T = ac.Variable(unit="K", start=293.15, nominal=300.0, state="prefer", doc="temperature")
@@ -30,6 +33,8 @@ class HeatCapacitor(ac.Component):
 class ThermalConductor(Element1D):
     """Heat conduction: ``Q_flow = G dT``."""
 
+    ICON = icons.CONDUCTION
+
     G = ac.Parameter(unit="W/K", doc="thermal conductance")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -39,6 +44,8 @@ class ThermalConductor(Element1D):
 
 class ThermalResistor(Element1D):
     """Heat conduction by a resistance, which may be zero: ``dT = R Q_flow``."""
+
+    ICON = icons.CONDUCTION
 
     R = ac.Parameter(unit="K/W", doc="thermal resistance")
 
@@ -53,6 +60,8 @@ class BodyRadiation(Element1D):
     For a small convex body in a large enclosure ``Gr`` is its emissivity times its surface.
     """
 
+    ICON = icons.RADIATION
+
     Gr = ac.Parameter(unit="m2", doc="net radiation conductance")
     sigma = ac.Parameter(5.670374419184429e-8, unit="W/(m2.K4)", doc="Stefan-Boltzmann constant")
 
@@ -66,6 +75,8 @@ class _Convection(ac.Component):
 
     ``dT = solid.T - fluid.T`` [K], ``solid.Q_flow = Q_flow``, ``fluid.Q_flow = -Q_flow`` [W].
     """
+
+    ICON = icons.CONVECTION
 
     solid = HeatPort()
     fluid = HeatPort()

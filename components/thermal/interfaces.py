@@ -17,6 +17,7 @@ class HeatPort(ac.Connector):
     across = "dT"
     through = "Q_flow"
     power = False
+    COLOR = "#d2564b"
 
 
 HeatPort_a = HeatPort

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from . import scales
 from .interfaces import HeatPort
@@ -12,6 +13,8 @@ __modelica__ = "Modelica.Thermal.HeatTransfer.Sensors"
 
 class TemperatureSensor(scales.Kelvin):
     """Absolute temperature: ``T = port.T`` [K]."""
+
+    ICON = icons.SENSOR
 
     T = ac.Output(unit="K", doc="absolute temperature of the port")
     port = HeatPort()
@@ -23,6 +26,8 @@ class TemperatureSensor(scales.Kelvin):
 
 class RelTemperatureSensor(ac.Component):
     """Temperature difference: ``T_rel = port_a.T - port_b.T`` [K]."""
+
+    ICON = icons.SENSOR2
 
     port_a = HeatPort()
     port_b = HeatPort()
@@ -36,6 +41,8 @@ class RelTemperatureSensor(ac.Component):
 
 class HeatFlowSensor(ac.Component):
     """Heat flow rate: ``Q_flow = port_a.Q_flow`` [W] from ``port_a`` to ``port_b``, which are equally warm."""
+
+    ICON = icons.SENSOR2
 
     port_a = HeatPort()
     port_b = HeatPort()

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import scales
 from .interfaces import HeatPort
@@ -14,6 +15,8 @@ __modelica__ = "Modelica.Thermal.HeatTransfer.Sources"
 class FixedTemperature(scales.Kelvin):
     """A constant temperature, whatever the heat flow: ``port.T = T`` [K]."""
 
+    ICON = icons.TEMPERATURE
+
     T = ac.Parameter(unit="K", doc="temperature at the port")
     port = HeatPort()
 
@@ -23,6 +26,8 @@ class FixedTemperature(scales.Kelvin):
 
 class PrescribedTemperature(scales.Kelvin):
     """A temperature signal ``T`` [K], whatever the heat flow: ``port.T = T``."""
+
+    ICON = icons.TEMPERATURE
 
     T = ac.Input(unit="K", doc="temperature at the port")
     port = HeatPort()
@@ -36,6 +41,8 @@ class _HeatFlow(ac.Component):
 
     A positive ``Q_flow`` [W] heats what is connected. A subclass says where it comes from.
     """
+
+    ICON = icons.HEAT_FLOW
 
     T_ref = ac.Parameter(293.15, unit="K", doc="reference temperature")
     alpha = ac.Parameter(0.0, unit="1/K", doc="temperature coefficient of the heat flow rate")

@@ -3,6 +3,7 @@
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from .adaptors import GeneralHeatFlowToTemperatureAdaptor, GeneralTemperatureToHeatFlowAdaptor
 from .components import HeatCapacitor, ThermalConductor
@@ -13,6 +14,8 @@ __modelica__ = "Modelica.Thermal.HeatTransfer.Examples.Utilities"
 
 class DirectCapacity(ac.Component):
     """A heat capacitor heated by ``Q_flowDrive`` that gives its temperature and takes the heat ``Q_flow``."""
+
+    ICON = icons.HEAT_CAPACITY
 
     C = ac.Parameter(1.0, unit="J/K", min=0, doc="heat capacity")
     Q_flowDrive = ac.Input(unit="W", doc="driving heat flow rate")
@@ -37,6 +40,8 @@ class DirectCapacity(ac.Component):
 class InverseCapacity(ac.Component):
     """A heat capacitor at the temperature that the signals say, and the heat flow rate that this takes."""
 
+    ICON = icons.HEAT_CAPACITY
+
     C = ac.Parameter(1.0, unit="J/K", min=0, doc="heat capacity")
     T = ac.Input(unit="K", doc="temperature")
     derT = ac.Input(unit="K/s", doc="rate of the temperature, consistent with T")
@@ -54,6 +59,8 @@ class InverseCapacity(ac.Component):
 
 class Conduction(ac.Component):
     """A thermal conductor between two temperatures, and the heat flow rates that these take."""
+
+    ICON = icons.CONDUCTION
 
     G = ac.Parameter(1.0, unit="W/K", doc="thermal conductance")
     T1 = ac.Input(unit="K", doc="temperature of the left end")

@@ -19,6 +19,7 @@ from .friction import *
 from .interfaces import *
 from .sensors import *
 from .sources import *
+from .stop import *
 from .vehicle import *
 
 export(__name__, "utilities")

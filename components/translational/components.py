@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.choices import STATE_SELECT
 from acausal.components.laws import contact
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
@@ -21,6 +22,8 @@ __modelica__ = "Modelica.Mechanics.Translational.Components"
 class Fixed(ac.Component):
     """A flange fixed in space: ``flange.s = s0`` [m]."""
 
+    ICON = icons.FIXED
+
     s0 = ac.Parameter(0.0, unit="m", doc="fixed position")
     flange = Flange()
 
@@ -33,6 +36,8 @@ class Mass(PartialRigid):
 
     Its position ``s`` [m] and speed ``v`` [m/s] are preferred as states (Modelica: ``default``).
     """
+
+    ICON = icons.MASS
 
     m = ac.Parameter(unit="kg", min=0, doc="mass")
     stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of s and v as states")
@@ -50,6 +55,8 @@ class Mass(PartialRigid):
 class Rod(PartialRigid):
     """A massless rod of length ``L``: ``0 = flange_a.f + flange_b.f``."""
 
+    ICON = icons.ROD
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(0, self.flange_a.f + self.flange_b.f)
@@ -57,6 +64,8 @@ class Rod(PartialRigid):
 
 class Spring(PartialCompliant):
     """Linear spring: ``f = c (s_rel - s_rel0)``."""
+
+    ICON = icons.SPRING
 
     c = ac.Parameter(unit="N/m", min=0, doc="spring constant")
     s_rel0 = ac.Parameter(0.0, unit="m", doc="unstretched length")
@@ -68,6 +77,8 @@ class Spring(PartialCompliant):
 
 class Damper(PartialCompliantWithRelativeStates, PartialElementaryConditionalHeatPortWithoutT):
     """Linear damper: ``f = d v_rel``, ``lossPower = f v_rel``."""
+
+    ICON = icons.DAMPER
 
     d = ac.Parameter(unit="N.s/m", min=0, doc="damping constant")
 
@@ -85,6 +96,8 @@ class SpringDamper(
     ``lossPower = d v_rel**2`` is what the damper takes.
     """
 
+    ICON = icons.SPRING_DAMPER
+
     c = ac.Parameter(unit="N/m", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.s/m", min=0, doc="damping constant")
     s_rel0 = ac.Parameter(0.0, unit="m", doc="unstretched length")
@@ -100,8 +113,10 @@ class ElastoGap(PartialCompliantWithRelativeStates, PartialElementaryConditional
 
     In contact ``f = f_c + f_d`` with ``f_c = -c |s_rel - s_rel0|**n`` and ``f_d = d v_rel``, bounded
     to ``|f_d| <= |f_c|``; ``lossPower = f_d v_rel``. So the contact never pulls, and the force is
-    continuous at touch-down. ``contact`` is 1 in contact, else 0.
+    continuous at touch-down. ``contact`` is 1 in contact, else 0; in models with events, steps end where it changes.
     """
+
+    ICON = icons.GAP
 
     c = ac.Parameter(unit="N/m", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.s/m", min=0, doc="damping constant")
@@ -114,7 +129,7 @@ class ElastoGap(PartialCompliantWithRelativeStates, PartialElementaryConditional
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         f_c, f_d = contact(self.s_rel0 - self.s_rel, -self.v_rel, self.c, self.d, self.n)
-        yield ac.Eq(self.contact, ac.where(self.s_rel < self.s_rel0, 1, 0))
+        yield ac.Eq(self.contact, ac.where(self.s_rel < self.s_rel0, 1, 0, events=None))
         yield ac.Eq(self.f_c, -f_c)
         yield ac.Eq(self.f_d, -f_d)
         yield ac.Eq(self.f, self.f_c + self.f_d)
@@ -126,6 +141,8 @@ class IdealGear(PartialElementaryTwoFlangesAndSupport2):
 
     ``ratio`` must not be zero (Modelica lets go of both flanges then).
     """
+
+    ICON = icons.GEAR
 
     __modelica__ = None
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.laws import (
     REGULARIZATION,
     eddy_current,
@@ -26,6 +27,8 @@ __modelica__ = "Modelica.Mechanics.Translational.Sources"
 class Force(PartialElementaryOneFlangeAndSupport2):
     """A force signal ``f`` [N] that drives what is connected: ``flange.f = -f``."""
 
+    ICON = icons.FORCE
+
     f = ac.Input(unit="N", doc="driving force")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -38,6 +41,8 @@ class Force2(PartialTwoFlanges):
 
     A positive force drives what is connected at ``flange_b`` forward, at ``flange_a`` backward.
     """
+
+    ICON = icons.FORCE2
 
     f = ac.Input(unit="N", doc="driving force")
 
@@ -66,7 +71,7 @@ class ForceStep(PartialForce):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        step = ac.where(ac.time < self.startTime, 0, self.stepForce)
+        step = ac.where(ac.time < self.startTime, 0, self.stepForce, events=None)
         yield ac.Eq(self.f, -self.offsetForce - step)
 
 
@@ -149,6 +154,8 @@ class EddyCurrentForce(PartialElementaryOneFlangeAndSupport2, PartialElementaryC
     ``r = v_normalized = v/(v_nominal (1 + alpha (TheatPort - TRef)))`` with the temperature
     coefficient ``alpha`` of `acausal.components.laws.temperature_factor`; ``lossPower = f v``.
     """
+
+    ICON = icons.BRAKE
 
     useExcitationInput = ac.Option(False, doc="whether excitation is an input")
     constantExcitation = ac.Parameter(1.0, doc="relative excitation without input")

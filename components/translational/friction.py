@@ -1,23 +1,16 @@
-"""Friction, brake and stop: smooth laws where Modelica switches by events."""
+"""Friction, brake and rolling resistance; friction by Modelica's finite state machine or by smooth laws."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import acausal as ac
-from acausal.components.choices import STATE_SELECT
-from acausal.components.laws import (
-    REGULARIZATION,
-    SMOOTHNESS,
-    coulomb,
-    impact,
-    lookup,
-    regularized_sign,
-)
+from acausal.components import icons
+from acausal.components.laws import REGULARIZATION, SMOOTHNESS, coulomb, lookup, regularized_sign
 from acausal.components.thermal.interfaces import PartialElementaryConditionalHeatPortWithoutT
 
 from .interfaces import (
     PartialElementaryTwoFlangesAndSupport2,
     PartialFriction,
-    PartialRigid,
     PartialSpeedDependentForce,
 )
 
@@ -34,7 +27,8 @@ class _SlidingContact(
     ``flange_a.f + flange_b.f = f``, ``v = der(s)``, ``a = der(v)``, ``lossPower = f v``.
     """
 
-    smoothness = ac.Option("LinearSegments", choices=SMOOTHNESS, doc="interpolation of the table")
+    ICON = icons.FRICTION
+
     peak = ac.Parameter(1.0, min=1, doc="static over sliding friction at v = 0")
     s = ac.Variable(unit="m", doc="position of the flanges relative to the support")
     v = ac.Variable(unit="m/s", doc="speed of the flanges relative to the support")
@@ -50,31 +44,68 @@ class _SlidingContact(
         yield ac.Eq(self.flange_a.f + self.flange_b.f, self.f)
         yield ac.Eq(self.lossPower, self.f * self.v)
 
+    def _curve(self, speed: Any) -> Any:
+        """The sliding friction, or its coefficient, at a speed >= 0. A subclass states it."""
+        raise NotImplementedError
 
-class SupportFriction(_SlidingContact):
-    """Coulomb friction on the support, by a table ``f_pos`` of ``[v, f]`` [m/s, N] for ``v >= 0``.
+    @property
+    def _law(self) -> Any:
+        """The sliding part, with the sign of the direction; or the smooth law with its peak."""
+        if not self.smooth:
+            return self._direction * self._curve(self._direction * self.v)
+        excess = (self.peak - 1) * self._curve(0)
+        return coulomb(self.v, self._curve(ac.Abs(self.v)), excess, self.v_small)
 
-    ``f = f_pos(|v|) tanh(v/v_small)``, and near rest a peak of ``peak`` times ``f_pos(0)``
-    (`acausal.components.laws.coulomb`). Modelica locks at rest; here it creeps, see `PartialFriction`.
-    """
+    def _locking(self, sliding: Any, free: Any) -> Iterator[ac.Eq]:
+        """What the state machine needs: the friction at rest, and where it is free."""
+        yield ac.Eq(self.v_relfric, self.v)
+        yield ac.Eq(self.a_relfric, self.a)
+        yield ac.Eq(self.f0, sliding)
+        yield ac.Eq(self.f0_max, self.peak * self.f0)
+        yield ac.Eq(self.free, free)
 
-    f_pos = ac.Parameter([[0.0, 1.0]], shape=(":", ":"), doc="rows of speed and friction force")
+
+class PartialSupportFriction(_SlidingContact):
+    """Friction on the support by a curve ``f`` over ``v >= 0``, which a subclass states."""
+
+    __modelica__ = None
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        sliding = lookup(ac.Abs(self.v), self.f_pos, self.smoothness)
-        excess = (self.peak - 1) * lookup(0, self.f_pos, self.smoothness)
-        yield ac.Eq(self.f, coulomb(self.v, sliding, excess, self.v_small))
+        if self.smooth:
+            yield ac.Eq(self.f, self._law)
+            return
+        yield from self._locking(self._curve(0), 0)
+        yield ac.Eq(self.f, self._friction(self._law))
+
+
+class SupportFriction(PartialSupportFriction):
+    """Coulomb friction on the support, by a table ``f_pos`` of ``[v, f]`` [m/s, N] for ``v >= 0``.
+
+    While it slides, ``f`` is ``f_pos(|v|)`` with the sign of ``v``. At rest it locks, up to ``f0_max``, which is
+    ``peak f_pos(0)``, see `PartialFriction`. With ``smooth``, ``f = f_pos(|v|) tanh(v/v_small)``, and near rest a peak
+    of ``peak f_pos(0)`` (`acausal.components.laws.coulomb`): it creeps.
+    """
+
+    smoothness = ac.Option("LinearSegments", choices=SMOOTHNESS, doc="interpolation of the table")
+    f_pos = ac.Parameter([[0.0, 1.0]], shape=(":", ":"), doc="rows of speed and friction force")
+
+    def _curve(self, speed: Any) -> Any:
+        return lookup(speed, self.f_pos, self.smoothness)
 
 
 class Brake(_SlidingContact):
     """Friction brake, pressed by ``fn = fn_max f_normalized`` [N]; ``mu_pos`` holds ``[v, mu]``.
 
-    ``f = cgeo mu fn`` with ``mu = mu_pos(|v|) tanh(v/v_small)``, and near rest a peak of ``peak``
-    times ``mu_pos(0)`` (`acausal.components.laws.coulomb`). A negative normal force brakes nothing.
-    Modelica locks at rest; here it creeps, see `PartialFriction`.
+    ``f = cgeo mu fn``, where ``mu`` is ``mu_pos(|v|)`` with the sign of ``v``. At rest it locks, up to ``f0_max``,
+    which is ``peak cgeo mu_pos(0) fn``, see `PartialFriction`. Without a positive normal force it is free. With
+    ``smooth``, ``mu = mu_pos(|v|) tanh(v/v_small)``, and near rest a peak of ``peak mu_pos(0)``
+    (`acausal.components.laws.coulomb`): it creeps.
     """
 
+    ICON = icons.BRAKE
+
+    smoothness = ac.Option("LinearSegments", choices=SMOOTHNESS, doc="interpolation of the table")
     mu_pos = ac.Parameter(
         [[0.0, 0.5]], shape=(":", ":"), doc="rows of speed and friction coefficient"
     )
@@ -86,59 +117,16 @@ class Brake(_SlidingContact):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        sliding = lookup(ac.Abs(self.v), self.mu_pos, self.smoothness)
-        excess = (self.peak - 1) * lookup(0, self.mu_pos, self.smoothness)
         yield ac.Eq(self.fn, self.fn_max * self.f_normalized)
-        yield ac.Eq(self.mu, coulomb(self.v, sliding, excess, self.v_small))
-        yield ac.Eq(self.f, self.mu * self.cgeo * ac.maximum(self.fn, 0))
+        yield ac.Eq(self.mu, self._law)
+        if self.smooth:
+            yield ac.Eq(self.f, self.mu * self.cgeo * ac.maximum(self.fn, 0))
+            return
+        yield from self._locking(self._curve(0) * self.cgeo * self.fn, self.fn <= 0)
+        yield ac.Eq(self.f, self._friction(self.mu * self.cgeo * self.fn))
 
-
-class MassWithStopAndFriction(
-    PartialRigid, PartialFriction, PartialElementaryConditionalHeatPortWithoutT
-):
-    """A sliding mass with Stribeck friction ``f`` [N] between two stops.
-
-    ``m a = flange_a.f + flange_b.f - f - f_stop``;
-    ``f = F_prop v + (F_Coulomb + F_Stribeck exp(-fexp |v|)) tanh(v/v_small)``.
-
-    Modelica locks at rest and reinitializes at a stop. Here the friction creeps, and the stops at
-    ``smin`` and ``smax`` are stiff: where an end of the mass goes beyond, ``c_stop`` and ``d_stop``
-    push back but never pull (`acausal.components.laws.impact`); the impact is inelastic but for a
-    rebound slower than ``1/d_stop``. ``stopped`` is -1 at ``smin``, 1 at ``smax``, else 0.
-    ``lossPower = f v`` leaves out the impacts.
-    """
-
-    m = ac.Parameter(unit="kg", min=0, doc="mass")
-    smax = ac.Parameter(unit="m", doc="right stop for the right end")
-    smin = ac.Parameter(unit="m", doc="left stop for the left end")
-    F_prop = ac.Parameter(unit="N.s/m", min=0, doc="viscous friction")
-    F_Coulomb = ac.Parameter(unit="N", doc="constant friction")
-    F_Stribeck = ac.Parameter(unit="N", doc="excess of friction at rest")
-    fexp = ac.Parameter(unit="s/m", min=0, doc="decay of the Stribeck effect")
-    c_stop = ac.Parameter(1e7, unit="N/m", min=0, doc="stiffness of the stops")
-    d_stop = ac.Parameter(1e3, unit="s/m", min=0, doc="damping of the stops")
-    stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of s and v as states")
-    s = ac.Variable(unit="m", state="stateSelect", doc="position of the centre")
-    v = ac.Variable(unit="m/s", state="stateSelect", doc="speed")
-    a = ac.Variable(unit="m/s2", doc="acceleration")
-    f = ac.Variable(unit="N", doc="friction force")
-    f_stop = ac.Variable(unit="N", doc="force of the stops, positive at smax")
-    stopped = ac.Variable(doc="-1 at smin, 1 at smax, else 0")
-
-    def equations(self) -> Iterator[ac.Eq]:
-        yield from super().equations()
-        right = self.flange_b.s - self.smax
-        left = self.smin - self.flange_a.s
-        push_left = impact(right, self.v, self.c_stop, self.d_stop)
-        push_right = impact(left, -self.v, self.c_stop, self.d_stop)
-        dry = self.F_Coulomb + self.F_Stribeck * ac.exp(-self.fexp * ac.Abs(self.v))
-        yield ac.Eq(self.v, ac.der(self.s))
-        yield ac.Eq(self.a, ac.der(self.v))
-        yield ac.Eq(self.m * self.a, self.flange_a.f + self.flange_b.f - self.f - self.f_stop)
-        yield ac.Eq(self.f, self.F_prop * self.v + coulomb(self.v, dry, 0, self.v_small))
-        yield ac.Eq(self.f_stop, push_left - push_right)
-        yield ac.Eq(self.stopped, ac.where(right >= 0, 1, ac.where(left >= 0, -1, 0)))
-        yield ac.Eq(self.lossPower, self.f * self.v)
+    def _curve(self, speed: Any) -> Any:
+        return lookup(speed, self.mu_pos, self.smoothness)
 
 
 class RollingResistance(PartialSpeedDependentForce):

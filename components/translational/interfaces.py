@@ -4,7 +4,9 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 from acausal.components.choices import STATE_SELECT
+from acausal.components.mechanics.friction import Contact
 from acausal.components.mechanics.translational import Flange, Support
 
 __modelica__ = "Modelica.Mechanics.Translational.Interfaces"
@@ -122,6 +124,8 @@ class PartialElementaryTwoFlangesAndSupport2(PartialTwoFlanges):
 class PartialForce(PartialElementaryOneFlangeAndSupport2):
     """A force ``f = flange.f`` [N] on the flange; negative values push what is connected forward."""
 
+    ICON = icons.FORCE
+
     f = ac.Variable(unit="N", doc="force at the flange, = flange.f")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -144,6 +148,8 @@ class PartialSpeedDependentForce(PartialForce):
 class PartialAbsoluteSensor(ac.Component):
     """One flange that is measured without a force: ``flange.f = 0``."""
 
+    ICON = icons.SENSOR
+
     flange = Flange()
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -154,18 +160,39 @@ class PartialAbsoluteSensor(ac.Component):
 class PartialRelativeSensor(PartialTwoFlanges):
     """Two flanges between which is measured, without inertia: ``flange_a.f + flange_b.f = 0``."""
 
+    ICON = icons.SENSOR2
+
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         yield ac.Eq(self.flange_a.f + self.flange_b.f, 0)
 
 
-class PartialFriction(ac.Component):
-    """What friction elements share: the speed ``v_small`` [m/s] that smooths the law around rest.
+class PartialFriction(Contact):
+    """What friction elements share: a contact that slides or is stuck, as ``mode`` says.
 
-    Modelica locks the contact by events. Here the law of `acausal.components.laws.coulomb` holds: it
-    creeps instead, and it is stiffer for a smaller ``v_small``.
+    ``mode`` is -1 sliding backward, 0 stuck, 1 sliding forward, 2 free, 3 unknown. A stuck contact is ``locked``:
+    its acceleration ``a_relfric`` is 0, and its friction is what that takes, the path parameter ``sa``. Where ``sa``
+    exceeds ``f0_max``, sliding begins (``startForward``), and ends where the speed ``v_relfric`` becomes 0. With
+    ``smooth`` there are neither modes nor events: the law of `acausal.components.laws.coulomb` creeps at rest, and it
+    is stiffer for a smaller ``v_small``. A subclass states ``v_relfric``, ``a_relfric``, ``f0``, ``f0_max``
+    and ``free``, and its force.
     """
 
-    DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")
+    v_small = ac.Parameter(
+        1e-3,
+        unit="m/s",
+        min=0,
+        doc="a sliding contact turns back where Reinit gives it more speed against its direction; "
+        "with smooth the speed below which friction is smoothed",
+    )
+    v_relfric = ac.Variable(unit="m/s", when="_locks", doc="speed of the surfaces")
+    a_relfric = ac.Variable(unit="m/s2", when="_locks", doc="acceleration of the surfaces")
+    f0 = ac.Variable(unit="N", when="_locks", doc="friction at rest, sliding forward")
+    f0_max = ac.Variable(unit="N", when="_locks", doc="greatest friction while locked")
 
-    v_small = ac.Parameter(1e-4, unit="m/s", min=0, doc="speed below which friction is smoothed")
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        if not self.smooth:
+            yield from self._contact(
+                self.v_relfric, self.a_relfric, self.f0, self.f0_max, self.v_small
+            )

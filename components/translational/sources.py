@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import PartialElementaryOneFlangeAndSupport2, PartialSpeedDependentForce
 
@@ -16,6 +17,8 @@ class Position(PartialElementaryOneFlangeAndSupport2):
     ``a`` stay zero. Without, through a Bessel filter of second order that starts at ``s_ref``:
     ``a = ((s_ref - s) w - 1.3617 v) w / 0.6180`` with ``w = 2 pi f_crit``, ``v = der(s)``, ``a = der(v)``.
     """
+
+    ICON = icons.MOVED
 
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
@@ -54,6 +57,8 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
     starts at ``v_ref``: ``a = (v_ref - v) 2 pi f_crit``, ``a = der(v)``.
     """
 
+    ICON = icons.MOVED
+
     exact = ac.Option(False, doc="whether to follow the signal exactly; else filtered")
     f_crit = ac.Parameter(50.0, unit="Hz", doc="critical frequency of the filter")
     v_ref = ac.Input(unit="m/s", doc="reference speed")
@@ -85,6 +90,8 @@ class Speed(PartialElementaryOneFlangeAndSupport2):
 class Accelerate(PartialElementaryOneFlangeAndSupport2):
     """The flange follows an acceleration signal ``a_ref`` [m/s2]; ``s`` and ``v`` start at 0."""
 
+    ICON = icons.MOVED
+
     a_ref = ac.Input(unit="m/s2", doc="reference acceleration")
     s = ac.Variable(
         unit="m", fixed=True, state="prefer", doc="position of the flange relative to the support"
@@ -106,6 +113,8 @@ class Move(PartialElementaryOneFlangeAndSupport2):
     fit together.
     """
 
+    ICON = icons.MOVED
+
     u = ac.Input(shape=3, doc="position, speed and acceleration of the flange")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -115,6 +124,8 @@ class Move(PartialElementaryOneFlangeAndSupport2):
 
 class ConstantSpeed(PartialSpeedDependentForce):
     """The flange moves with constant speed ``v_fixed`` [m/s], whatever the force."""
+
+    ICON = icons.MOVED
 
     v_fixed = ac.Parameter(unit="m/s", doc="speed")
 

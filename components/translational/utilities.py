@@ -5,6 +5,7 @@ from math import exp
 from typing import Any
 
 import acausal as ac
+from acausal.components import icons
 
 from . import components
 from .adaptors import GeneralForceToPositionAdaptor, GeneralPositionToForceAdaptor
@@ -61,6 +62,8 @@ class InverseMass(ac.Component):
 
 class SpringDamperNoRelativeStates(PartialCompliant):
     """Spring and damper side by side, without states of their own: ``f = c (s_rel - s_rel0) + d v_rel``."""
+
+    ICON = icons.SPRING_DAMPER
 
     c = ac.Parameter(unit="N/m", min=0, doc="spring constant")
     d = ac.Parameter(unit="N.s/m", min=0, doc="damping constant")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components import nature
+from acausal.components import icons, nature
 from acausal.components.blocks import Atan, Constant, Gain, Sin
 from acausal.components.mechanics import rotational, translational
 from acausal.components.mechanics.rolling import IdealRollingWheel
@@ -26,6 +26,8 @@ class Vehicle(ac.Component):
     with the speed ``u = v - vWind`` against the air. The sign is linear below ``vReg``. Wind, rolling
     resistance ``cr`` and inclination are parameters or input signals. The parts have Modelica's names.
     """
+
+    ICON = icons.VEHICLE
 
     m = ac.Parameter(unit="kg", min=0, doc="total mass")
     g = ac.Parameter(nature.g_n, unit="m/s2", doc="acceleration of gravity")

@@ -17,7 +17,8 @@ sys.path.insert(0, str(ROOT))
 
 from tests.test_docs import blocks  # noqa: E402
 
-PAGES = ("getting-started.md", "quarter-vehicle.md", "neural.md")
+GALLERY = sorted(p.relative_to(HERE.parent).as_posix() for p in HERE.parent.glob("gallery/*.md"))
+PAGES = ("getting-started.md", "quarter-vehicle.md", "neural.md", "drawings.md", *GALLERY)
 
 
 def main() -> None:
@@ -25,12 +26,13 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for name in sys.argv[1:] or PAGES:
-            page = ModuleType(name.partition(".")[0])
+            page = ModuleType(Path(name).stem)
             sys.modules[page.__name__] = page
             for block in blocks(HERE.parent / name):
                 exec(compile(block, name, "exec"), vars(page))
-        for picture in Path(folder).glob("*.png"):
-            shutil.copy(picture, HERE)
+        for picture in Path(folder).iterdir():
+            if picture.suffix in (".png", ".svg"):
+                shutil.copy(picture, HERE)
         os.chdir(HERE)
 
 

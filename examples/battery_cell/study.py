@@ -198,7 +198,7 @@ def summary(lines: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, tuple[flo
         row: dict[str, tuple[float, float, int]] = {}
         for out, some in zip((None, name), kinds, strict=True):
             errors = [line["errors"][name] for line in lines if line["out"] == out]
-            for kind in (k for k in some if errors and k in errors[0]):
+            for kind in (k for k in some if errors and all(k in e for e in errors)):
                 values = [e[kind] for e in errors]
                 deviation = float(np.std(values, ddof=1)) if len(values) > 1 else 0.0
                 title = kind if out is None else f"left out, {kind}"

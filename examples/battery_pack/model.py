@@ -33,7 +33,7 @@ class Entropy(eqx.Module):
         return 2e-4 * jnp.tanh(6 * (soc - 0.4))
 
 
-class Resistance(el.interfaces.OnePort, battery.PartialDepending):
+class Resistance(el.OnePort, battery.PartialDepending):
     """`battery.SeriesResistance`, written for the current: ``i = v/R_actual``.
 
     Cells in parallel share a voltage. With their currents given by it, the one voltage is all that a row has to

@@ -34,9 +34,9 @@ def page(found: Study, out: Path) -> Path:
     )
     out.mkdir(parents=True, exist_ok=True)
     written.section("The drive train")
-    diagram = ac.diagram(unknown()).figure
-    assert isinstance(diagram, Figure)
-    written.figure(diagram, "The connected components; those that are tinted hold a network.")
+    written.drawing(
+        ac.diagram(unknown()).svg, "The connected components; those that are tinted hold a network."
+    )
     written.section("What was measured, and what is predicted of it")
     written.figure(
         runs(found), "Each run as predicted by the fold that was trained without it. The gauge of a run that is left "

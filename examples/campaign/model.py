@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import pi
+from typing import Any
 
 import acausal as ac
 from acausal.components import neural, rotational as rot
@@ -76,7 +77,7 @@ class DriveTrain(ac.Component):
         damping: float = 0.02,
     ) -> None:
         super().__init__()
-        at_rest = {"phi": ac.Start(0.0, fixed=True), "w": ac.Start(0.0, fixed=True)}
+        at_rest: dict[str, Any] = {"phi": ac.Start(0.0, fixed=True), "w": ac.Start(0.0, fixed=True)}
         self.housing, self.drive = rot.Fixed(), rot.Torque()
         self.motor = rot.Inertia(J=2e-3, **at_rest)
         self.shaft = rot.SpringDamper(c=stiffness, d=damping)

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from matplotlib.figure import Figure
 from rich.console import Console
 from rich.table import Table
 
@@ -71,9 +70,9 @@ def opening(
     """
     page, (corner, columns, rows) = Page(title, lead), errors
     page.section("The model")
-    diagram = ac.diagram(built).figure
-    assert isinstance(diagram, Figure)
-    page.figure(diagram, "The connected components; those that are tinted hold a network.")
+    page.drawing(
+        ac.diagram(built).svg, "The connected components; those that are tinted hold a network."
+    )
     page.equations(equations)
     page.section("The result")
     page.table([corner, *columns.values()], [row.cells(columns) for row in rows])

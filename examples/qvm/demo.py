@@ -109,11 +109,9 @@ def _page(out: Path, system: ac.System, data: Any, trained: ac.Fit, report: dict
         "what the linear suspension lacks. After Kamp, Ultsch and Brembeck (2023), doi 10.5220/0012160100003543.",
     )
     page.section("The model")
-    page.figure(
-        figures.model_diagram(),
-        "The connected components; tinted ones hold a network.",
-        out / "model.png",
-    )
+    drawing = ac.diagram(system)
+    drawing.save(out / "model.svg")
+    page.drawing(drawing.svg, "The connected components; tinted ones hold a network.")
     page.text(
         "From this graph the differential equations follow. z and v are positions and speeds of body (b), wheel (w) "
         "and road (r); u is the road's vertical speed."

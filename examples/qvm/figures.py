@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 import acausal as ac
 from acausal.reporting import LEARNED, TRUTH, plot_learned, plot_losses, plot_modifiers
 from examples.qvm.judge import DAMPER, SPRING, true_forces
-from examples.qvm.model import UNCERTAIN, linear, with_networks
+from examples.qvm.model import UNCERTAIN, linear
 from examples.qvm.record import INPUT, Ride
 
 MATHS = {
@@ -36,12 +36,6 @@ MATHS = {
     DAMPER: "F_NN_d",
 }
 """The paper's names."""
-
-
-def model_diagram() -> Figure:
-    figure = ac.diagram(with_networks()).figure
-    assert isinstance(figure, Figure)
-    return figure
 
 
 def forces(fits: Mapping[str, ac.Fit]) -> Figure:

@@ -54,6 +54,7 @@ print(float(jax.jit(mesh.vector_field)(0.3, *arguments(mesh))[0]))
 """
 
 
+@pytest.mark.slow
 def test_a_second_process_compiles_nothing_anew(tmp_path):
     def run():
         done = subprocess.run(
@@ -112,7 +113,7 @@ def test_where_nothing_can_be_written_nothing_is_kept(tmp_path):
     assert folder() is None
     with pytest.raises(ac.DataError, match=r"no compiled programs can be written to .*file/below"):
         ac.use_compilation_cache(file / "below")
-    with pytest.raises(ac.DataError, match=r"^use_compilation_cache: 3.5 is no path"):
+    with pytest.raises(ac.DataError, match=r"^use_compilation_cache: 3.5 is not a path"):
         ac.use_compilation_cache(3.5)
 
 

@@ -100,6 +100,7 @@ def test_newton_knows_the_rounding():
     assert float(found[0]) == pytest.approx(2 ** (1 / 3), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_fit_in_single_precision_goes_the_same_way():
     fits = [
         ac.fit(

@@ -40,6 +40,17 @@ def test_eigenvalues_and_damping(linearized: ac.Linearization) -> None:
     expected = -1 + 1j * np.sqrt(99) * np.array([-1, 1])
     np.testing.assert_allclose(linearized.eigenvalues(), expected)
     np.testing.assert_allclose(linearized.damping(), [0.1, 0.1])
+    assert "eigenvalues -1-9.95j, -1+9.95j" in repr(linearized)
+
+
+def test_real_eigenvalues_are_complex_numbers_too() -> None:
+    values = np.diag([-3.0, -2.0])
+    row = np.zeros((1, 2))
+    overdamped = ac.Linearization(
+        values, row.T, row, np.zeros((1, 1)), ("a", "b"), ("u",), ("y",), row[0], np.zeros(1)
+    )
+    assert overdamped.eigenvalues().dtype == complex
+    assert "eigenvalues -2, -3" in repr(overdamped)
 
 
 def test_frequency_response_of_position_and_acceleration(linearized: ac.Linearization) -> None:
@@ -104,3 +115,88 @@ def test_wrong_names_are_refused(linearized: ac.Linearization) -> None:
         ac.linearize(system, t="now")  # type: ignore[arg-type]
     with pytest.raises(ac.DataError, match=r"^outputs: 3 is not a name"):
         ac.linearize(system, outputs=3)  # type: ignore[arg-type]
+
+
+# -- one vocabulary --------------------------------------------------------------------------------
+
+
+def test_inputs_and_u_are_the_same() -> None:
+    system = ac.compile(Oscillator())
+    by_name = ac.linearize(system, inputs={"drive.f": lambda t: 2.0 * t}, t=1.5)
+    by_alias = ac.linearize(system, u=[3.0], t=1.5)
+    np.testing.assert_array_equal(by_name.u, by_alias.u)
+    with pytest.raises(ac.DataError, match="inputs and u are the same"):
+        ac.linearize(system, u=[3.0], inputs=[3.0])
+
+
+def test_a_model_is_linearized_at_rest() -> None:
+    system = ac.compile(Oscillator())
+    linear = ac.linearize(system, "steady", inputs={"drive.f": 10.0})
+    np.testing.assert_allclose(linear.x, [0.1, 0.0], atol=1e-12)
+    point = ac.operating_point(system, inputs={"drive.f": 10.0})
+    np.testing.assert_allclose(ac.linearize(system, point).x, linear.x, atol=1e-12)
+    np.testing.assert_allclose(ac.linearize(system, point).u, [10.0])
+
+
+# -- responses -------------------------------------------------------------------------------------
+
+
+def test_the_step_response_is_that_of_the_oscillator(linearized: ac.Linearization) -> None:
+    t, y = linearized.step_response(5.0)
+    w, decay = np.sqrt(99), np.exp(-t)
+    expected = (1 - decay * (np.cos(w * t) + np.sin(w * t) / w)) / 100
+    np.testing.assert_allclose(y[:, 0, 0], expected, atol=1e-13)
+    assert y[0, 1, 0] == pytest.approx(1.0)  # a force accelerates at once
+    settled, _ = linearized.step_response()
+    assert settled[-1] == pytest.approx(7.0)
+    for wrong in ([0.0, 1.0, 1.5], "long", -1.0, [1.0, 2.0]):
+        with pytest.raises(ac.DataError, match="are not times"):
+            linearized.step_response(wrong)  # pyright: ignore[reportArgumentType]
+
+
+def test_bode_nyquist_and_step_draw(linearized: ac.Linearization) -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    try:
+        upper, lower = linearized.bode().axes
+        omega, decibels = upper.lines[0].get_data()
+        assert 9.9 < omega[np.argmax(decibels)] < 10.0
+        assert decibels[0] == pytest.approx(-40, abs=0.1)  # 1/c
+        assert lower.lines[0].get_ydata()[-1] == pytest.approx(-180, abs=2)
+        assert [text.get_text() for text in upper.get_legend().get_texts()] == ["mass.s", "mass.a"]
+        figure, axes = plt.subplots(2)
+        assert linearized.bode([1.0, 10.0], axes=axes) is figure
+        (ax,) = linearized.nyquist().axes
+        assert len(ax.lines) == 2 * 2 + 3
+        upper, lower = linearized.step(3.0).axes
+        assert upper.lines[0].get_xdata()[-1] == 3.0
+        assert (upper.get_ylabel(), lower.get_ylabel()) == ("mass.s", "mass.a")
+        with pytest.raises(ac.DataError, match="there are 1; give 2, for outputs"):
+            linearized.step(axes=[upper])
+    finally:
+        plt.close("all")
+
+
+def test_without_outputs_there_is_nothing_to_draw() -> None:
+    with pytest.raises(ac.DataError, match=r"no outputs; give linearize"):
+        ac.linearize(ac.compile(Oscillator())).bode()
+    with pytest.raises(ac.DataError, match=r"no inputs; the model has none"):
+        ac.linearize(plain_undriven(), outputs="mass.s").step()
+
+
+def plain_undriven() -> ac.System:
+    class Undriven(ac.Component):
+        def __init__(self) -> None:
+            super().__init__()
+            self.wall, self.spring, self.mass = tl.Fixed(), tl.Spring(c=1.0), tl.Mass(m=1.0)
+            self.connect(self.wall.flange, self.spring.flange_a)
+            self.connect(self.spring.flange_b, self.mass.flange_a)
+
+    return ac.compile(Undriven())
+
+
+def test_python_control_takes_it(linearized: ac.Linearization) -> None:
+    pytest.importorskip("control", reason="python-control is not installed")
+    model = linearized.to_control()
+    assert model.output_labels == ["mass_s", "mass_a"]
+    assert model.state_labels == ["mass_s", "mass_v"]
+    np.testing.assert_allclose(model(10j)[:, 0], linearized.frequency_response(10.0)[0, :, 0])

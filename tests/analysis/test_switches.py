@@ -6,6 +6,8 @@ import pytest
 import acausal as ac
 from acausal.analysis import in_switches
 
+pytestmark = pytest.mark.filterwarnings("ignore:The gradient by")
+
 
 class Switching(ac.Component):
     """A rate that depends on a limit, a gain and a step."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from acausal.codegen.dense import FEW, solve_linear, solve_nonlinear
+from tests.support.slow import some_slow
 
 
 def plain(residual):
@@ -13,7 +14,7 @@ def plain(residual):
     return lambda z: (z, residual(z))
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, FEW, FEW + 1])
+@pytest.mark.parametrize("n", some_slow([1, 2, 3, FEW, FEW + 1], [FEW]))
 def test_linear(n):
     rng = np.random.default_rng(n)
     a, b = rng.normal(size=(n, n)), rng.normal(size=n)

@@ -15,6 +15,7 @@ def equations(n, *batch):
     return jnp.asarray(rng.normal(size=(*batch, n, n))), jnp.asarray(rng.normal(size=(*batch, n)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [1, 2, 5, 12])
 def test_the_solution_is_that_of_lapack(n):
     a, b = equations(n)

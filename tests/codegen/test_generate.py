@@ -281,6 +281,7 @@ def text():
     return "\n".join(found)
 
 
+@pytest.mark.slow
 def test_hash_seeds_do_not_change_the_code():
     code = "from tests.codegen import test_generate; print(test_generate.text())"
     runs = [

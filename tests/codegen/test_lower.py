@@ -46,6 +46,7 @@ KINKED = {
     "piecewise": ac.where(x > y, x**2, ac.where(x > 1, y, -x)),
     "and": sp.Piecewise((x, (x > 0.5) & (y > 0.5)), (y, True)),
     "or": sp.Piecewise((x, (x > 1.5) | (y > 1.5)), (y, True)),
+    "nested": sp.Piecewise((x, sp.Piecewise((x, y > 0.5), (y, True)) > 0.7), (y, True)),
     "not": sp.Piecewise((x, sp.Not((x > 0.5) & (y > 0.5))), (y, True)),
     "relations": sum(
         sp.Piecewise((i * x, relation(x, y)), (y, True))

@@ -25,7 +25,10 @@ def square_root():
     ("part", "steps", "sentence"),
     [
         (fold, {"dt": 0.02}, r"for 'part\.y'; the nearest point is part\.y = .*leaves 'Equations: y\*\*2 = 1"),
-        (fold, {"max_steps": 2000}, r"There Newton's method finds no solution of the equations for 'part\.y';"),
+        pytest.param(
+            fold, {"max_steps": 2000}, r"There Newton's method finds no solution of the equations for 'part\.y';",
+            marks=pytest.mark.slow,
+        ),
         (square_root, {"dt": 0.03}, r"There 'der\(part\.x\)' = -sqrt\(x\) is nan: a division by zero"),
     ],
 )  # fmt: skip

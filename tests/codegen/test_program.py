@@ -39,14 +39,14 @@ def test_only_what_a_value_depends_on_is_needed(vehicle):
 
 def test_every_array_is_filled_once_and_before_it_is_read(vehicle):
     program = vehicle.program
-    filled = {0, 1, 2}
+    filled = {0, 1, 2, 3}
     for first, instruction in zip(program.first, program.instructions, strict=True):
         assert instruction.sources <= filled
         new = set(range(first, first + instruction.outputs))
         assert not new & filled
         filled |= new
     assert filled == set(range(len(program.nodes)))
-    assert set(program.filled_by) == filled - {0, 1, 2}
+    assert set(program.filled_by) == filled - {0, 1, 2, 3}
 
 
 def test_instructions_count_formulas_not_components():

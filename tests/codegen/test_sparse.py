@@ -43,7 +43,7 @@ def test_solutions_are_those_of_the_dense_system(system):
     close(jax.jit(matrix.solve)(entries, b), dense(entries, b))
 
 
-@pytest.mark.parametrize("argument", [0, 1])
+@pytest.mark.parametrize("argument", [pytest.param(0, marks=pytest.mark.slow), 1])
 def test_derivatives_of_all_orders_and_modes(system, argument):
     matrix, entries, b, dense = system
 

@@ -1,31 +1,17 @@
 """docs/components.md and docs/reference/ list the library as it is."""
 
-import importlib.util
 import re
-import sys
-from types import ModuleType
 
 import pytest
 
 from tests.support.paths import ROOT
+from tests.support.scripts import script
 
 DOCS = ROOT / "docs"
 MEND = "run: python docs/make_components.py"
 
 
-def _script() -> ModuleType:
-    spec = importlib.util.spec_from_file_location("make_components", DOCS / "make_components.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    # Registered while it runs: dataclasses look up the module of the class they are applied to.
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(sys.modules, spec.name, module)
-        spec.loader.exec_module(module)
-    return module
-
-
-SCRIPT = _script()
+SCRIPT = script("docs/make_components.py")
 PAGE = (DOCS / "components.md").read_text(encoding="utf-8")
 
 

@@ -24,6 +24,7 @@ from acausal.components import (
 from acausal.flattening.flat_model import flatten
 from acausal.networks import Energy, Law, law_of
 from tests.support.oscillator import force
+from tests.support.slow import all_slow_but
 
 DOMAINS = {
     "translational": tl.Flange,
@@ -122,7 +123,7 @@ def power(domain: str, run: ac.Solution, part: str) -> np.ndarray:
     return np.asarray(effort) * np.asarray(run[f"{part}.{kind.through}"])
 
 
-@pytest.mark.parametrize("domain", DOMAINS)
+@pytest.mark.parametrize("domain", all_slow_but("translational", DOMAINS))
 def test_energy_in_every_domain(domain: str) -> None:
     """What flows in is lost, and nowhere gained, or stored, and nowhere negative."""
     _, run = driven(domain)
@@ -254,6 +255,7 @@ class Piezo(ac.Component):
         self.connect(electric.n, self.coil.n, self.ground.p)
 
 
+@pytest.mark.slow
 def test_a_multiport_conserves_energy() -> None:
     system = ac.compile(Piezo())
     params = system.parameters(0)

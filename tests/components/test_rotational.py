@@ -14,7 +14,7 @@ from acausal.components.thermal import HeatPort
 from acausal.flattening.flat_model import flatten
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default).
-FRICTION = {"peak": 1, "w_small": 1e-4, "smoothness": "LinearSegments", "useHeatPort": False}
+FRICTION = {"peak": 1, "w_small": 1e10, "smoothness": "LinearSegments", "useHeatPort": False}
 PRESSED = {**FRICTION, "mu_pos": [[0, 0.5]], "cgeo": 1, "fn_max": ...}
 RELATIVE = {"phi_nominal": 1e-4}
 BACKLASH = {"c": ..., "d": ..., "b": 0, "phi_rel0": 0, "useHeatPort": False, **RELATIVE}
@@ -131,7 +131,7 @@ def test_names_and_defaults_are_those_of_the_standard_library(name):
 @pytest.mark.parametrize("name", DEFAULTS)
 def test_every_class_has_as_many_equations_as_unknowns(name):
     model = flatten(minimal(getattr(rot, name)))
-    assert model.n_equations == model.n_variables - len(model.inputs)
+    assert model.n_equations == model.n_variables - len(model.inputs) - len(model.discrete)
 
 
 @pytest.mark.parametrize(
@@ -159,7 +159,7 @@ def test_every_class_has_as_many_equations_as_unknowns(name):
 )
 def test_options_keep_the_balance(component):
     model = flatten(component)
-    assert model.n_equations == model.n_variables - len(model.inputs)
+    assert model.n_equations == model.n_variables - len(model.inputs) - len(model.discrete)
 
 
 def test_inertias_are_preferred_as_states():
@@ -231,10 +231,10 @@ def laws():
         ),
         "constant": rot.ConstantTorque(tau_constant=6),
         "step": rot.TorqueStep(stepTorque=2, offsetTorque=1, startTime=1),
-        "friction": rot.BearingFriction(tau_pos=[[0, 5], [1, 7], [2, 7]], peak=1.2),
-        "brake": rot.Brake(fn_max=8, cgeo=0.5),
-        "clutch": rot.Clutch(fn_max=8, cgeo=0.5),
-        "one_way": rot.OneWayClutch(fn_max=8, cgeo=0.5),
+        "friction": rot.BearingFriction(tau_pos=[[0, 5], [1, 7], [2, 7]], peak=1.2, smooth=True),
+        "brake": rot.Brake(fn_max=8, cgeo=0.5, smooth=True),
+        "clutch": rot.Clutch(fn_max=8, cgeo=0.5, smooth=True),
+        "one_way": rot.OneWayClutch(fn_max=8, cgeo=0.5, smooth=True),
         "damper": rot.Damper(d=4),
         "spring_damper": rot.SpringDamper(c=100, d=4, phi_rel0=0.5),
         "tight": rot.ElastoBacklash(c=100, d=4, phi_rel0=0.5),
@@ -345,7 +345,7 @@ class Losses(ac.Component):
     def __init__(self):
         super().__init__()
         self.drive = rot.Speed(exact=True)
-        self.gear = rot.LossyGear(ratio=-2, lossTable=STEPS)
+        self.gear = rot.LossyGear(ratio=-2, lossTable=STEPS, smooth=True)
         self.load = rot.Torque()
         self.connect(self.drive.flange, self.gear.flange_a)
         self.connect(self.gear.flange_b, self.load.flange)
@@ -383,10 +383,17 @@ class Train(ac.Component):
         self.torque = rot.Torque()
         self.sun, self.ring = rot.Inertia(J=1), rot.Inertia(J=2)
         self.planetary = rot.IdealPlanetary(ratio=2)
-        self.clutch = rot.Clutch(fn_max=10, mu_pos=[[0, 0.5], [1, 0.4]], w_small=1.0)
-        self.brake = rot.Brake(fn_max=10, w_small=1.0, useHeatPort=True)
+        self.clutch = rot.Clutch(fn_max=10, mu_pos=[[0, 0.5], [1, 0.4]], w_small=1.0, smooth=True)
+        self.brake = rot.Brake(fn_max=10, w_small=1.0, useHeatPort=True, smooth=True)
         self.gearbox = rot.Gearbox(
-            ratio=3, c=100, d=1, b=0.01, lossTable=STEPS, useSupport=True, useHeatPort=True
+            ratio=3,
+            c=100,
+            d=1,
+            b=0.01,
+            lossTable=STEPS,
+            useSupport=True,
+            useHeatPort=True,
+            smooth=True,
         )
         self.out, self.housing = rot.Inertia(J=5), rot.Inertia(J=3)
         self.mount = rot.SpringDamper(c=50, d=2)
@@ -503,11 +510,11 @@ class Bench(ac.Component):
 
         # bearing friction stops an inertia; a clutch takes one along; a free wheel does, too
         self.turning = rot.Inertia(J=2, w=ac.Start(1, fixed=True), **zero)
-        self.bearing = rot.BearingFriction(tau_pos=[[0, 4]])
+        self.bearing = rot.BearingFriction(tau_pos=[[0, 4]], smooth=True)
         self.connect(self.turning.flange_b, self.bearing.flange_a)
         self.fast = rot.Inertia(J=1, w=ac.Start(4, fixed=True), **zero)
         self.slow = rot.Inertia(J=3, **zero, **at_rest)
-        self.clutch = rot.Clutch(fn_max=6)
+        self.clutch = rot.Clutch(fn_max=6, smooth=True)
         self.connect(self.fast.flange_b, self.clutch.flange_a)
         self.connect(self.clutch.flange_b, self.slow.flange_a)
         self.pedal = rot.TorqueStep(offsetTorque=4, stepTorque=-8, startTime=1)
@@ -515,7 +522,7 @@ class Bench(ac.Component):
             rot.Inertia(J=1, **zero, **at_rest),
             rot.Inertia(J=1, **zero, **at_rest),
         )
-        self.freewheel = rot.OneWayClutch(fn_max=1)
+        self.freewheel = rot.OneWayClutch(fn_max=1, smooth=True)
         self.connect(self.pedal.flange, self.crank.flange_a)
         self.connect(self.crank.flange_b, self.freewheel.flange_a)
         self.connect(self.freewheel.flange_b, self.hub.flange_a)

@@ -235,7 +235,7 @@ def test_every_signal_keeps_its_samples_whatever_the_others_have(bases, rounding
         np.testing.assert_array_equal(data.samples(name)[1], values)
 
 
-@pytest.mark.parametrize("missing", ["refuse", "nan"])
+@pytest.mark.parametrize("missing", ["refuse", pytest.param("nan", marks=pytest.mark.slow)])
 def test_ten_million_samples_need_no_ten_copies(missing):
     n = 1_000_000  # the shares are those of 10^7
     time = np.arange(n) * 1e-3

@@ -85,7 +85,7 @@ def test_temperatures_have_an_offset():
         ),
         (
             lambda: ac.Data.from_csv(3.5),
-            "from_csv: 3.5 is no path; give a text such as 'folder/file', or a pathlib.Path.",
+            "from_csv: 3.5 is not a path; give a text such as 'folder/file', or a pathlib.Path.",
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME}).between("a", 1.0),

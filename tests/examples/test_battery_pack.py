@@ -70,6 +70,7 @@ def test_the_voltage_is_the_sum_of_the_rows(sol) -> None:
     assert np.allclose(np.asarray(sol["voltmeter.v"]), np.sum(rows, axis=0))
 
 
+@pytest.mark.slow
 def test_the_gradient_by_the_weights_is_that_of_differences(driven) -> None:
     law = driven.system.parameters()[LAW]
     value = jax.jit(lambda law: warmth(driven, law, solver="tsit5"))

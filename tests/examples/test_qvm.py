@@ -101,8 +101,8 @@ def test_a_short_demo_writes_its_page(tmp_path: Path, monkeypatch: pytest.Monkey
     written = json.loads((tmp_path / "report.json").read_text())
     assert {"loss", "loss_linear", "seconds", "seconds_to_paper_loss"} <= set(written)
     assert written["loss"] == report["loss"]
-    for name in ("model", "forces", "trajectories", "losses"):
-        assert (tmp_path / f"{name}.png").stat().st_size > 5000
+    for name in ("model.svg", "forces.png", "trajectories.png", "losses.png"):
+        assert (tmp_path / name).stat().st_size > 5000
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert f"{report['loss']:.4f}" in page
     assert INPUT not in page

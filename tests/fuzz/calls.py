@@ -190,7 +190,6 @@ options(
         k: const(v)
         for k, v in {
             "none": None,
-            "a number": 1.0,
             "one": (0,),
             "three": (0, 1, 2),
             "backwards": (1, 0),
@@ -207,6 +206,7 @@ options(
         }.items()
     },
     {
+        "an end": const(1.0),
         "an array": const(np.array([0.0, 1.0])),
         "integers": const((0, 1)),
         "float32": const(np.float32([0, 1])),
@@ -294,14 +294,11 @@ options(
         "a function of none": lambda c: {c.input: lambda: 1.0},
         "a function of text": lambda c: {c.input: lambda t: "x"},
         "a function of a vector": lambda c: {c.input: lambda t: jnp.ones(2)},
-        "math": lambda c: {c.input: math.sin},
-        "an if": lambda c: {c.input: lambda t: 1.0 if t > 0.5 else 0.0},
         "a function of none at all": lambda c: {c.input: lambda t: None},
         "nan by a function": lambda c: {c.input: lambda t: jnp.nan * t},
         "a state": lambda c: {c.state: 1.0, c.input: 1.0},
         "a number": const(3.0),
         "an object": lambda c: {c.input: Oddity()},
-        "a class": lambda c: {c.input: float},
         "a set": lambda c: {c.input},
         "complex samples": lambda c: {c.input: np.ones(11) * 1j},
         "texts": lambda c: {c.input: ["a"] * 11},
@@ -315,6 +312,9 @@ options(
     },
     {
         "a record of all": lambda c: c.data,
+        "math": lambda c: {c.input: math.sin},
+        "an if": lambda c: {c.input: lambda t: 1.0 if t > 0.5 else 0.0},
+        "a class": lambda c: {c.input: float},
         "an integer": lambda c: {c.input: 1},
         "true": lambda c: {c.input: True},
         "a signal": lambda c: {c.input: ac.Signal([0, 1], [1, 2])},

@@ -276,7 +276,7 @@ CASES: dict[str, Case] = {
         0.5,
     ),
     "bearing friction": Case(
-        drive(element=rot.BearingFriction(tau_pos=[[0.0, 0.3], [2.0, 0.5]], peak=1.2)),
+        drive(element=rot.BearingFriction(tau_pos=[[0.0, 0.3], [2.0, 0.5]], peak=1.2, smooth=True)),
         0.2,
         kept=("element.tau_pos[1,1]", "element.tau_pos[2,1]"),
     ),

@@ -23,7 +23,8 @@ from acausal.components import (
 )
 from acausal.flattening.flat_model import FlatModel, flatten
 from examples.qvm import model as qvm
-from tests.test_oracles import DISCRETE, FOLDER, NETLISTS
+from tests.test_event_oracles import FOLDER as EVENTS, NETLISTS as WITH_EVENTS
+from tests.test_oracles import FOLDER, NETLISTS
 
 SCHEMA = json.loads(
     (Path(ac.__file__).parent / "netlist" / "netlist.schema.json").read_text(encoding="utf-8")
@@ -735,11 +736,11 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
         ac.load(tmp_path / "model.json", libraries=["blocks"])  # type: ignore[list-item]
     with pytest.raises(ac.ModelError, match=r"libraries=\[...\] lists modules, got 3"):
         ac.load(tmp_path / "model.json", libraries=3)  # type: ignore[arg-type]
-    with pytest.raises(ac.ModelError, match=r"^load: None is no path; give a text such as"):
+    with pytest.raises(ac.ModelError, match=r"^load: None is not a path; give a text such as"):
         ac.load(None)  # type: ignore[arg-type]
-    with pytest.raises(ac.ModelError, match=r"^save: 3.5 is no path; give a text such as"):
+    with pytest.raises(ac.ModelError, match=r"^save: 3.5 is not a path; give a text such as"):
         ac.save(qvm.linear(), 3.5)  # type: ignore[arg-type]
-    with pytest.raises(ac.ModelError, match=r"^budget='x' is no budget; give ac.Budget"):
+    with pytest.raises(ac.ModelError, match=r"^budget='x' is not a budget; give ac.Budget"):
         ac.load(tmp_path / "model.json", budget="x")  # type: ignore[arg-type]
 
 
@@ -837,5 +838,6 @@ def test_schema_and_loader_refuse_the_same(name: str, file: Path) -> None:
     not FOLDER.is_dir(), reason="the reference trajectories lie in ../shared/oracles"
 )
 def test_the_schema_knows_the_oracles() -> None:
-    for name in (*NETLISTS, *DISCRETE):
-        VALID.validate(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
+    paths = [FOLDER / f"{name}.json" for name in NETLISTS]
+    for path in (*paths, *(EVENTS / f"{name}.json" for name in WITH_EVENTS)):
+        VALID.validate(json.loads(path.read_text(encoding="utf-8")))

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.analysis import arguments, calls, labels
 from acausal.codegen import Values
+from acausal.components import neural, translational as tl
 from acausal.networks.trainable import networks
-from acausal.training.objective.arguments import arguments, calls
 from tests.support.oscillator import learned
 
 
@@ -99,6 +100,32 @@ def test_arguments_with_expressions_and_several_calls():
     at = Values(0.0, jnp.asarray([0.5]), jnp.asarray([20.0]), packed)
     seen = arguments(system, "net", at)
     assert sorted(np.asarray(seen).tolist()) == [[-0.5, 6.0], [1.5, 20.0]]
+
+
+def test_arguments_and_labels_of_networks_in_a_list():
+    class Row(ac.Component):
+        def __init__(self):
+            super().__init__()
+            self.wall, self.mass = tl.Fixed(), [tl.Mass(m=1.0) for _ in range(3)]
+            self.spring = [neural.Compliance(input_scale=0.1, output_scale=5.0) for _ in range(3)]
+            left = self.wall.flange
+            for spring, mass in zip(self.spring, self.mass, strict=True):
+                self.connect(left, spring.flange_a)
+                self.connect(spring.flange_b, mass.flange_a)
+                left = mass.flange_b
+
+    system = ac.compile(Row())
+    x = np.zeros(6)
+    x[[system.states.index(f"mass[{i}].s") for i in (1, 2, 3)]] = [0.1, 0.3, 0.7]
+    at = Values(0.0, jnp.asarray(x), jnp.zeros(0), system.pack(system.parameters(0)))
+    for i, stretched in ((1, 0.1), (2, 0.2), (3, 0.4)):
+        seen = arguments(system, f"spring[{i}].net", at)
+        np.testing.assert_allclose(seen, [[stretched]], rtol=1e-12)
+        found = labels(system, f"spring[{i}].net")
+        assert found.arguments == (f"spring[{i}].s_rel [m]",)
+        assert found.result == f"spring[{i}].f [N]"
+    (together,) = calls(system, "spring[1].net", "spring[3].net")
+    np.testing.assert_allclose(together.values(system, at), [[0.1], [0.4]], rtol=1e-12)
 
 
 def test_a_fourier_series_repeats_and_has_no_mean():

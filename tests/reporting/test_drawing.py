@@ -23,11 +23,10 @@ def without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     "draw",
     [
-        lambda: ac.diagram(ac.Component()),
         lambda: plot_over_time([0.0, 1.0], {"y": [1.0, 2.0]}, {"y": "m"}),
         lambda: figure((3, 2), lambda axes: None),
     ],
-    ids=["diagram", "over time", "page"],
+    ids=["over time", "page"],
 )
 def test_a_drawing_says_what_to_install(draw) -> None:
     with pytest.raises(ac.AcausalError, match=r"needs matplotlib: pip install 'acausal\[plot\]'"):
@@ -38,7 +37,7 @@ def test_the_kernel_works_without_what_is_optional() -> None:
     """A model is compiled, simulated and fitted where no extra is installed."""
     script = """
 import sys
-for name in ("matplotlib", "pandas", "tensorboardX", "PIL"):
+for name in ("graphlay", "matplotlib", "pandas", "tensorboardX", "PIL"):
     sys.modules[name] = None
 import numpy as np, acausal as ac
 from tests.support.oscillator import plain

@@ -33,8 +33,14 @@ def test_a_page_holds_all_it_was_given(tmp_path: Path) -> None:
     ax.plot([0, 1])
     page.figure(figure, "a picture", tmp_path / "picture.png")
     plt.close(figure)
+    page.drawing("<svg></svg>", "a <drawing>")
     text = page.write(tmp_path / "new" / "index.html", "the end").read_text(encoding="utf-8")
-    escaped = ("Title &lt;1&gt;", "lead &amp; more", "text with &lt;tags&gt;")
+    escaped = (
+        "Title &lt;1&gt;",
+        "lead &amp; more",
+        "text with &lt;tags&gt;",
+        "<svg></svg><figcaption>a &lt;",
+    )
     for piece in (*escaped, 'class="hit"', 'class="miss"', "the end"):
         assert piece in text
     assert "<mi>z</mi>" in text

@@ -37,6 +37,7 @@ from tests.support.parts import (
     SpringDamper,
     model,
 )
+from tests.support.slow import some_slow
 
 Eq, der = ac.Eq, ac.der
 
@@ -336,7 +337,7 @@ def test_constraints_that_repeat_each_other_are_told():
 # -- loops --------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("n", some_slow([1, 2, 3, 4, 5], [3, 5]))
 def test_linear_loops(n):
     rng = np.random.default_rng(n)
     a, b = rng.normal(size=(n, n)) + 3 * np.eye(n), rng.normal(size=n)

@@ -207,6 +207,7 @@ def test_the_place_of_a_breakdown():
         ac.simulate(singular, (0, 1), dt=0.5, params=params)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("mesh_from_ten")
 def test_gradients_of_a_simulation_in_every_mode():
     make = lambda k: el.Diode() if k % 5 == 4 else el.Resistor(R=100.0 + k)  # noqa: E731

@@ -209,6 +209,7 @@ def test_a_torn_arm_moves_as_a_sparse_one(monkeypatch):
         np.testing.assert_allclose(ours, theirs, rtol=1e-8, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_a_linkage_closes_and_keeps_its_energy():
     linkage = Linkage([0.3, 1.0, 0.7], [1.0, 0.5, -1.0])
     for joint in linkage.joint:

@@ -62,6 +62,7 @@ def records() -> dict[str, ac.Data]:
     return {"long": record(1, 41), "short": record(2, 25)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", ["bdf", "auto"])
 def test_a_stiff_model_is_identified_from_several_records(records: dict[str, ac.Data], solver: str):
     """With fixed explicit steps, these would have to be a hundred times as short as the samples are apart."""
@@ -82,6 +83,7 @@ def test_a_stiff_model_is_identified_from_several_records(records: dict[str, ac.
     assert set(fit.records) == {"long", "short"}
 
 
+@pytest.mark.slow
 def test_sequences_take_adaptive_steps_side_by_side(records: dict[str, ac.Data]):
     fit = ac.fit(
         system(),
@@ -100,6 +102,7 @@ def test_sequences_take_adaptive_steps_side_by_side(records: dict[str, ac.Data])
     assert fit.loss < 0.9 * fit.loss_before
 
 
+@pytest.mark.slow
 def test_runs_of_one_loop_are_those_made_singly():
     """States, and their derivatives by parameters and by every run's first state."""
     t = np.concatenate([TIME[:6], TIME[:5]])

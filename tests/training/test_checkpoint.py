@@ -80,6 +80,7 @@ def interrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 # -- going on ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("one_by_one")
 def test_a_training_goes_on_after_every_kind_of_break(tmp_path: Path):
     """Ctrl-C in the first leg, an error of the user's in the second, and once more in the third run."""

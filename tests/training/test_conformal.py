@@ -33,6 +33,7 @@ def trained() -> ac.Fit:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_band_holds_its_share_of_a_third_record():
     _, calibration, third = rides()
     band = trained().conformal(calibration, LEVEL)

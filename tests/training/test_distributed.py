@@ -20,6 +20,7 @@ def alone():
     return weights(trained(None))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("processes", "devices"),
     [

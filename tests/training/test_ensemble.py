@@ -44,6 +44,7 @@ def trained() -> ac.Ensemble:
     return train()
 
 
+@pytest.mark.slow
 def test_every_member_is_the_training_of_its_seed():
     """Adam on sequences, then L-BFGS, whose line searches differ from member to member."""
     member = trained().fits[1]
@@ -58,6 +59,7 @@ def test_every_member_is_the_training_of_its_seed():
     assert member.loss != trained().fits[0].loss
 
 
+@pytest.mark.slow
 def test_copies_answer_as_the_ensemble_and_its_fits(tmp_path):
     ensemble = pickle.loads(pickle.dumps(trained()))
     assert str(ensemble) == str(trained())
@@ -130,6 +132,7 @@ def test_an_ensemble_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.Mo
         train(checkpoint=tmp_path, resume=True, seed=0)
 
 
+@pytest.mark.slow
 def test_a_leg_ends_when_it_has_ended_for_all():
     """As many evaluations without a better one as patience allows, for every member, and no sooner."""
     patience, epochs = 2, 400

@@ -46,7 +46,11 @@ def posed(**chosen: Any) -> Problem:
 
 @pytest.mark.parametrize(
     "chosen",
-    [{}, {"loss": quartic}, {"regularizers": (ac.ZeroCrossing(1.0),)}],
+    [
+        pytest.param({}, marks=pytest.mark.slow),
+        {"loss": quartic},
+        {"regularizers": (ac.ZeroCrossing(1.0),)},
+    ],
     ids=["nrmse", "another loss", "regularizer"],
 )
 def test_both_ways_give_one_gradient(chosen: dict[str, Any]):

@@ -59,6 +59,7 @@ def test_derivatives_exist_whatever_the_time_constant() -> None:
     np.testing.assert_allclose(slope(0.3), (lag(0.3 + h) - lag(0.3 - h)) / (2 * h), rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_lag_is_found_and_one_that_is_not_there_goes_away() -> None:
     data = record(cubic=0.0, end=8.0)
     t, a = data.time, data.signals["mass.a"]

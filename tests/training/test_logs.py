@@ -72,7 +72,7 @@ def test_other_files_are_not_overwritten(tmp_path: Path):
     with pytest.raises(ac.TrainingError, match=r"cannot be written: Is a directory\."):
         ac.CsvLog(tmp_path)
     for log in (ac.CsvLog, ac.TensorBoardLog):
-        with pytest.raises(ac.DataError, match=rf"^{log.__name__}: 3.5 is no path"):
+        with pytest.raises(ac.DataError, match=rf"^{log.__name__}: 3.5 is not a path"):
             log(3.5)  # type: ignore[arg-type]
 
 

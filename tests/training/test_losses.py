@@ -236,6 +236,7 @@ def test_given_noise_is_that_of_the_confidence(ml: ac.Fit):
         assert float(fit.params[name]) == pytest.approx(float(ml.params[name]), rel=1e-4)
 
 
+@pytest.mark.slow
 def test_robust_losses_bear_outliers(ml: ac.Fit):
     data = noisy(0.05)
     plainly = trained(data)
@@ -335,7 +336,7 @@ def test_another_weight_is_another_training(tmp_path: Any):
         (lambda: ac.Likelihood(noise=cast(Any, 0.1)), "Likelihood: noise=0.1; give levels by target"),
         (lambda: ac.Student(nu=0), "Student: nu=0; give positive degrees of freedom."),
         (lambda: ac.Huber(delta=-2), "Huber: delta=-2; give a positive number of levels."),
-        (lambda: ac.Student(noise={"mass.v": 1}).of(TARGETS), "Student: noise of 'mass.v', which is no target"),
+        (lambda: ac.Student(noise={"mass.v": 1}).of(TARGETS), "Student: noise of 'mass.v', which is not a target"),
         (lambda: named("studnet", TARGETS), "No loss 'studnet': did you mean 'student'?"),
     ],
 )  # fmt: skip
@@ -355,9 +356,9 @@ def of_three(predicted: Any, measured: Any, sigma: Any) -> Any:
         ({"record_weights": "equal"}, "record_weights='equal': give 'samples', 'records', or factors"),
         ({"record_weights": {"shrt": 1}}, "record_weights: there is no record 'shrt': did you mean 'short'?"),
         ({"record_weights": {"short": 0}}, "record_weights: 'short' has the weight 0; give a positive number"),
-        ({"sample_weights": {"mass.v": 1}}, "sample_weights: 'mass.v' is no target"),
+        ({"sample_weights": {"mass.v": 1}}, "sample_weights: 'mass.v' is not a target"),
         ({"sample_weights": {"mass.a": -1}}, "sample_weights: 'mass.a' has the weight -1; give a positive"),
-        ({"sample_weights": {"mass.a": lambda t: -t}}, "sample_weights: -0.01 at t = 0.01 s is no weight"),
+        ({"sample_weights": {"mass.a": lambda t: -t}}, "sample_weights: -0.01 at t = 0.01 s is not a weight"),
         ({"sample_weights": {"mass.a": lambda t: 0}}, "sample_weights: all weights of 'mass.a' are 0"),
         ({"sample_weights": {"mass.a": 2}, "loss": of_three}, "record_weights and sample_weights need a loss"),
     ],

@@ -103,6 +103,7 @@ def test_the_gradient_of_a_penalty_is_that_of_differences():
     assert float(rate) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_sensor_that_lags_makes_no_instability():
     """Late accelerations look like a damping that is less by about c τ; the margin holds against that."""
     lag, time, start = 0.02, np.linspace(0, 5, 501), 5.0

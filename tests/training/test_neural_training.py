@@ -7,6 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import optax
+import pytest
 
 import acausal as ac
 from acausal.components import neural, translational as tl
@@ -73,6 +74,7 @@ def check(params: dict[str, Any]) -> None:
     assert (found["hysteresis.memory"][2] >= 0.1).all()
 
 
+@pytest.mark.slow
 def test_promises_hold_before_during_and_after_training() -> None:
     system = ac.compile(Learner())
     data = record(end=2.0).for_system(system)
@@ -113,3 +115,20 @@ def test_regularizers_look_at_the_law_of_an_energy() -> None:
         float(energy.law(0.3, 1.5) - energy.law(0.0, 1.5)),
         rtol=1e-12,
     )
+
+
+def test_a_network_that_no_equation_calls_is_not_trained() -> None:
+    """An option left it out, as ``learned=False`` of a battery's elements does."""
+
+    class Half(ac.Component):
+        x = ac.Variable(start=1.0, fixed=True)
+        used = ac.Module(lambda key: ac.MLP(1, 2, 1, "tanh", key=key), takes=("1",))
+        spare = ac.Module(lambda key: ac.MLP(1, 2, 1, "tanh", key=key), takes=("1",))
+
+        def equations(self) -> Any:
+            yield ac.Eq(ac.der(self.x), self.used(self.x))
+
+    t = np.linspace(0, 1, 11)
+    data = ac.Data(t, {"x": np.exp(-t)})
+    fit = ac.fit(ac.compile(Half()), data, ["x"], epochs=2, progress=False)
+    assert list(fit.seen) == ["used"]

@@ -4,9 +4,13 @@ import inspect
 from dataclasses import FrozenInstanceError, fields
 from typing import Any
 
+import diffrax
+import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.simulation import Adaptive
+from acausal.training.build_problem import _solver
 from acausal.training.options import FitKeywords, FitOptions
 from tests.support.oscillator import learned, record
 
@@ -82,3 +86,9 @@ def test_values_of_the_wrong_kind_get_one_sentence(given: Any, sentence: str) ->
 def test_what_functions_of_a_training_give_is_checked(given: Any, sentence: str) -> None:
     with pytest.raises(ac.TrainingError, match=sentence):
         ac.fit(learned(), record(end=2.0), "mass.a", sequence_length=0.2, progress=False, **given)
+
+
+@pytest.mark.parametrize(("given", "kind"), [({}, Adaptive), ({"dt": 0.1}, diffrax.Kvaerno3)])
+def test_stiff_is_a_solver_of_trainings(given, kind):
+    options = FitOptions(solver="stiff", **given)
+    assert isinstance(_solver(options, np.dtype(float)), kind)

@@ -79,7 +79,7 @@ class Two(ac.Component):
         self.connect(self.push.flange, self.mass.flange_b)
 
 
-@pytest.mark.parametrize("loss", ["nrmse", "likelihood"])
+@pytest.mark.parametrize("loss", [pytest.param("nrmse", marks=pytest.mark.slow), "likelihood"])
 def test_a_flat_profile_is_not_identifiable(loss: str, tmp_path: Path):
     system = ac.compile(Two())
     bounds = {"spring.c": ac.Bounded(1, 100), "other.c": ac.Bounded(1, 100)}
@@ -97,6 +97,7 @@ def test_a_flat_profile_is_not_identifiable(loss: str, tmp_path: Path):
     assert "&#x27;other.c&#x27; is not identifiable" in page
 
 
+@pytest.mark.slow
 def test_networks_are_trained_along():
     """A spring beside a learned one takes any part of it; without the network it would be known."""
     fit = ac.fit(
@@ -134,7 +135,7 @@ def test_one_side_may_be_open():
 @pytest.mark.parametrize(
     ("chosen", "sentence"),
     [
-        ({"parameter": "mass.n"}, "profile: 'mass.n' is no parameter that was trained: did you mean 'mass.m'?"),
+        ({"parameter": "mass.n"}, "profile: 'mass.n' is not a parameter that was trained: did you mean 'mass.m'?"),
         ({"points": 4}, "profile: points=4; give an odd number, 5 or more."),
         ({"width": 0}, "profile: width=0; give a number of standard deviations."),
         ({"level": 95}, "profile: level=95; give a number between 0 and 1."),

@@ -69,6 +69,7 @@ def starts() -> Starts:
     return found
 
 
+@pytest.mark.slow
 def test_several_starts_find_what_a_single_one_misses():
     with pytest.warns(UserWarning, match=r"spring\.d.*limit"):
         alone = train(starts=1)

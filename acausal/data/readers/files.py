@@ -22,7 +22,7 @@ def files(given: object, function: str) -> Path | dict[str, Path]:
         their common folder, without the ending. Those of a pattern are sorted.
 
     Raises:
-        DataError: for what is no path, and where there are no files.
+        DataError: for what is not a path, and where there are no files.
     """
     if isinstance(given, list | tuple):
         paths = [_path(path, function) for path in given]
@@ -40,7 +40,7 @@ def files(given: object, function: str) -> Path | dict[str, Path]:
 def _path(given: object, function: str) -> Path:
     path = need_path(given, function)
     if "\0" in str(path):
-        raise DataError(f"{function}: {shown(str(path))} is no path; it has a null character.")
+        raise DataError(f"{function}: {shown(str(path))} is not a path; it has a null character.")
     return path
 
 

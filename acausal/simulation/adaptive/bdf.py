@@ -340,6 +340,6 @@ def _with_end(s: Float[Array, " points"]) -> Float[Array, " points_1"]:
 
 
 def _fixed(tree: Tree) -> Tree:
-    """The same, without derivatives; what is no array, as an input's function, stays as it is."""
+    """The same, without derivatives; what is not an array, as an input's function, stays as it is."""
     arrays, rest = eqx.partition(tree, eqx.is_array)
     return eqx.combine(lax.stop_gradient(arrays), rest)

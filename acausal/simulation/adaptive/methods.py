@@ -13,8 +13,9 @@ from acausal.codegen import StateJacobian
 from acausal.simulation import solvers
 from acausal.simulation.adaptive.bdf import BDF
 from acausal.simulation.adaptive.newton_matrix import NewtonMatrix
-from acausal.simulation.adaptive.one_step import Explicit, Foreign
+from acausal.simulation.adaptive.one_step import Foreign
 from acausal.simulation.adaptive.problem import Problem
+from acausal.simulation.adaptive.runge_kutta import Explicit
 
 Method: TypeAlias = Explicit | Foreign | BDF
 

@@ -1,4 +1,4 @@
-"""Adaptive steps of one-step schemes: explicit ones written out from their tableau, others by diffrax's `step`."""
+"""Adaptive steps of one-step schemes, by diffrax's `step`."""
 
 from __future__ import annotations
 
@@ -190,44 +190,6 @@ class OneStep(eqx.Module):
         return float(cast(float, self.solver.order(None)))
 
 
-class Explicit(OneStep):
-    """An explicit Runge–Kutta scheme."""
-
-    def first(self, field: RightHandSide, t: Array, h: Array, x: State, f: State) -> State:
-        """The derivative."""
-        return f
-
-    def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
-        """One step, its stages written out."""
-        tableau = self.solver.tableau
-        stages, inner = [first], x
-        for row, fraction in zip(tableau.a_lower, tableau.c, strict=True):
-            inner = _sum(x, h, row, stages)
-            stages.append(field(t + float(fraction) * h, inner))
-        if tableau.fsal:
-            end, last = inner, stages[-1]
-        else:
-            end = _sum(x, h, tableau.b_sol, stages)
-            last = field(t + h, end)
-        zero = jnp.zeros_like(x)
-        error = _sum(zero, h, tableau.b_error, stages)
-        k = h * jnp.stack(stages)
-        counts = Counts.of(rates=len(stages) - 1 + (not tableau.fsal))
-        done = jnp.array(True)
-        fastest = self._fastest(x, h, stages, end)
-        return Made(end, error, {"y0": x, "y1": end, "k": k}, last, done, fastest, counts)
-
-    def _fastest(self, x: State, h: Array, stages: list[State], end: State) -> Array:
-        """From the last two stages of a scheme that both are at the end of the step."""
-        tableau = self.solver.tableau
-        if not (tableau.fsal and len(tableau.c) > 1 and tableau.c[-2] == 1):
-            return jnp.zeros_like(h)
-        other = _sum(x, h, tableau.a_lower[-2], stages)
-        change, apart = stages[-1] - stages[-2], end - other
-        size = jnp.sqrt(jnp.sum(apart**2))
-        return lax.stop_gradient(jnp.sqrt(jnp.sum(change**2)) / jnp.where(size > 0, size, jnp.inf))
-
-
 class Foreign(OneStep):
     """Any other adaptive diffrax solver, by its own `step`."""
 
@@ -278,12 +240,3 @@ def _term(field: RightHandSide) -> dfx.ODETerm[Any]:
         return field(t, x)
 
     return dfx.ODETerm(rates)
-
-
-def _sum(x: State, h: Array, weights: Any, stages: list[State]) -> State:
-    total = None
-    for weight, stage in zip(weights, stages, strict=False):
-        if weight:
-            term = float(weight) * stage
-            total = term if total is None else total + term
-    return x if total is None else x + h * total

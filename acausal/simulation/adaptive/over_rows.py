@@ -42,12 +42,13 @@ class Adaptive:
     atol: float = 1e-8
 
 
-class _RowsField(eqx.Module):
+class Clock(eqx.Module):
     """The right-hand side by a clock that goes on from row to row, through all runs.
 
     Attributes:
         packed: parameters. steps: the rows. edges: the clock at their starts, and at the end.
         own: numbers that differ from row to row; places: where they lie in `Packed.values`.
+        d: discrete variables, or None.
     """
 
     packed: Packed
@@ -56,6 +57,19 @@ class _RowsField(eqx.Module):
     own: Float[Array, "n n_own"] | None
     places: tuple[int, ...] = eqx.field(static=True)
     system: Any = eqx.field(static=True)
+    d: Float[Array, " n_discrete"] | None = None
+
+    @staticmethod
+    def of(system: System, packed: Packed, steps: Steps, runs: Runs | None) -> Clock:
+        """The clock of some rows."""
+        lengths = jnp.broadcast_to(steps.h, (len(steps.t),))
+        edges = jnp.concatenate([jnp.zeros(1, lengths.dtype), jnp.cumsum(lengths)])
+        own, places = (None, ()) if runs is None else (runs.own, runs.places)
+        return Clock(packed, steps, edges, own, places, system)
+
+    def with_modes(self, d: Float[Array, " n_discrete"] | None) -> Clock:
+        """The same with discrete variables."""
+        return Clock(self.packed, self.steps, self.edges, self.own, self.places, self.system, d)
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
@@ -81,7 +95,7 @@ class _RowsField(eqx.Module):
         packed = self.packed
         if self.own is not None:
             packed = packed.replaced(self.places, self.own[row])
-        return self.system.field(step.time(fraction), u, packed)
+        return self.system.field(step.time(fraction), u, packed, self.d)
 
 
 def integrate_adaptively(
@@ -105,12 +119,9 @@ def integrate_adaptively(
         States and outputs at the rows' starts, and the state at the end; NaN from where a step cannot be made.
     """
     n, dtype = len(steps.t), start.x.dtype
-    lengths = jnp.broadcast_to(steps.h, (n,))
-    edges = jnp.concatenate([jnp.zeros(1, dtype), jnp.cumsum(lengths)])
-    restarts, own, places = (
-        (None, None, ()) if runs is None else (runs.restarts, runs.own, runs.places)
-    )
-    field = _RowsField(start.packed, steps, edges, own, places, system)
+    field = Clock.of(system, start.packed, steps, runs)
+    edges = field.edges
+    restarts = None if runs is None else runs.restarts
     inner = edges[1:-1]
     if system.inputs and n > 1:
         jumps = jnp.any(steps.inputs.end[:-1] != steps.inputs.start[1:], axis=1)

@@ -12,7 +12,13 @@ from acausal.codegen import Field
 
 
 class RightHandSide(Protocol):
-    """The right-hand side of a model whose parameters and inputs are given."""
+    """The right-hand side of a model whose parameters and inputs are given.
+
+    Attributes:
+        d: discrete variables, or None.
+    """
+
+    d: Float[Array, " n_discrete"] | None
 
     def at(self, t: Array) -> Field:
         """It at one time, as a function of the states."""
@@ -35,6 +41,7 @@ class Problem(eqx.Module):
         rtol, atol: tolerances of a step.
         max_steps: limit of steps, those that are repeated included.
         restarts: at which breaks another run begins, if any do. first: with which state.
+        first_d: and with which discrete variables.
     """
 
     field: RightHandSide
@@ -49,6 +56,11 @@ class Problem(eqx.Module):
     max_steps: int = eqx.field(static=True)
     restarts: Bool[Array, " n_breaks"] | None = None
     first: Float[Array, "n_breaks n_states"] | None = None
+    first_d: Float[Array, "n_breaks n_discrete"] | None = None
+
+    def held(self, d: Float[Array, " n_discrete"]) -> Problem:
+        """The problem between two events."""
+        return eqx.tree_at(lambda p: p.field.d, self, d, is_leaf=lambda leaf: leaf is None)
 
     def size(
         self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]

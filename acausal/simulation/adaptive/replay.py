@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax import lax
-from jax.custom_derivatives import SymbolicZero
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Int
 
+from acausal._jax import while_any, with_steps
 from acausal.simulation.adaptive.problem import Problem
 from acausal.simulation.adaptive.search import (
     Found,
@@ -40,88 +41,69 @@ All of it is written once for every derivative, which takes longer than the step
 FEWEST = 512
 """Steps that are kept in any case, of however many states."""
 
+MORE_MEMORY, ENOUGH = 2**24, 1536
+"""Numbers that this many steps may take where `MEMORY` has no room for the fewest: such a model's steps take longer."""
 
-class Kept(eqx.Module):
-    """What the derivative needs.
+
+class Steps(eqx.Module):
+    """The steps that a run has made.
 
     Attributes:
-        values: all arrays of the task. moved: those whose derivatives are needed.
         parts: where each part of the run began, with a leading axis. count: how many parts there are.
         rows: the steps of the last part. n: how many.
     """
 
-    values: list[Array]
     parts: Progress
     count: Int[Array, ""]
     rows: Rows
     n: Int[Array, ""]
-    moved: tuple[bool, ...] = eqx.field(static=True)
 
 
 def reverse(method: Any, problem: Problem, start: Start, *, until_stiff: bool = False) -> Found:
     """`search`, with derivatives in reverse mode.
 
-    The states of all steps are kept, as far as `MEMORY` allows. Of a longer run they are kept part by part: the
-    derivative makes each part again from its start.
+    The states of all steps are kept, as far as there is room (`_size`). Of a longer run they are kept part by part:
+    the derivative makes each part again from its start.
     """
-    arrays, fixed = eqx.partition((method, problem, start), eqx.is_array)
-    leaves, tree = jax.tree.flatten(arrays)
-
-    def given(leaves: list[Array]) -> Task:
-        return eqx.combine(jax.tree.unflatten(tree, leaves), fixed)
-
-    @jax.custom_vjp
-    def run(leaves: list[Array]) -> Found:
-        return search(*given(leaves), until_stiff=until_stiff)
-
-    def keep(leaves: list[Any]) -> tuple[Found, Kept]:
-        values = [leaf.value for leaf in leaves]
-        moved = tuple(
-            bool(leaf.perturbed) and jnp.issubdtype(leaf.value.dtype, jnp.inexact)
-            for leaf in leaves
-        )
-        return _kept(values, moved, given(values), until_stiff)
-
-    def back(kept: Kept, cotangents: Found) -> tuple[list[Array | None]]:
-        def of_moved(some: list[Array]) -> Task:
-            filled = iter(some)
-            return given(
-                [next(filled) if m else v for v, m in zip(kept.values, kept.moved, strict=True)]
-            )
-
-        pulled = _back(
-            of_moved, kept, _filled(cotangents.saved), _filled(cotangents.x), until_stiff
-        )
-        by_moved = iter(pulled)
-        return ([next(by_moved) if m else None for m in kept.moved],)
-
-    run.defvjp(keep, back, symbolic_zeros=True)
-    return run(leaves)
+    return with_steps(
+        (method, problem, start),
+        lambda task: search(*task, until_stiff=until_stiff),
+        lambda task: _kept(task, until_stiff),
+        partial(_back, until_stiff),
+    )
 
 
-def _kept(
-    values: list[Array], moved: tuple[bool, ...], task: Task, until_stiff: bool
-) -> tuple[Found, Kept]:
-    """The result of a run, and what its derivative needs."""
+def _kept(task: Task, until_stiff: bool) -> tuple[Found, Steps]:
+    """The result of a run, and its steps."""
     method, problem, start = task
     progress, saved = begin(method, problem, start)
     like = row_like(method, problem, progress)
     numbers = sum(a.size for a in jax.tree.leaves(like))
-    size = min(problem.max_steps, max(MEMORY // numbers, FEWEST))
+    size = min(problem.max_steps, _size(numbers))
     most = -(-problem.max_steps // size)
     rows, parts = _room(like, size), _room(progress, most)
 
-    def one(carry: tuple[Any, ...]) -> tuple[Any, ...]:
-        i, progress, saved, parts, rows, _ = carry
-        parts = jax.tree.map(lambda a, v: a.at[i].set(v), parts, progress)
+    def one(carry: tuple[Any, ...], runs: Array) -> tuple[Any, ...]:
+        i, progress, saved, parts, rows, n = carry
+        k = jnp.where(runs, i, most)
+        parts = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), parts, progress)
         last, saved, rows = advance(method, problem, progress, saved, rows, until_stiff=until_stiff)
-        return i + 1, last, saved, parts, rows, last.counts.steps - progress.counts.steps
+        n = jnp.where(runs, last.counts.steps - progress.counts.steps, n)
+        return i + runs, last, saved, parts, rows, n
 
     zero = jnp.zeros((), jnp.int32)
     state = zero, progress, saved, parts, rows, zero
-    state = lax.while_loop(lambda s: s[1].why < 0, one, state) if most > 1 else one(state)
+    state = (
+        while_any(lambda s: s[1].why < 0, one, state) if most > 1 else one(state, jnp.array(True))
+    )
     count, last, saved, parts, rows, n = state
-    return found(last, saved), Kept(values, parts, count, rows, n, moved)
+    return found(last, saved), Steps(parts, count, rows, n)
+
+
+def _size(numbers: int) -> int:
+    """How many steps of so many numbers are kept."""
+    small = MEMORY // numbers
+    return small if small >= FEWEST else max(min(MORE_MEMORY // numbers, ENOUGH), FEWEST)
 
 
 def _room(like: Tree, n: int) -> Tree:
@@ -134,23 +116,15 @@ def _row(rows: Rows, k: Array) -> Any:
     return jax.tree.map(lambda a: a[k], rows)
 
 
-def _filled(cotangent: Any) -> Array:
-    """A cotangent, where it is zero, too."""
-    if not isinstance(cotangent, SymbolicZero):
-        return cotangent
-    like: Any = cotangent
-    return jnp.zeros(like.shape, like.dtype)
-
-
 def _back(
-    of_moved: Callable[[list[Array]], Task],
-    kept: Kept,
-    to_saved: Float[Array, "n_saved n_states"],
-    to_last: Float[Array, " n_states"],
     until_stiff: bool,
+    of_moved: Callable[[list[Array]], Task],
+    own: list[Array],
+    kept: Steps,
+    to: Found,
 ) -> list[Array]:
     """The cotangents of what moves."""
-    own = [v for v, m in zip(kept.values, kept.moved, strict=True) if m]
+    to_saved, to_last = to.saved, to.x
     method, problem, start = of_moved(own)
     size, parts = len(kept.rows.t), kept.parts.t.shape[0]
 

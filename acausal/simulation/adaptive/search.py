@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from acausal._jax import while_any
 from acausal.simulation.adaptive.problem import Counts, Problem
 
 REACHED, STIFF, EXHAUSTED, TOO_SHORT = range(4)
@@ -149,7 +150,9 @@ def advance(
         running = c.why < 0
         return running if rows is None else running & (c.counts.steps - before < len(rows.t))
 
-    def body(carry: tuple[Progress, Any, Rows | None]) -> tuple[Progress, Any, Rows | None]:
+    def body(
+        carry: tuple[Progress, Any, Rows | None], runs: Array
+    ) -> tuple[Progress, Any, Rows | None]:
         c, saved, rows = carry
         stop, proposed = stops[c.ahead], lax.stop_gradient(c.memory.h)
         left = jnp.where(jumps[c.ahead], _just_before(stop), stop) - c.t
@@ -159,7 +162,7 @@ def advance(
         ok = made.accepted
         t = jnp.where(ok, jnp.where(to_stop, stop, c.t + h), c.t)
         x = jnp.where(ok, made.x, c.x)
-        saved, following = _save(method, problem.ts, saved, c.next, made.dense, c.t, h, t)
+        saved, following = _save(method, problem.ts, saved, c.next, made.dense, c.t, h, t, runs)
         memory, ahead, counts = made.memory, c.ahead, c.counts.plus(made.counts)
         begins = jnp.where(ok, -1, c.begins)
         if n_breaks:
@@ -177,7 +180,7 @@ def advance(
             )
             counts = counts.plus(cost)
         if rows is not None:
-            k = jnp.where(ok, c.counts.steps - before, len(rows.t))  # beyond the last: dropped
+            k = jnp.where(ok & runs, c.counts.steps - before, len(rows.t))  # beyond: dropped
             row = Rows(c.t, h, following, made.row, made.x, c.begins)
             rows = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), rows, row)
         counts = counts.plus(Counts.of(steps=ok, rejected=~ok))
@@ -186,9 +189,10 @@ def advance(
         if until_stiff:
             why = jnp.where(made.stiff, STIFF, why)
         why = jnp.where(t >= problem.end, REACHED, why).astype(jnp.int32)
-        return Progress(t, x, following, ahead, memory, why, counts, begins), saved, rows
+        after = Progress(t, x, following, ahead, memory, why, counts, begins)
+        return jax.tree.map(lambda a, b: jnp.where(runs, a, b), after, c), saved, rows
 
-    return lax.while_loop(goes_on, body, (progress, saved, rows))
+    return while_any(goes_on, body, (progress, saved, rows))
 
 
 def row_like(method: Any, problem: Problem, progress: Progress) -> Rows:
@@ -201,7 +205,8 @@ def row_like(method: Any, problem: Problem, progress: Progress) -> Rows:
 def _just_before(t: Array) -> Array:
     """A time that no rounding moves up to this one."""
     low = jnp.asarray(-jnp.inf, t.dtype)
-    return jnp.nextafter(jnp.nextafter(t, low), low)
+    before = lax.stop_gradient(t)
+    return t + (jnp.nextafter(jnp.nextafter(before, low), low) - before)
 
 
 def _save(
@@ -213,6 +218,7 @@ def _save(
     t: Array,
     h: Array,
     reached: Array,
+    runs: Array,
 ) -> tuple[Array | None, Array]:
     """The states at the times to save up to the time reached, and the next of these times."""
     if saved is None:
@@ -222,10 +228,12 @@ def _save(
 
     def within(state: tuple[Array, Array]) -> Array:
         j = state[1]
-        return (j < len(ts)) & (ts[jnp.minimum(j, len(ts) - 1)] <= reached)
+        return runs & (j < len(ts)) & (ts[jnp.minimum(j, len(ts) - 1)] <= reached)
 
-    def one(state: tuple[Array, Array]) -> tuple[Array, Array]:
+    def one(state: tuple[Array, Array], inside: Array) -> tuple[Array, Array]:
         saved, j = state
-        return saved.at[j].set(method.between(dense, t, h, ts[j])), j + 1
+        x = method.between(dense, t, h, ts[jnp.minimum(j, len(ts) - 1)])
+        k = jnp.where(inside, j, len(ts))
+        return saved.at[k].set(x, mode="drop"), j + inside
 
-    return lax.while_loop(within, one, (saved, following))
+    return while_any(within, one, (saved, following))

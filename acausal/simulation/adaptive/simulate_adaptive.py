@@ -23,22 +23,24 @@ from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
 
 
-class _ModelField(eqx.Module):
+class ModelField(eqx.Module):
     """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
 
     Attributes:
         packed: parameters.
         inputs: functions of time.
         system: the model.
+        d: discrete variables, or None.
     """
 
     packed: Packed
     inputs: tuple[TimeFunction, ...]
     system: Any = eqx.field(static=True)
+    d: Float[Array, " n_discrete"] | None = None
 
     def at(self, t: Array) -> Field:
         """It at one time."""
-        return self.system.field(t, evaluate(self.inputs, t), self.packed)
+        return self.system.field(t, evaluate(self.inputs, t), self.packed, self.d)
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
@@ -73,7 +75,7 @@ def simulate_adaptive(
     """
     ends = breaks(run.inputs, run.begin, run.end)
     problem = Problem(
-        _ModelField(run.start.packed, run.inputs, run.system),
+        ModelField(run.start.packed, run.inputs, run.system),
         run.start.x,
         jnp.asarray(run.begin),
         jnp.asarray(run.end),

@@ -87,8 +87,14 @@ def equation_error(problem: Problem) -> EquationError:
     """The equation error of a problem.
 
     Raises:
-        TrainingError: if states are not measured, or no target depends on something that is to be trained.
+        TrainingError: if states are not measured, the model has events, or no target depends on something that is to
+            be trained.
     """
+    if problem.system.events is not None:
+        raise TrainingError(
+            "The equation error looks at instants, where the discrete variables of a model with events are not known: "
+            "leave 'equation_error' out of the strategy."
+        )
     if problem.records.x is None:
         raise TrainingError(
             "The equation error needs all states in the data: "

@@ -52,7 +52,7 @@ class ErrorLaw(ABC):
         """Check the levels.
 
         Raises:
-            TrainingError: for what is no positive number.
+            TrainingError: for what is not a positive number.
         """
         name = type(self).__name__
         given: Any = self.noise
@@ -94,7 +94,7 @@ class ErrorLaw(ABC):
         for name in self.noise:
             if name not in targets:
                 raise TrainingError(
-                    f"{type(self).__name__}: noise of '{name}', which is no target: {nearest(name, targets)}"
+                    f"{type(self).__name__}: noise of '{name}', which is not a target: {nearest(name, targets)}"
                 )
         noise = tuple(float(self.noise[n]) if n in self.noise else None for n in targets)
         return LogLikelihood(replace(self, noise={}), noise)

@@ -52,7 +52,7 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
     """What to train on and what to hold out.
 
     Raises:
-        DataError: for a fraction that leaves fewer than two samples for either, a name that is no record, or if
+        DataError: for a fraction that leaves fewer than two samples for either, a name that is not a record, or if
             nothing is left to train on.
     """
     if validation is None:
@@ -148,6 +148,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         problem.longest_step,
         solver=problem.solver,
         timing=problem.timing,
+        held=system.held_inputs,
     )
     records = problem.weighting.apply(records)
     return replace(

@@ -128,7 +128,7 @@ def check_records(x0: InitialState, known: Iterable[str]) -> None:
     """Check the names of records.
 
     Raises:
-        DataError: for a name that is no record.
+        DataError: for a name that is not a record.
     """
     known = list(known)
     if differs(known, x0):

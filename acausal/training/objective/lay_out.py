@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -52,6 +52,7 @@ def lay_out(
     *,
     solver: Scheme | Adaptive | None = None,
     timing: Timing | None = None,
+    held: Set[str] = frozenset(),
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
 
@@ -63,6 +64,7 @@ def lay_out(
         longest: step in seconds; by default steps go from sample to sample.
         solver: of the steps, and
         timing: the delays, where inputs are delayed.
+        held: inputs that keep each sample until the next, unless a record says otherwise.
 
     Raises:
         DataError: for a signal that is missing.
@@ -71,7 +73,10 @@ def lay_out(
     even = sample_time(data.values())
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
-    rows = [_rows(d, g, inputs, targets, states) for d, g in zip(data.values(), grids, strict=True)]
+    rows = [
+        _rows(d, g, inputs, targets, states, held)
+        for d, g in zip(data.values(), grids, strict=True)
+    ]
     counts = np.array([len(g.t) for g in grids])
     ends = np.cumsum(counts)
     y = np.concatenate([r.y for r in rows])
@@ -123,6 +128,7 @@ def _rows(
     inputs: tuple[str, ...],
     targets: tuple[str, ...],
     states: tuple[str, ...] | None,
+    held: Set[str],
 ) -> _Rows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
@@ -130,7 +136,7 @@ def _rows(
         return rows
 
     span = float(grid.t[0]), float(grid.t[-1])
-    functions = functions_of_time(inputs, data, span)
+    functions = functions_of_time(inputs, data, span, held=held)
     inner = polynomials_over_steps(functions, grid.t)
     names = states or ()
     nothing = np.full(len(data), np.nan)
@@ -199,7 +205,7 @@ def check_step(data: Mapping[str, Data], dt: float | None) -> None:
     """Check a user's step of the integration.
 
     Raises:
-        TrainingError: for what is no step, or does not divide evenly spaced samples.
+        TrainingError: for what is not a step, or does not divide evenly spaced samples.
     """
     if dt is None:
         return

@@ -287,7 +287,7 @@ def modifiers(
         why_not_free: why a parameter is not among them, see `ParameterLayout.why_not_free`.
 
     Raises:
-        TrainingError: for a name that is no numeric parameter, or a modifier that does not fit its value.
+        TrainingError: for a name that is not a numeric parameter, or a modifier that does not fit its value.
     """
     names = () if given is None else names_in(given, "modifiers")
     by_name = given if isinstance(given, Mapping) else {}

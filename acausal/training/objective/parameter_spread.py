@@ -55,7 +55,7 @@ def parameter_spread(
     """Check a user's deviations, in the units of the parameters.
 
     Raises:
-        TrainingError: for a name that is no numeric parameter, or a deviation that is not positive.
+        TrainingError: for a name that is not a numeric parameter, or a deviation that is not positive.
     """
     chosen = {str(name): deviation for name, deviation in (given or {}).items()}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]

@@ -108,7 +108,7 @@ def per_record(
         records: how many there are.
 
     Raises:
-        TrainingError: for a name that is no numeric parameter, or what is no deviation.
+        TrainingError: for a name that is not a numeric parameter, or what is not a deviation.
     """
     chosen = dict(given or {})
     numbers = [n for n, leaf in params.items() if not callable(leaf)]

@@ -11,8 +11,8 @@ import jax.numpy as jnp
 from jax.sharding import Mesh
 from jaxtyping import Array, Float, Int, PRNGKeyArray
 
+from acausal.analysis import arguments
 from acausal.codegen import Values
-from acausal.training.objective.arguments import arguments
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
@@ -258,20 +258,21 @@ class Problem(Simulator):
     def simulate(self, trainable: Trainable) -> Simulated:
         """One simulation of every record."""
         params = self.assemble(trainable)
-        x, predicted = self._all(params, trainable)
+        found = self._all(params, trainable)
 
         def loss(p: dict[str, Any]) -> Float[Array, ""]:
-            return self.compare(predicted if p is params else self._all(p, trainable)[1])
+            return self.compare((found if p is params else self._all(p, trainable)).y)
 
-        return Simulated(self.parameter_spread.mean(loss, params), x, predicted)
+        total = self.parameter_spread.mean(loss, params)
+        return Simulated(total, found.x, found.y, found.log)
 
     def _all(
         self, params: dict[str, Any], trainable: Trainable, *, direct: bool = False
-    ) -> tuple[Float[Array, "N n_states"], Float[Array, "N n_targets"]]:
-        """States and targets at every row."""
+    ) -> Simulated:
+        """States and targets at every row, without a loss yet."""
         found = self.integrate_all(self.pack(params, trainable), trainable, direct=direct)
         assert found.y is not None
-        return found.x, found.y
+        return Simulated(jnp.zeros(()), found.x, found.y, found.log)
 
     @eqx.filter_jit
     def seen(
@@ -314,7 +315,7 @@ class Problem(Simulator):
             trainable: gives what differs between records.
             params: physical values and networks.
         """
-        return self._all(params, trainable, direct=True)[1]
+        return self._all(params, trainable, direct=True).y
 
     def predictions(self, trainable: Trainable) -> Float[Array, "n_models N n_targets"]:
         """The same of every model of the parameter spread."""

@@ -21,6 +21,7 @@ from acausal.simulation import (
     Steps,
     integrate,
     integrate_adaptively,
+    integrate_with_events,
 )
 from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.multiple_shooting import ShootingStates
@@ -149,6 +150,7 @@ class Simulator(eqx.Module):
             Restarts(records.begins, records.spread_at_starts(x0)),
             None if own is None else own[records.of],
             self.per_record.places,
+            records.count,
         )
         found = self.integrate_from(packed.common, x0[0], steps, runs=runs, direct=direct)
         return self._measured(found, packed)
@@ -171,7 +173,10 @@ class Simulator(eqx.Module):
         packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
         first: Any = steps.t[0]
         start = Values(first, x0, steps.inputs.start[0], packed)
-        if isinstance(self.solver, Adaptive):
+        over: Any
+        if self.system.events is not None:
+            over = partial(integrate_with_events, solver=self.solver, substeps=self.substeps)
+        elif isinstance(self.solver, Adaptive):
             over = partial(integrate_adaptively, adaptive=self.solver)
         else:
             over = partial(integrate, solver=self.solver, substeps=self.substeps)

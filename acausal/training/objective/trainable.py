@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, Protocol
 import equinox as eqx
 from jaxtyping import Array, Float
 
+from acausal.simulation import Log
 from acausal.training.objective.modifiers import Modifiers
 
 
@@ -34,11 +35,13 @@ class Simulated(NamedTuple):
         loss: over every sample of them.
         x: the states at every row.
         y: the targets at every row.
+        log: what has happened, in a model with events.
     """
 
     loss: Float[Array, ""]
     x: Float[Array, "N n_states"]
     y: Float[Array, "N n_targets"]
+    log: Log | None = None
 
 
 class WithModifiers(Protocol):

@@ -63,7 +63,7 @@ def _at(given: Weight, time: float) -> float:
     value: Any = given(time) if callable(given) else given
     if not (np.ndim(value) == 0 and np.isfinite(value) and value >= 0):
         raise TrainingError(
-            f"sample_weights: {shown(value)} at t = {time:g} s is no weight; give a number of 0 or more."
+            f"sample_weights: {shown(value)} at t = {time:g} s is not a weight; give a number of 0 or more."
         )
     return float(value)
 
@@ -84,7 +84,7 @@ def weighting(
         loss: which has to take the weights.
 
     Raises:
-        TrainingError: for what is no record, target or weight, or if the loss takes no weights.
+        TrainingError: for what is not a record, target or weight, or if the loss takes no weights.
     """
     if isinstance(record_weights, str) and record_weights not in ("samples", "records"):
         raise TrainingError(
@@ -103,7 +103,9 @@ def weighting(
                 )
     for name, value in (sample_weights or {}).items():
         if name not in targets:
-            raise TrainingError(f"sample_weights: '{name}' is no target: {nearest(name, targets)}")
+            raise TrainingError(
+                f"sample_weights: '{name}' is not a target: {nearest(name, targets)}"
+            )
         if not (callable(value) or (is_number(value) and value > 0)):
             raise TrainingError(
                 f"sample_weights: '{name}' has the weight {shown(value)}; give a positive number, or a function "

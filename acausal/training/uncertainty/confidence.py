@@ -31,6 +31,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
+from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
@@ -108,6 +109,9 @@ class Confidence:
             stacklevel=2,
         )
         return self.summary()
+
+    def _repr_html_(self) -> str:
+        return confidence_view(self.parameters, self.laws, self.noise, self.alike, self.summary())
 
     def summary(self) -> list[str]:
         """What all this means, as a list of sentences."""

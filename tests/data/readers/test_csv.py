@@ -120,7 +120,7 @@ def test_many_files_that_are_none(write, tmp_path):
     )
     assert refused(lambda: ac.Data.from_csv([])) == "from_csv: no files at '[]'; give at least one."
     assert "two files are called 'run'" in refused(lambda: ac.Data.from_csv([path, path]))
-    assert refused(lambda: ac.Data.from_csv([path, 3])).startswith("from_csv: 3 is no path")
+    assert refused(lambda: ac.Data.from_csv([path, 3])).startswith("from_csv: 3 is not a path")
     assert refused(lambda: ac.Data.from_csv(f"{tmp_path}/*.csv")).startswith(str(path))
 
 
@@ -251,7 +251,7 @@ def test_what_is_no_path(path):
         ac.Data.from_parquet,
         ac.Data.from_mdf,
     ):
-        assert " is no path; " in refused(lambda read=read: read(path))
+        assert " is not a path; " in refused(lambda read=read: read(path))
 
 
 numbers = st.floats(allow_nan=True, allow_infinity=False, width=64)

@@ -11,6 +11,7 @@ import pytest
 import acausal as ac
 from acausal.simulation.adaptive import replay
 from tests.support.parts import Equations
+from tests.support.slow import all_slow_but
 from tests.support.stiff import Plate
 
 TS = np.linspace(0, 2, 9)
@@ -61,7 +62,7 @@ def loss(solver: str, k: Any, x0: Any, u: Any) -> Any:
 POINT = 4.0, 1.0, jnp.asarray(SAMPLES)
 
 
-@pytest.mark.parametrize("solver", ["tsit5", "bdf", "auto"])
+@pytest.mark.parametrize("solver", all_slow_but("auto", ["tsit5", "bdf", "auto"]))
 def test_reverse_forward_and_differences_agree(solver: str):
     of = functools.partial(loss, solver)
     reverse = jax.grad(of, (0, 1, 2))(*POINT)
@@ -80,6 +81,7 @@ def test_reverse_forward_and_differences_agree(solver: str):
         assert float(found) == pytest.approx(float(expected), rel=near, abs=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", ["tsit5", "bdf"])
 def test_a_long_run_is_made_again_part_by_part(solver: str, monkeypatch: pytest.MonkeyPatch):
     """The same derivatives, to the last digits, with room for some tens of steps only."""
@@ -119,6 +121,7 @@ def test_every_sample_of_an_input_counts():
     np.testing.assert_allclose(by_u, jax.grad(of)(POINT[2]), rtol=1e-5, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_sparse_factors_serve_the_derivative():
     system = ac.compile(Plate(11))
     start = jnp.asarray(system.initial_state())

@@ -1,0 +1,179 @@
+"""The arguments with which a model's equations call a network."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import jax.numpy as jnp
+import numpy as np
+import sympy as sp
+from jaxtyping import Array, Float
+
+from acausal.codegen import Values, chosen_module, evaluate, read, read_parameters
+from acausal.errors import ModelError, nearest
+from acausal.flattening import EquationGroup, Integers
+from acausal.modeling import ModuleCall, time
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+
+@dataclass(frozen=True, eq=False)
+class Calls:
+    """A call of a module that some equations of one template state: one row for each of these equations.
+
+    Attributes:
+        arguments: expressions in the slots of the template.
+        targets: (n,) which module each row calls.
+        variables: by slot, (n,) which node fills it, and with what sign.
+        parameters: by slot, (n,) which parameter fills it.
+        modules: by slot, which module fills it, for calls within the arguments.
+    """
+
+    arguments: tuple[Any, ...]
+    targets: Integers
+    variables: tuple[tuple[sp.Symbol, Integers, Integers], ...]
+    parameters: tuple[tuple[sp.Symbol, Integers], ...]
+    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+
+    @property
+    def nodes(self) -> Integers:
+        """All nodes that the arguments read."""
+        return np.concatenate([np.zeros(0, np.int64), *(nodes for _, nodes, _ in self.variables)])
+
+    def values(self, system: System, values: Values) -> Float[Array, "n n_arguments"]:
+        """The arguments at one point."""
+        n, packed = len(self.targets), values.packed
+        slots: dict[sp.Symbol, Any] = {time: values.t}
+        if self.variables:
+            found = read(system.program, self.nodes.tolist(), values)
+            for i, (symbol, _, signs) in enumerate(self.variables):
+                own = found[i * n : (i + 1) * n]
+                slots[symbol] = own if (signs == 1).all() else own * signs
+        slots |= {s: read_parameters(system.layout, p, packed) for s, p in self.parameters}
+        slots |= {s: chosen_module(packed, chosen) for s, chosen in self.modules}
+        each = [jnp.asarray(evaluate(a, slots), float) for a in self.arguments]
+        return jnp.stack([jnp.broadcast_to(a, (n,)) for a in each], axis=1)
+
+
+def target(system: System, module: str) -> int:
+    """The index of a module, or of the one that it refers to.
+
+    Raises:
+        ModelError: for a name that is no module of the model.
+    """
+    targets = system.layout.module_of
+    known = {system.flat.layout.module(i): i for i in range(len(targets))}
+    if module not in known:
+        raise ModelError(f"the model has no module '{module}': {nearest(module, known)}")
+    return int(targets[known[module]])
+
+
+def calls(system: System, *modules: str) -> tuple[Calls, ...]:
+    """Every call of some modules, in order of the equations.
+
+    Raises:
+        ModelError: for a name that is no module of the model.
+    """
+    return tuple(_calls(system, [target(system, module) for module in modules]))
+
+
+def _calls(system: System, wanted: list[int]) -> Iterator[Calls]:
+    for group in system.flat.groups:
+        if not group.template.modules:
+            continue
+        for call in _stated(group):
+            slot = group.template.modules.index(call.args[0])
+            called = system.layout.module_of[group.modules[:, slot]]
+            rows = np.isin(called, wanted)
+            if rows.any():
+                yield _filled(system, group.rows(rows), called[rows], call.args[2:])
+
+
+def _stated(group: EquationGroup) -> list[Any]:
+    """The calls in an equation of a group."""
+    return sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key)
+
+
+def _filled(
+    system: System, group: EquationGroup, targets: Integers, arguments: tuple[Any, ...]
+) -> Calls:
+    """The arguments of one call, with what fills their slots in the equations of a group."""
+    template = group.template
+    present = {s for a in arguments for s in a.free_symbols}
+    columns = zip(template.variables, group.variables.T.tolist(), template.orders, strict=True)
+    variables = tuple((s, *_nodes(system, v, n)) for s, v, n in columns if s in present)
+    parameters = zip(template.parameters, group.parameters.T, strict=True)
+    modules = zip(template.modules, system.layout.module_of[group.modules].T.tolist(), strict=True)
+    return Calls(
+        arguments,
+        targets,
+        variables,
+        tuple((s, p) for s, p in parameters if s in present),
+        tuple((s, tuple(chosen)) for s, chosen in modules),
+    )
+
+
+def _nodes(system: System, variables: list[int], order: int) -> tuple[Integers, Integers]:
+    """Nodes and signs of variables, or of derivatives of them, that stand in the model's equations."""
+    found = [system.reduced.resolve_derivative(variable, order) for variable in variables]
+    nodes, signs = zip(*(pair for pair in found if pair is not None), strict=True)
+    return np.asarray(nodes, np.int64), np.asarray(signs, np.int64)
+
+
+def arguments(system: System, module: str, values: Values) -> Float[Array, "n_calls n_arguments"]:
+    """The arguments of every call of a module at one point.
+
+    Raises:
+        ModelError: for a name that is no module of the model.
+    """
+    return jnp.concatenate([found.values(system, values) for found in calls(system, module)])
+
+
+@dataclass(frozen=True)
+class Labels:
+    """What a law takes and gives where a model first calls it, in words for axes and tables.
+
+    Attributes:
+        arguments: names with units, or expressions.
+        result: name with unit; empty where the law's value is no variable of the model.
+    """
+
+    arguments: tuple[str, ...]
+    result: str
+
+
+def labels(system: System, module: str) -> Labels:
+    """What a module takes and gives, by the first equation that calls it.
+
+    Raises:
+        ModelError: for a name that is no module of the model.
+    """
+    wanted = target(system, module)
+    for group in system.flat.groups:
+        if not group.template.modules:
+            continue
+        for call in _stated(group):
+            slot = group.template.modules.index(call.args[0])
+            rows = np.flatnonzero(system.layout.module_of[group.modules[:, slot]] == wanted)
+            if not rows.size:
+                continue
+            first = group.rows(rows[:1])
+            rest: Any = group.template.residual.xreplace({call: sp.Integer(0)})
+            result = _label(system, first, -rest if (-rest).is_Symbol else rest)
+            arguments = tuple(_label(system, first, a) or str(a) for a in call.args[2:])
+            return Labels(arguments, result)
+    return Labels((), "")
+
+
+def _label(system: System, group: EquationGroup, expression: Any) -> str:
+    """Name and unit of a variable of the first equation of a group; an empty text for anything else."""
+    template, layout = group.template, system.flat.layout
+    places = zip(template.variables, group.variables[0].tolist(), template.orders, strict=True)
+    for symbol, index, order in places:
+        if symbol == expression:
+            name = "der(" * order + layout.variable(index) + ")" * order
+            return f"{name} [{system.unit(name)}]".replace(" []", "")
+    return ""

@@ -1,0 +1,262 @@
+"""What holds at events, as data: conditions that are watched, discrete variables in order, and states that jump.
+
+`acausal.codegen.event_values` computes it with JAX.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import sympy as sp
+
+from acausal.caches import LeavesCaches
+from acausal.codegen.gather import Gather
+from acausal.codegen.parameters import ParameterLayout
+from acausal.codegen.program import DISCRETE, Program
+from acausal.errors import StructureError
+from acausal.flattening import GuardGroup, Integers, UpdateGroup
+from acausal.modeling import time
+from acausal.structure import ReducedModel
+
+
+@dataclass(frozen=True)
+class Slot:
+    """What fills a variable's slot: where values lie, their signs, and whether they are those before the event."""
+
+    symbol: sp.Symbol
+    values: Gather
+    signs: np.ndarray
+    previous: bool
+
+
+@dataclass(frozen=True)
+class Formula:
+    """One expression for ``size`` instances, and where its values go.
+
+    Attributes:
+        parameters: by symbol, where they lie in `Packed.values`, or their numbers where some are folded.
+        modules: by symbol, those of `Packed`.
+        places: where the values go, in the discrete variables or the states. signs: what they are multiplied by.
+    """
+
+    expression: sp.Expr
+    slots: tuple[Slot, ...]
+    parameters: tuple[tuple[sp.Symbol, Gather | Integers], ...]
+    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+    places: Integers
+    signs: np.ndarray
+    origin: str
+
+    @property
+    def size(self) -> int:
+        """How many instances there are."""
+        return len(self.places)
+
+
+@dataclass(frozen=True)
+class Guard:
+    """Conditions ``formula > 0``, or ``>= 0`` unless ``strict``.
+
+    Attributes:
+        ticks: whether they are clocks'.
+        timed: whether their time is known from parameters and discrete variables.
+    """
+
+    formula: Formula
+    strict: bool
+    ticks: bool
+    timed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Events(LeavesCaches):
+    """What holds at events of a model.
+
+    The discrete variables begin with the conditions, in order of the guards.
+
+    Attributes:
+        program: of the model. layout: of its parameters.
+        guards: the conditions. updates: the discrete variables, those that others read first. jumps: of states.
+        exact: which discrete variables are whole numbers or truth values, shape (n_discrete,).
+    """
+
+    program: Program
+    layout: ParameterLayout
+    guards: tuple[Guard, ...]
+    updates: tuple[Formula, ...]
+    jumps: tuple[Formula, ...]
+    exact: np.ndarray
+
+    @cached_property
+    def n_guards(self) -> int:
+        """How many conditions are watched."""
+        return sum(g.formula.size for g in self.guards)
+
+    @cached_property
+    def timed(self) -> np.ndarray:
+        """Which conditions have a known time, shape (n_guards,)."""
+        return np.concatenate(
+            [np.zeros(0, bool), *(np.full(g.formula.size, g.timed) for g in self.guards)]
+        )
+
+    @cached_property
+    def strict(self) -> np.ndarray:
+        """Which conditions are false at zero, shape (n_guards,)."""
+        return np.concatenate(
+            [np.zeros(0, bool), *(np.full(g.formula.size, g.strict) for g in self.guards)]
+        )
+
+    @cached_property
+    def ticks(self) -> np.ndarray:
+        """Which conditions are clocks', shape (n_guards,)."""
+        return np.concatenate(
+            [np.zeros(0, bool), *(np.full(g.formula.size, g.ticks) for g in self.guards)]
+        )
+
+    def sources(self, formulas: Sequence[Formula], *, previous: bool) -> set[int]:
+        """The arrays that some formulas read, now or before the event."""
+        slots = [s for f in formulas for s in f.slots if s.previous == previous]
+        return {source for s in slots for source in s.values.sources}
+
+    @cached_property
+    def guard_formulas(self) -> tuple[Formula, ...]:
+        """Of the conditions."""
+        return tuple(g.formula for g in self.guards)
+
+    def describe(self, guard: int) -> str:
+        """A condition, and the component that watches it."""
+        component, text = self._stated[guard]
+        return f"{component}: {text}" if component else text
+
+    def component(self, guard: int) -> str:
+        """The dotted path of the component that states a condition; empty for the model itself."""
+        return self._stated[guard][0]
+
+    @cached_property
+    def _stated(self) -> list[tuple[str, str]]:
+        """Of every condition, the component and the text."""
+        model = self.layout.model
+        found: list[tuple[str, str]] = []
+        for group in model.events.guards:
+            text = group.group.template.origin.partition(": ")[2]
+            found += [(model.layout.paths[c], text) for c in group.group.components]
+        return found
+
+
+def generate_events(
+    reduced: ReducedModel, program: Program, layout: ParameterLayout
+) -> Events | None:
+    """The events of a model; None if it has none."""
+    if not len(reduced.discrete):
+        return None
+    return _Generator(reduced, program, layout).events()
+
+
+class _Generator:
+    def __init__(self, reduced: ReducedModel, program: Program, layout: ParameterLayout) -> None:
+        self.reduced, self.program, self.layout = reduced, program, layout
+        n = len(reduced.derivative)
+        self.place = np.full(n, -1, dtype=np.int64)
+        self.place[reduced.discrete] = np.arange(len(reduced.discrete))
+        self.state = np.full(n, -1, dtype=np.int64)
+        self.state[reduced.states] = np.arange(len(reduced.states))
+
+    def events(self) -> Events:
+        """All of them."""
+        model = self.reduced.model
+        guards = [self._guard(g) for g in model.events.guards]
+        updates = [f for level in self._levels() for f in level]
+        jumps = [
+            self._formula(g, np.arange(len(g.targets)), self.state) for g in model.events.jumps
+        ]
+        return Events(
+            self.program, self.layout, tuple(guards), tuple(updates), tuple(jumps), self._exact()
+        )
+
+    def _exact(self) -> np.ndarray:
+        model = self.reduced.model
+        exact = np.zeros(len(self.reduced.discrete), dtype=bool)
+        for variable in model.discrete.tolist():
+            declared = model.layout.variable_declaration(variable)
+            kind = getattr(declared, "kind", "real")
+            exact[self.place[self.reduced.resolve(variable)[0]]] |= kind != "real"
+        return exact
+
+    def _guard(self, group: GuardGroup) -> Guard:
+        formula = self._formula(group, np.arange(len(group.targets)), self.place)
+        fixed = all(set(s.values.sources) <= {DISCRETE} for s in formula.slots)
+        rate = formula.expression.diff(time) if fixed and not formula.modules else sp.S.Zero
+        timed = rate != 0 and rate.free_symbols <= {s for s, _ in formula.parameters}
+        return Guard(formula, group.strict, group.ticks, timed)
+
+    def _formula(
+        self, group: UpdateGroup | GuardGroup, rows: Integers, places: Integers
+    ) -> Formula:
+        template, some = group.group.template, group.group.rows(rows)
+        slots = [
+            self._slot(s, some.variables[:, i], order, previous)
+            for i, (s, order, previous) in enumerate(
+                zip(template.variables, template.orders, group.previous, strict=True)
+            )
+        ]
+        targets = [self.reduced.resolve(int(v)) for v in group.targets[rows]]
+        return Formula(
+            template.residual,
+            tuple(slots),
+            tuple(
+                (s, self._parameters(p))
+                for s, p in zip(template.parameters, some.parameters.T, strict=True)
+            ),
+            tuple(
+                (s, self.layout.chosen(some.modules[:, i])) for i, s in enumerate(template.modules)
+            ),
+            places[[node for node, _ in targets]],
+            np.asarray([sign for _, sign in targets]),
+            template.origin,
+        )
+
+    def _parameters(self, numbers: Integers) -> Gather | Integers:
+        """How parameters are read; by slices, if possible, as derivatives of other reading are slow."""
+        is_folded = (self.layout.position[numbers] < 0).any()
+        return numbers if is_folded else self.layout.gather(numbers)
+
+    def _slot(self, symbol: sp.Symbol, variables: Integers, order: int, previous: bool) -> Slot:
+        found = [self.reduced.resolve_derivative(int(v), order) for v in variables]
+        if any(f is None for f in found):
+            raise StructureError(
+                f"an equation of events reads {symbol}, which the model does not compute; declare a variable for it, "
+                "and give that by ac.Eq(variable, ac.der(...))"
+            )
+        pairs = [f for f in found if f is not None]
+        nodes, signs = [node for node, _ in pairs], np.asarray([sign for _, sign in pairs])
+        return Slot(symbol, self.program.gather(nodes), signs, previous)
+
+    def _levels(self) -> list[list[Formula]]:
+        """The discrete variables in order: one that others read, at the same event, comes before them."""
+        groups = self.reduced.model.events.updates
+        level = np.zeros(len(self.reduced.discrete), dtype=np.int64)
+        reads: list[tuple[int, list[int]]] = []
+        for group in groups:
+            now = [i for i, previous in enumerate(group.previous) if not previous]
+            for target, row in zip(group.targets, group.group.variables[:, now], strict=True):
+                nodes = [self.reduced.resolve(int(v))[0] for v in row]
+                own = int(self.place[self.reduced.resolve(int(target))[0]])
+                reads.append((own, [int(p) for n in nodes if (p := self.place[n]) >= 0]))
+        for _ in range(len(level)):
+            before = level.copy()
+            for own, others in reads:
+                level[own] = min(
+                    max([level[own], *(level[o] + 1 for o in others if o != own)]), len(level)
+                )
+            if (level == before).all():
+                break
+        found: dict[int, list[Formula]] = {}
+        for group in groups:
+            own = level[[self.place[self.reduced.resolve(int(v))[0]] for v in group.targets]]
+            for number in np.unique(own):
+                rows = np.flatnonzero(own == number)
+                found.setdefault(int(number), []).append(self._formula(group, rows, self.place))
+        return [found[number] for number in sorted(found)]

@@ -1,0 +1,108 @@
+"""Arguments that several commands share, and how their texts are read."""
+
+from __future__ import annotations
+
+import json
+from argparse import (
+    ArgumentParser,
+    ArgumentTypeError,
+    Namespace,
+    RawDescriptionHelpFormatter,
+    _SubParsersAction,  # pyright: ignore[reportPrivateUsage] (argparse has no public name for it)
+)
+from collections.abc import Callable
+from textwrap import dedent, fill
+from typing import Any, TypeAlias
+
+from acausal.command.output import Output
+
+Parsers: TypeAlias = "_SubParsersAction[ArgumentParser]"
+Run: TypeAlias = Callable[[Namespace, Output], int | None]
+"""What runs a command; it returns an exit code, or None if all is well."""
+
+MODEL = "a JSON file, or module:Class, or file.py:Class; a function that makes a model will do, too"
+
+
+def add_command(
+    parsers: Parsers, name: str, run: Run, short: str, summary: str, examples: str
+) -> ArgumentParser:
+    """A command with a short and a longer summary, examples, and the arguments that all commands have."""
+    parser = parsers.add_parser(
+        name,
+        help=short,
+        description=fill(summary, 78),
+        epilog=f"examples:\n{dedent(examples).strip()}".replace("\n", "\n  "),
+        formatter_class=RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.set_defaults(run=run)
+    parser.add_argument("--json", action="store_true", help="print the result as one JSON document")
+    parser.add_argument(
+        "-v",
+        "--verbose",
+        action="count",
+        default=0,
+        help="tell what is done; twice for more",
+    )
+    return parser
+
+
+def add_model(parser: ArgumentParser, several: str | None = None) -> None:
+    """The model (or ``several``), and libraries that its file needs."""
+    parser.add_argument("model", help=MODEL, nargs=several)
+    parser.add_argument(
+        "--library",
+        action="append",
+        default=[],
+        metavar="MODULE",
+        help="a library of components that the model's file names; can be repeated",
+    )
+
+
+def add_parameters(parser: ArgumentParser) -> None:
+    """Values of parameters, from a file and one by one."""
+    parser.add_argument(
+        "--params",
+        metavar="FILE",
+        help="parameters and networks from a file, as `acausal fit` and ac.save_params write it",
+    )
+    parser.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        type=number_by_name,
+        metavar="NAME=VALUE",
+        help="the value of a parameter, such as mass.m=2.5; can be repeated",
+    )
+
+
+def number_by_name(text: str) -> tuple[str, float]:
+    """``mass.m=2.5`` as a name and a number.
+
+    Raises:
+        ArgumentTypeError: for anything else.
+    """
+    name, _, value = text.partition("=")
+    try:
+        return _named(text, name), float(value)
+    except ValueError:
+        raise ArgumentTypeError(f"'{text}' is not NAME=NUMBER, such as mass.m=2.5") from None
+
+
+def value_by_name(text: str) -> tuple[str, Any]:
+    """``epochs=300`` as a name and a value: JSON, or else the text itself.
+
+    Raises:
+        ArgumentTypeError: for a text without a name and an equals sign.
+    """
+    name, _, value = text.partition("=")
+    try:
+        return _named(text, name), json.loads(value)
+    except json.JSONDecodeError:
+        return name, value
+
+
+def _named(text: str, name: str) -> str:
+    if not name or "=" not in text:
+        raise ArgumentTypeError(f"'{text}' is not NAME=VALUE")
+    return name

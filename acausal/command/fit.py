@@ -1,0 +1,133 @@
+"""``acausal fit``: train a model on measured data."""
+
+from __future__ import annotations
+
+import math
+import re
+from argparse import Namespace
+from pathlib import Path
+from typing import Any
+
+import acausal as ac
+from acausal.command.arguments import (
+    Parsers,
+    add_command,
+    add_model,
+    add_parameters,
+    value_by_name,
+)
+from acausal.command.model import parameters_of, system_of, title_of
+from acausal.command.options import as_keywords, read_options
+from acausal.command.output import Output, number
+from acausal.command.records import add_reading, read_records
+
+
+def add(parsers: Parsers) -> None:
+    """The command's arguments."""
+    parser = add_command(
+        parsers,
+        "fit",
+        run,
+        "train a model on measured data",
+        "Train the networks and parameters of a model on measured data. The trained parameters go into a file, "
+        "which the other commands take as --params.",
+        """
+        acausal fit oscillator.json run.csv --targets mass.s -o modifiers='["spring.c"]' -o strategy=gauss_newton
+        acausal fit vehicle:QuarterVehicle runs/*.csv --targets body.a wheel.a --options options.toml --report out
+
+        options.toml has the keywords of ac.fit, for example:
+          strategy = ["equation_error", "whole_record"]
+          validation = 0.2
+          modifiers = { "tyre.c" = 0.3, "body.m" = { Bounded = { low = 300.0, high = 400.0 } } }
+        """,
+    )
+    add_model(parser)
+    parser.add_argument("data", nargs="+", help="files of data: CSV, Parquet, MATLAB or MDF")
+    parser.add_argument(
+        "--targets", nargs="+", required=True, metavar="NAME", help="the variables to fit"
+    )
+    parser.add_argument("--options", metavar="FILE", help="keywords of ac.fit, as JSON or TOML")
+    parser.add_argument(
+        "-o",
+        "--option",
+        action="append",
+        default=[],
+        type=value_by_name,
+        metavar="NAME=VALUE",
+        help="one of them, such as epochs=300 or strategy=whole_record; can be repeated",
+    )
+    parser.add_argument("--seed", type=int, default=0, help="of networks and sequences (0)")
+    add_parameters(parser)
+    results = parser.add_argument_group("results")
+    results.add_argument(
+        "--out", metavar="FILE", help="the trained parameters; by default MODEL-trained.safetensors"
+    )
+    results.add_argument("--overwrite", action="store_true", help="replace the file if it exists")
+    results.add_argument("--report", metavar="FOLDER", help="write a page about the training")
+    add_reading(parser)
+
+
+def run(args: Namespace, out: Output) -> None:
+    """Train, print what has changed, and write the parameters."""
+    given = {} if args.options is None else read_options(args.options)
+    keywords = as_keywords({**given, **dict(args.option)})
+    system = system_of(args)
+    title = title_of(system)
+    path = Path(_file_name(title) if args.out is None else args.out)
+    if path.exists() and not args.overwrite:
+        raise ac.DataError(f"'{path}' exists; give another file by --out, or --overwrite.")
+    data = read_records(args.data, args)
+    start = parameters_of(args, system) if args.params is not None or args.set else None
+    keywords["progress"] = not args.json
+    done = ac.fit(system, data, args.targets, params=start, seed=args.seed, **keywords)
+    ac.save_params(done.params, path)
+    files = [str(path)]
+    if args.report is not None:
+        files.append(str(done.report(args.report, title)))
+    _show(done, title, files, out)
+    out.result({"model": title, **_facts(done), "files": files})
+
+
+def _file_name(title: str) -> str:
+    """A file in the present folder, whatever a model's file calls the model."""
+    return re.sub(r"[^\w.-]", "_", title) + "-trained.safetensors"
+
+
+def _show(done: ac.Fit, title: str, files: list[str], out: Output) -> None:
+    end = ", interrupted" if done.interrupted else ""
+    trained = ", ".join((*done.seen, *done.modifiers))
+    out.title(
+        f"{title}: {trained} trained in {done.seconds:.3g} s, {done.history.epochs} updates{end}"
+    )
+    rows = [("loss over all data", number(done.loss_before), number(done.loss))]
+    if done.validation_loss is not None:
+        before = done.history.validation_loss[0, 1]
+        rows.append(("loss over what is held out", number(before), number(done.validation_loss)))
+    before = done.problem.assemble(done.problem.start())
+    after = done.problem.assemble(done.trained)
+    rows += [(n, number(before[n]), number(after[n])) for n in done.modifiers]
+    out.table(("", "before", "after"), rows)
+    rows = [(n, number(error), done.system.unit(n)) for n, error in done.rms.items()]
+    out.table(("target", "rms error", "unit"), rows)
+    for file in files:
+        out.say(f"wrote {file}")
+
+
+def _facts(done: ac.Fit) -> dict[str, Any]:
+    """The result for programs."""
+    params = done.problem.assemble(done.trained)
+    return {
+        "targets": list(done.rms),
+        "networks": list(done.seen),
+        "parameters": {n: float(params[n]) for n in done.modifiers},
+        "changes": done.modifiers,
+        "loss_before": done.loss_before,
+        "loss": done.loss,
+        "validation_loss": done.validation_loss,
+        "rms": {n: None if math.isnan(error) else error for n, error in done.rms.items()},
+        "records": list(done.records),
+        "best_epoch": done.best_epoch,
+        "epochs": done.history.epochs,
+        "seconds": done.seconds,
+        "interrupted": done.interrupted,
+    }

@@ -1,0 +1,110 @@
+"""What commands print: tables and sentences for people, JSON for programs."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TextIO
+
+from acausal.command.exit_codes import kind_of
+
+
+@dataclass(frozen=True)
+class Output:
+    """Where a command's results go: with colors and lines in a terminal, plain in a pipe or file.
+
+    Attributes:
+        as_json: whether the result is one JSON document, and nothing else, on the standard output.
+        warnings: sentences of warnings up to now.
+    """
+
+    as_json: bool = False
+    warnings: list[str] = field(default_factory=list[str])
+
+    def say(self, text: str = "") -> None:
+        """A line for people."""
+        if not self.as_json:
+            sys.stdout.write(f"{text}\n")
+
+    def title(self, text: str) -> None:
+        """A line that begins a section."""
+        if not self.as_json:
+            self._styled(sys.stdout, "", text, "bold")
+
+    def table(self, header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+        """Rows of texts below a header."""
+        if self.as_json:
+            return
+        if sys.stdout.isatty():
+            _rich_table(header, rows)
+        else:
+            sys.stdout.write(_aligned([header, *rows]))
+
+    def result(self, document: Mapping[str, Any]) -> None:
+        """The result for programs, with the warnings."""
+        if self.as_json:
+            self._json({**document, "warnings": self.warnings})
+
+    def warn(self, sentence: str) -> None:
+        """A warning, on the standard error."""
+        self.warnings.append(sentence)
+        self._styled(sys.stderr, "warning: ", sentence, "yellow")
+
+    def fail(self, error: Exception | KeyboardInterrupt, place: str = "") -> int:
+        """An error, on the standard error; for programs on the standard output, too. Returns the exit code."""
+        code, kind = kind_of(error)
+        sentence = place + (str(error) or kind)
+        self._styled(sys.stderr, "error: ", sentence, "bold red")
+        if self.as_json:
+            told = {"kind": kind, "message": sentence, "exit_code": code}
+            self._json({"error": told, "warnings": self.warnings})
+        return code
+
+    def _json(self, document: Mapping[str, Any]) -> None:
+        sys.stdout.write(json.dumps(_finite(document), ensure_ascii=False, allow_nan=False) + "\n")
+
+    def _styled(self, stream: TextIO, label: str, text: str, style: str) -> None:
+        if stream.isatty():
+            from rich.console import Console
+            from rich.text import Text
+
+            line = Text.assemble((label, style), text) if label else Text(text, style)
+            Console(file=stream).print(line, soft_wrap=True)
+        else:
+            stream.write(f"{label}{text}\n")
+
+
+def number(value: Any) -> str:
+    """A number for people: six digits."""
+    return f"{float(value):.6g}"
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
+    """Rows as text with columns below each other."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+    return "".join(f"  {line}\n" for line in lines)
+
+
+def _rich_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    from rich.box import SIMPLE_HEAD
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(*header, box=SIMPLE_HEAD, header_style="dim", pad_edge=False)
+    for row in rows:
+        table.add_row(*map(Text, row))
+    Console().print(table)
+
+
+def _finite(value: Any) -> Any:
+    """The same with null for numbers that JSON does not know."""
+    if isinstance(value, Mapping):
+        return {str(name): _finite(inner) for name, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(inner) for inner in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,86 @@
+"""Records from files: measured data and inputs."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from pathlib import Path
+from typing import Any
+
+import acausal as ac
+from acausal.errors import shown
+
+READERS = {
+    ".csv": "from_csv",
+    ".txt": "from_csv",
+    ".tsv": "from_csv",
+    ".parquet": "from_parquet",
+    ".mat": "from_mat",
+    ".mdf": "from_mdf",
+    ".mf4": "from_mdf",
+}
+"""Endings of files, and the way to read them."""
+
+
+def add_reading(parser: ArgumentParser) -> None:
+    """How files of data are read."""
+    group = parser.add_argument_group("how data are read")
+    group.add_argument("--time", metavar="COLUMN", help="the column with the times ('time')")
+    group.add_argument("--columns", nargs="+", metavar="NAME", help="read these columns alone")
+    group.add_argument(
+        "--rename",
+        action="append",
+        default=[],
+        type=_renaming,
+        metavar="COLUMN=NAME",
+        help="the model's variable that a column is, such as 'ch 7=mass.a'; can be repeated",
+    )
+    group.add_argument(
+        "--missing",
+        choices=("refuse", "nan"),
+        default="refuse",
+        help="whether an empty cell is a mistake (refuse) or a missing sample (nan)",
+    )
+
+
+def read_records(paths: list[str], args: Namespace) -> ac.Data | dict[str, ac.Data]:
+    """One record, or several by the names of their files.
+
+    Raises:
+        ac.DataError: for a file that cannot be read, or whose ending is not known.
+    """
+    endings = {Path(path).suffix.lower() for path in paths}
+    unknown = sorted(endings - set(READERS))
+    if unknown:
+        raise ac.DataError(
+            f"'{unknown[0]}' is no known ending of a file of data; give {', '.join(READERS)}."
+        )
+    if len(names := {READERS[ending] for ending in endings}) > 1:
+        raise ac.DataError("The files of data are of several kinds; give those of one kind.")
+    (name,) = names
+    options: dict[str, Any] = {"missing": args.missing}
+    options |= {"columns": args.columns} if args.columns else {}
+    options |= {"rename": dict(args.rename)} if args.rename else {}
+    if args.time is not None:
+        if name == "from_mdf":
+            raise ac.DataError("An MDF file has times for each signal; leave out --time.")
+        options["time"] = args.time
+    return getattr(ac.Data, name)(paths[0] if len(paths) == 1 else paths, **options)
+
+
+def read_record(path: str, args: Namespace) -> ac.Data:
+    """The only record of a file.
+
+    Raises:
+        ac.DataError: as `read_records`, and for a pattern.
+    """
+    found = read_records([path], args)
+    if isinstance(found, dict):
+        raise ac.DataError(f"{shown(path)} are several files; give one.")
+    return found
+
+
+def _renaming(text: str) -> tuple[str, str]:
+    column, _, name = text.partition("=")
+    if not column or not name:
+        raise ArgumentTypeError(f"'{text}' is not COLUMN=NAME")
+    return column, name

@@ -1,0 +1,151 @@
+"""Places for boxes and wires: several drawings are made, and the one with the fewest crossings is kept."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import islice
+
+from acausal.drawing.engine import Question
+from acausal.drawing.facing import Faced, face
+from acausal.drawing.placed import Placed, PlacedBox, Point, Rect
+from acausal.drawing.scheme import Box, Scheme
+from acausal.drawing.turns import turned, turns
+
+EFFORT = 1500
+"""How many boxes are placed, in all trials together, to turn boxes the other way round."""
+
+LARGE = 150
+"""With more boxes than this, one drawing will do."""
+
+LONGER = 15.0
+"""Another length of straight wire at a port, which makes some wires take another way, in pixels."""
+
+HABIT = 6
+"""How many more bends a drawing may have that begins with signals, as readers expect."""
+
+ROOM = 16.0
+"""Room in the frame of an opened component, in pixels."""
+
+HEADER = 12.0
+"""More room at its top, for its name."""
+
+
+def lay_out(scheme: Scheme) -> Placed:
+    """Places for all boxes and wires, from the innermost boxes outwards.
+
+    Raises:
+        AcausalError: if graphlay is not installed.
+    """
+    inner: dict[int, Placed] = {}
+    boxes: list[Box] = []
+    for number, box in enumerate(scheme.boxes):
+        if box.inner is not None:
+            inner[number] = _framed(lay_out(box.inner))
+            box = _opened(box, inner[number])
+        boxes.append(box)
+    scheme = replace(scheme, boxes=tuple(boxes))
+    placed = _best(scheme, {number: _heights(placed) for number, placed in inner.items()})
+    return replace(
+        placed,
+        boxes=tuple(
+            _filled(drawn, inner[number]) if number in inner else drawn
+            for number, drawn in enumerate(placed.boxes)
+        ),
+    )
+
+
+def _best(scheme: Scheme, gates: dict[int, dict[str, float]]) -> Placed:
+    """The best of several drawings of one level."""
+    if len(scheme.boxes) > LARGE:
+        return Question(scheme, face(scheme), gates, trunks=True).placed()
+    found: list[tuple[tuple[float, ...], Placed]] = []
+    for signals_first in (True, False):
+        faced = face(scheme, signals_first=signals_first)
+        for trunks in (True, False):
+            placed = _improved(scheme, faced, gates, trunks)
+            crossings, bends, length = _cost(placed)
+            found.append(((crossings, bends + (0 if signals_first else HABIT), length), placed))
+        if not any(net.signal for net in scheme.nets):
+            break
+    return min(found, key=lambda drawing: drawing[0])[1]
+
+
+def _improved(
+    scheme: Scheme, faced: Faced, gates: dict[int, dict[str, float]], trunks: bool
+) -> Placed:
+    """A drawing whose boxes are turned, one after the other, while that makes crossings fewer."""
+    best = Question(scheme, faced, gates, trunks=trunks).placed()
+    if best.crossings + best.shared:
+        best = min(
+            best, Question(scheme, faced, gates, trunks=trunks, stub=LONGER).placed(), key=_cost
+        )
+    trials = EFFORT // max(len(scheme.boxes), 1)
+    for turn in islice(turns(scheme, faced), trials):
+        if not best.crossings + best.shared:
+            break
+        trial = Question(scheme, turned(faced, turn), gates, trunks=trunks).placed()
+        if _cost(trial) < _cost(best):
+            best, faced = trial, turned(faced, turn)
+    return best
+
+
+def _cost(placed: Placed) -> tuple[int, int, float]:
+    return placed.crossings + placed.shared, placed.bends, placed.length
+
+
+# -- opened boxes ----------------------------------------------------------------------------------
+
+
+def _framed(placed: Placed) -> Placed:
+    """A drawing whose outside connectors are moved to its left and right edge."""
+    bounds = placed.bounds
+    edges = {"right": bounds.left - ROOM, "left": bounds.right + ROOM}
+
+    def moved(drawn: PlacedBox) -> PlacedBox:
+        if not drawn.box.is_port:
+            return drawn
+        x = edges[drawn.facing.sides[0]]
+        icon = replace(drawn.icon, x=x)
+        return replace(drawn, icon=icon, rect=icon, framed=True)
+
+    return replace(placed, boxes=tuple(moved(drawn) for drawn in placed.boxes))
+
+
+def _frame(placed: Placed) -> Rect:
+    """The frame of an opened box: through its outside connectors, which lie in the middle of its edges."""
+    parts = [drawn.rect for drawn in placed.boxes if not drawn.box.is_port]
+    gates = [drawn.rect for drawn in placed.boxes if drawn.box.is_port]
+    bounds = replace(placed, boxes=tuple(d for d in placed.boxes if not d.box.is_port)).bounds
+    left = min([bounds.left - ROOM] + [gate.x for gate in gates])
+    right = max([bounds.right + ROOM] + [gate.x for gate in gates])
+    top = min([bounds.top] + [gate.top for gate in gates]) - ROOM - HEADER
+    bottom = max([bounds.bottom] + [gate.bottom for gate in gates]) + ROOM
+    assert parts or gates
+    return Rect.between(left, right, top, bottom)
+
+
+def _heights(placed: Placed) -> dict[str, float]:
+    """Where the outside connectors of an opened box are, as parts of its height from its middle."""
+    frame = _frame(placed)
+    gates = [drawn for drawn in placed.boxes if drawn.box.is_port]
+    return {gate.box.label: (gate.rect.y - frame.y) / (frame.height / 2) for gate in gates}
+
+
+def _opened(box: Box, placed: Placed) -> Box:
+    """A box as large as what is drawn in it, with its ports where the outside connectors are."""
+    frame = _frame(placed)
+    sides = {g.box.label: g.facing.sides[0] for g in placed.boxes if g.box.is_port}
+    ports = tuple(
+        replace(port, side="left" if sides.get(port.name, "right") == "right" else "right")
+        for port in box.ports
+    )
+    icon = replace(
+        box.icon, size=(frame.width, frame.height), frame=True, strokes="", fills="", text=""
+    )
+    return replace(box, icon=icon, ports=ports)
+
+
+def _filled(drawn: PlacedBox, placed: Placed) -> PlacedBox:
+    frame = _frame(placed)
+    moved: Point = (drawn.icon.x - frame.x, drawn.icon.y - frame.y)
+    return replace(drawn, inner=(placed, moved))

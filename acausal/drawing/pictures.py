@@ -1,0 +1,193 @@
+"""A box as SVG: the picture of its class, its leads, its name, and a ground of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from html import escape
+
+from acausal.drawing.placed import PlacedBox, Rect
+from acausal.drawing.scheme import OPPOSITE, Footing
+from acausal.drawing.sizes import LINE, SMALL, hangs, label_of, named_ports
+from acausal.drawing.strokes import INTO, arrow, at, n, rectangle, text, titled
+
+NEURAL = "#e0962f"
+"""Tint of what holds a network."""
+
+SCALE = 0.7
+"""Of a ground that is drawn right at a port."""
+
+LINES = 'stroke="currentColor" stroke-width="1.2"'
+
+
+def box(placed: PlacedBox) -> str:
+    """The group of a component, and those of the grounds right at it."""
+    drawn = placed.box
+    if drawn.is_port:
+        parts = (*_leads(placed), *_gate(placed), *_label(placed))
+        return titled("ac-port", f'data-port="{escape(drawn.path)}"', drawn.path, parts)
+    parts = (
+        *_frame(placed), *_leads(placed), *_picture(placed), *_port_names(placed), *_open_inputs(placed),
+        *_label(placed),
+    )  # fmt: skip
+    data = f'data-component="{escape(drawn.path)}"' + (
+        ' data-inside="true"' if drawn.inside else ""
+    )
+    title = f"{drawn.path}: {drawn.role}" + (f" ({drawn.count} of them)" if drawn.count > 1 else "")
+    grounds = "".join(_footing(placed, footing) for footing in drawn.footings)
+    return titled("ac-component", data, title, parts) + grounds
+
+
+def _leads(placed: PlacedBox) -> Iterator[str]:
+    """From where wires end to where the picture begins."""
+    icon, pieces = placed.icon, dict[str, list[str]]()
+    for number, (x, y) in placed.ports.items():
+        port, side = placed.box.ports[number], placed.side(number)
+        end = {
+            "left": (icon.left, y), "right": (icon.right, y), "top": (x, icon.top), "bottom": (x, icon.bottom)
+        }[side]  # fmt: skip
+        plain = placed.box.icon.frame or placed.box.is_port
+        data = at((x, y), end) if plain else at((x, y)) + _to_pin(placed, number)
+        width = 1.6 if port.kind == "connector" else 1.2
+        pieces.setdefault(f'stroke="{port.color}" stroke-width="{width}"', []).append(data)
+        if port.kind == "input" and not placed.box.is_port:
+            yield arrow(end, side, port.color)
+    for style, lines in pieces.items():
+        yield f'<path d="{"".join(lines)}" {style}/>'
+
+
+def _to_pin(placed: PlacedBox, number: int) -> str:
+    """The way from a port to the end of an unframed picture."""
+    icon, (_, y), side = placed.icon, placed.ports[number], placed.side(number)
+    if hangs(placed.box):
+        return f"H{n(icon.x)}V{n(icon.top)}"
+    if placed.facing.upright:
+        return f"H{n(icon.x)}V{n(icon.top if y < icon.y else icon.bottom)}"
+    if side in ("top", "bottom"):
+        return f"V{n(icon.top if side == 'top' else icon.bottom)}"
+    alone = sum(placed.side(other) == side for other in placed.ports) == 1
+    edge = f"H{n(icon.left if side == 'left' else icon.right)}"
+    return edge + (f"V{n(icon.y)}" if alone and not placed.box.icon.sides else "")
+
+
+def _frame(placed: PlacedBox) -> Iterator[str]:
+    """A box where the class has one; else a place to click. Lists have more boxes behind."""
+    drawn, icon = placed.box, placed.icon
+    if drawn.count > 1:
+        for step in (6.0, 3.0):
+            behind = replace(icon, x=icon.x + step, y=icon.y - step)
+            yield rectangle(behind, f'{LINES} stroke-opacity="0.5"')
+    framed = drawn.icon.frame or drawn.count > 1
+    tint = f'fill="{NEURAL}" fill-opacity="0.16"' if drawn.learned else 'fill="transparent"'
+    yield rectangle(icon, f"{tint} {LINES}" if framed else tint)
+    if drawn.inside and framed:
+        inner = replace(icon, width=icon.width - 5, height=icon.height - 5)
+        yield rectangle(inner, f'{LINES} stroke-opacity="0.4"', radius=2.0)
+
+
+def _picture(placed: PlacedBox) -> Iterator[str]:
+    drawn, icon = placed.box.icon, placed.icon
+    turn = ""
+    if placed.facing.upright:
+        first = min(placed.ports)
+        turn = " rotate(90)" if placed.ports[first][1] < icon.y else " rotate(-90)"
+    elif placed.facing.mirrored:
+        turn = " scale(-1 1)"
+    if drawn.strokes or drawn.fills:
+        place = f"translate({n(icon.x)} {n(icon.y)}){turn}"
+        yield f'<g transform="{place}" stroke="currentColor" stroke-width="1.4">'
+        yield f'<path d="{drawn.strokes}"/>' if drawn.strokes else ""
+        yield f'<path d="{drawn.fills}" fill="currentColor" stroke="none"/>' if drawn.fills else ""
+        yield "</g>"
+    if drawn.text:
+        yield text(drawn.text, icon.x, icon.y + 4)
+
+
+def _port_names(placed: PlacedBox) -> Iterator[str]:
+    """Names of ports, where a framed box has several."""
+    named = named_ports(placed.box, placed.facing)
+    for number, (_, y) in placed.ports.items():
+        if number not in named:
+            continue
+        side, name = placed.side(number), placed.box.ports[number].name
+        if side == "left":
+            yield text(name, placed.icon.left + 4, y + 3, anchor="start", size=SMALL)
+        elif side == "right":
+            yield text(name, placed.icon.right - 4, y + 3, anchor="end", size=SMALL)
+
+
+def _open_inputs(placed: PlacedBox) -> Iterator[str]:
+    """Signals that nothing is connected to are the model's inputs: an arrow without a wire."""
+    icon = placed.icon
+    sides = {placed.side(number) for number in placed.ports}
+    waiting = [
+        number
+        for number, port in enumerate(placed.box.ports)
+        if port.kind == "input" and number not in placed.ports
+    ]
+    if len(waiting) == 1 and placed.side(waiting[0]) not in sides:
+        side = placed.side(waiting[0])
+        end = {
+            "left": (icon.left, icon.y), "right": (icon.right, icon.y),
+            "top": (icon.x, icon.top), "bottom": (icon.x, icon.bottom),
+        }[side]  # fmt: skip
+        yield arrow(end, side, placed.box.ports[waiting[0]].color)
+
+
+def _gate(placed: PlacedBox) -> Iterator[str]:
+    """A connector of an opened component: a square, or an arrow head for a signal."""
+    icon, port = placed.icon, placed.box.ports[0]
+    if port.kind == "connector":
+        yield rectangle(Rect(icon.x, icon.y, 8, 8), f'fill="{port.color}"', radius=0.0)
+    else:
+        corners = (icon.left, icon.top), (icon.right, icon.y), (icon.left, icon.bottom)
+        yield f'<path d="{at(*corners)}Z" fill="{port.color}"/>'
+
+
+def _label(placed: PlacedBox) -> Iterator[str]:
+    """The name: below, or above where a wire leaves below, or beside where wires leave at both."""
+    words = label_of(placed.box)
+    if placed.box.is_port and placed.framed:
+        left = placed.side(0) == "right"
+        x = placed.icon.right + 2 if left else placed.icon.left - 2
+        yield text(words, x, placed.icon.y - 4, anchor="start" if left else "end", size=SMALL)
+        return
+    used = [*placed.ports, *(footing.port for footing in placed.box.footings)]
+    sides = {placed.side(number) for number in used}
+    icon = placed.icon
+    if not words:
+        return
+    if "bottom" not in sides:
+        yield text(words, icon.x, icon.bottom + LINE - 3)
+    elif "top" not in sides:
+        yield text(words, icon.x, icon.top - 4 - (6 if placed.box.count > 1 else 0))
+    else:
+        yield text(words, icon.x + 5, icon.bottom + LINE - 3, anchor="start")
+
+
+def _footing(placed: PlacedBox, footing: Footing) -> str:
+    """A ground right at a port."""
+    icon, port, side = placed.icon, placed.box.ports[footing.port], placed.side(footing.port)
+    dx, dy = INTO[OPPOSITE[side]]
+    x, y = icon.x + dx * icon.width / 2, icon.y + dy * icon.height / 2
+    reach = 4.0 if dy else 7.0
+    lead = at((x, y), (x + reach * dx, y + reach * dy))
+    width, height = footing.icon.size
+    x, y = x + reach * dx, y + reach * dy
+    if "top" in footing.icon.sides.values():  # it hangs
+        turn = "rotate(180)" if dy < 0 else ""
+        y += (dy or 1) * SCALE * height / 2
+    else:
+        turn = {"right": "", "left": "scale(-1 1)", "bottom": "rotate(90)", "top": "rotate(-90)"}[
+            side
+        ]
+        x, y = x + dx * SCALE * width / 2, y + dy * SCALE * width / 2
+    picture = (
+        f'<path d="{lead}" stroke="{port.color}" stroke-width="1.6"/>'
+        f'<g transform="translate({n(x)} {n(y)}) {turn} scale({SCALE})" stroke="currentColor" '
+        f'stroke-width="2"><path d="{footing.icon.strokes}"/></g>'
+    )
+    names, path = escape(" ".join(footing.names)), escape(footing.path)
+    title = f"{footing.path}: {footing.role}"
+    whole = titled("ac-component", f'data-component="{path}"', title, [picture])
+    return f'<g class="ac-wire" data-connection="{names}">{whole}</g>'

@@ -1,0 +1,238 @@
+"""What there is to draw of a model: its parts as boxes, its connections as nets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+from acausal.drawing.joined import UnionFind
+from acausal.drawing.ports import SIGNAL, joined, ports_of, side_of_gate
+from acausal.drawing.references import with_local_references
+from acausal.drawing.scheme import OPPOSITE, Box, End, Kind, Net, Port, Scheme
+from acausal.modeling import Component, Connector, Icon, Input, Module, owner_and_name
+
+MANY = 8
+"""A list with more components than this is drawn as one box."""
+
+GATE = Icon(size=(12.0, 12.0))
+"""The picture of an outside connector of what is drawn."""
+
+
+def read(model: Component, depth: int = 1) -> Scheme:
+    """The parts of a model and how they are connected.
+
+    Arguments:
+        model: the component whose parts are drawn.
+        depth: how many levels of parts are shown; parts with parts of their own are opened above the last.
+    """
+    return _Reader(model, depth, ()).scheme()
+
+
+class _Reader:
+    """Reads one level, and the levels below it in the boxes that are opened.
+
+    Arguments:
+        model: the component whose parts are read.
+        depth: how many levels are shown.
+        reached: connectors of the model, and of parts of it, to which levels above connect something.
+    """
+
+    def __init__(self, model: Component, depth: int, reached: Iterable[Any]) -> None:
+        self.model, self.depth, self.reached = model, depth, tuple(reached)
+        self.boxes: list[Box] = []
+        self.port_index: list[dict[str, int]] = []
+        self.box_of: dict[str, int] = {}
+        self.parts: dict[int, Component] = {}  # that stand alone, by the number of their box
+        self.from_outside: dict[int, list[Any]] = {}  # connected ends, by box
+        self.gates: dict[str, int] = {}
+        for label, parts in _families(model):
+            number = self._add_box(parts[0], label, len(parts))
+            self.box_of |= {part._node.name: number for part in parts}
+            if len(parts) == 1:
+                self.parts[number] = parts[0]
+
+    def scheme(self) -> Scheme:
+        """Boxes and nets, with grounds at each component that needs them."""
+        nets = tuple(self._nets())  # which may add ports to boxes
+        for number, part in self.parts.items() if self.depth > 1 else ():
+            if self.boxes[number].inside:
+                inner = _Reader(part, self.depth - 1, self.from_outside.get(number, ())).scheme()
+                self.boxes[number] = replace(self.boxes[number], inner=inner)
+        return with_local_references(Scheme(tuple(self.boxes), nets))
+
+    # -- boxes -----------------------------------------------------------------------------------
+
+    def _add_box(self, part: Component, label: str, count: int) -> int:
+        role = type(part).__name__
+        icon = part.ICON or default_icon(role)
+        ports = ports_of(part, icon, is_list=count > 1)
+        path = part._node.path if count == 1 else part._node.path.rpartition("[")[0]
+        self.port_index.append({port.name: i for i, port in enumerate(ports)})
+        inside = bool(part._node.children and part._node.connections)
+        box = Box(path, label, role, icon, ports, count, learned=learns(part), inside=inside)
+        self.boxes.append(box)
+        return len(self.boxes) - 1
+
+    def _add_port(self, box: int, port: Port) -> int:
+        self.boxes[box] = replace(self.boxes[box], ports=(*self.boxes[box].ports, port))
+        return len(self.boxes[box].ports) - 1
+
+    # -- ends ------------------------------------------------------------------------------------
+
+    def _end(self, end: Any) -> _Fine:
+        """The connector that an end of a connection is, with the box and the port that it is drawn at."""
+        owner, name = owner_and_name(end)
+        route = () if owner is None else owner.route_from(self.model._node) or ()
+        if not route:
+            return _Fine("", name, self._gate(end, name))
+        part, *rest = route
+        name = ".".join((*rest, name))
+        box = self.box_of[part]
+        self.from_outside.setdefault(box, []).append(end)
+        return _Fine(part, name, End(box, self._port(box, end, name)))
+
+    def _port(self, box: int, end: Any, name: str) -> int:
+        """The number of a box's port; a connector of a part inside it becomes a port of the box."""
+        index = self.port_index[box]
+        whole = name.rpartition("[")[0] if name.endswith("]") else name
+        if name not in index and whole not in index:
+            kind, color = _kind_and_color(end)
+            index[name] = self._add_port(box, Port(name, kind, side_of_gate(kind, None), color))
+        return index.get(name, index.get(whole, 0))
+
+    def _gate(self, end: Any, name: str) -> End:
+        """An outside connector: a small box."""
+        node: Any = self.model._node
+        shape = getattr(node.declaration(name.partition("[")[0]), "shape", None)
+        name = joined(name, shape[0] if shape and isinstance(shape[0], int) else 1)
+        if name not in self.gates:
+            kind, color = _kind_and_color(end)
+            ports = {port.name: port for port in ports_of(self.model, _icon(self.model))}
+            usual = ports[name].side if name in ports else None
+            inward = OPPOSITE[side_of_gate(kind, usual)]
+            self.gates[name] = len(self.boxes)
+            self.port_index.append({})
+            path = f"{node.path}.{name}" if node.path else name
+            port = Port(name, kind, inward, color)
+            self.boxes.append(Box(path, name, "", GATE, (port,), is_port=True))
+        return End(self.gates[name], 0)
+
+    # -- nets ------------------------------------------------------------------------------------
+
+    def _nets(self) -> Iterator[Net]:
+        """Connected ends, joined. Of nets between the same ports, as lists have them, one is drawn."""
+        sets: UnionFind[_Fine] = UnionFind()
+        given: dict[_Fine, Any] = {}
+        for pair in self._connections():
+            a, b = (_at(self, end) for end in pair)
+            given.setdefault(a, pair[0])
+            given.setdefault(b, pair[1])
+            sets.join(a, b)
+        seen: set[tuple[End, ...]] = set()
+        used: set[End] = set()
+        for fine in sets.all():
+            ends = list(dict.fromkeys(f.end for f in fine))
+            if len(ends) < 2 or self._within_list(ends) or tuple(sorted(ends)) in seen:
+                continue
+            seen.add(tuple(sorted(ends)))
+            names = {f.end: _full_name(given[f]) for f in reversed(fine)}
+            kind, color = _kind_and_color(given[fine[0]])
+            if kind != "connector":
+                ends.sort(key=lambda end: not self._is_source(end))
+            own = tuple(self._own(end, used) for end in ends)
+            yield Net(own, tuple(names[e] for e in ends), kind != "connector", color)
+
+    def _connections(self) -> Iterator[tuple[Any, Any]]:
+        """Pairs of ends; those that levels above reach are connected to a gate."""
+        yield from self.model._node.connections
+        for end in self.reached:
+            owner, name = owner_and_name(end)
+            if owner is self.model._node:
+                self._gate(end, name)
+            else:
+                yield _Reached(end), end
+
+    def _within_list(self, ends: list[End]) -> bool:
+        """Whether a net only joins components of one list."""
+        return len({end.box for end in ends}) == 1 and self.boxes[ends[0].box].count > 1
+
+    def _own(self, end: End, used: set[End]) -> End:
+        """A port for each net: a list's port, or a vector's, may have several."""
+        if end in used:
+            end = End(end.box, self._add_port(end.box, self.boxes[end.box].ports[end.port]))
+        used.add(end)
+        return end
+
+    def _is_source(self, end: End) -> bool:
+        """Whether a signal comes from here."""
+        box = self.boxes[end.box]
+        return box.ports[end.port].kind == ("input" if box.is_port else "output")
+
+
+@dataclass(frozen=True)
+class _Fine:
+    """A connector by the name of its part and its own, and where it is drawn."""
+
+    part: str
+    name: str
+    end: End
+
+
+@dataclass(frozen=True)
+class _Reached:
+    """The outside of a connector that levels above reach into a model for."""
+
+    end: Any
+
+
+def _at(reader: _Reader, end: Any) -> _Fine:
+    if not isinstance(end, _Reached):
+        return reader._end(end)
+    owner, name = owner_and_name(end.end)
+    route = () if owner is None else owner.route_from(reader.model._node) or ()
+    name = ".".join((*route, name))
+    return _Fine("", name, reader._gate(end.end, name))
+
+
+def _families(component: Component) -> Iterator[tuple[str, list[Component]]]:
+    """Label and parts: one part each, but all of a long list of one class together."""
+    families: dict[tuple[str, type], list[Component]] = {}
+    for name, part in component._node.children.items():
+        families.setdefault((name.partition("[")[0], type(part)), []).append(part)
+    for (name, _), parts in families.items():
+        if len(parts) > MANY:
+            yield name, parts
+        else:
+            for part in parts:
+                yield part._node.name, [part]
+
+
+def learns(part: Component) -> bool:
+    """Whether there is a network in a component."""
+    return any(isinstance(d, Module) for _, d in part._node.declarations()) or any(
+        learns(child) for child in part._node.children.values()
+    )
+
+
+def default_icon(role: str) -> Icon:
+    """A box with the name of the class, for classes that state no picture."""
+    return Icon(text=role, size=(max(60.0, 6.0 * len(role) + 14.0), 40.0), frame=True)
+
+
+def _icon(part: Component) -> Icon:
+    return part.ICON or default_icon(type(part).__name__)
+
+
+def _kind_and_color(end: Any) -> tuple[Kind, str]:
+    if isinstance(end, _Reached):
+        end = end.end
+    if isinstance(end, Connector):
+        return "connector", end.COLOR
+    return ("input" if isinstance(end.declaration, Input) else "output"), SIGNAL
+
+
+def _full_name(end: Any) -> str:
+    owner, name = owner_and_name(end.end if isinstance(end, _Reached) else end)
+    path = "" if owner is None else owner.path
+    return f"{path}.{name}" if path else name

@@ -1,0 +1,162 @@
+"""`c`: a model's differential equations as C."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal.by_name import names_in
+from acausal.errors import DataError, need_compiled, need_path, shown
+from acausal.export.c_text.code import write_code
+from acausal.export.c_text.header import header
+from acausal.export.c_text.reserved import RESERVED
+from acausal.export.c_text.source import source
+from acausal.export.c_text.steps import scheme_named
+from acausal.export.c_text.text import Text
+from acausal.export.files import write
+from acausal.export.names import Run, runs
+from acausal.export.ranges import Ranges, Watch, watched
+from acausal.export.vector import ParameterVector
+from acausal.initialization import before_events
+from acausal.system import System
+
+PRECISION = {"float64": "double", "float32": "float"}
+"""Numbers of C by numbers of NumPy."""
+
+
+def c(
+    system: System,
+    folder: str | Path,
+    params: Mapping[str, Any] | None = None,
+    *,
+    name: str | None = None,
+    outputs: Sequence[str] | None = None,
+    solver: str = "rk4",
+    derivatives: bool = True,
+    dtype: Any = np.float64,
+    ranges: Ranges | None = None,
+    overwrite: bool = False,
+) -> tuple[Path, Path]:
+    """Write a model's equations as C99: a header and a source, without heap and without static memory.
+
+    Networks, wrappers and Newton's method for algebraic loops are part of it; arrays of components are loops. The
+    header says how to use it. Start values that follow from parameters or inputs are computed there, too, unless they
+    need an operation without C or much memory; the header says so.
+
+    Arguments:
+        system: a compiled model.
+        folder: where the files are written; it is made if need be.
+        params: as `System.parameters` gives them, for example ``fit.params``; by default the model's.
+        name: of files, struct and functions; by default the model's class in small letters.
+        outputs: names of the variables to compute besides the derivatives; by default the model's states.
+        solver: of the fixed steps, by its name in `acausal.simulate`; for stiff models one of ``"implicit_euler"``,
+            ``"kvaerno3"``, ``"kvaerno4"``, ``"kvaerno5"``.
+        derivatives: whether directional derivatives by time, states, inputs and parameters are written.
+        dtype: ``numpy.float64`` or ``numpy.float32``.
+        ranges: by network the interval of its argument in training, or one for each argument, such as ``fit.ranges``:
+            the function ``..._outside`` tells whether an argument has left its range.
+        overwrite: whether files of this name may be replaced.
+
+    Returns:
+        The paths of header and source.
+
+    Raises:
+        DataError: for an unknown name, a file that exists, or an argument that does not fit.
+        ExportError: for an operation without C, or a solver that has no fixed steps in C.
+    """
+    need_compiled(system, "export.c")
+    path = need_path(folder, "export.c")
+    text = model_text(
+        system, params, name, outputs, solver, derivatives, dtype, watched(system, ranges, "c")
+    )
+    files = path / f"{text.name}.h", path / f"{text.name}.c"
+    for file in files:
+        if file.exists() and not overwrite:
+            raise DataError(
+                f"export.c: '{file}' exists; give another folder or name, or overwrite=True."
+            )
+    path.mkdir(parents=True, exist_ok=True)
+    write(files[0], header(text), "c")
+    write(files[1], source(text), "c")
+    return files
+
+
+def model_text(
+    system: System,
+    params: Mapping[str, Any] | None,
+    name: str | None,
+    outputs: Sequence[str] | None,
+    solver: str,
+    derivatives: bool,
+    dtype: Any,
+    watch: Watch | None = None,
+) -> Text:
+    """What is written about a model; arguments as of `c`."""
+    title = type(system.model).__name__
+    chosen = _identifier(title) if name is None else name
+    if not isinstance(chosen, str) or not re.fullmatch(r"[A-Za-z]\w*", chosen, re.ASCII):
+        raise DataError(
+            f"export.c: name={shown(name)} is no name in C; use letters, digits and underscores."
+        )
+    if chosen in RESERVED:
+        raise DataError(
+            f"export.c: name='{chosen}' is a word of C or of the model's file; give another."
+        )
+    precision = PRECISION.get(np.dtype(dtype).name)
+    if precision is None:
+        raise DataError(f"export.c: dtype={shown(dtype)}; give numpy.float64 or numpy.float32.")
+    wanted = tuple(system.states) if outputs is None else names_in(outputs, "export: outputs")
+    given = system.parameters() if params is None else params
+    system.pack(given)
+    vector = ParameterVector(system, given)
+    scheme = scheme_named(solver)
+    code = write_code(vector, wanted, derivatives=derivatives, column=scheme.implicit, watch=watch)
+    numbers = len(system.layout.free)
+    entries = vector.entries
+    parameters = _with_units([e.name for e in entries[:numbers]], system)
+    parameters += [(Run(e.name, "", None, e.first, 1, e.size), "") for e in entries[numbers:]]
+    start, start_d = _start(system, given)
+    return Text(
+        chosen, title, precision, code, scheme, vector,
+        _with_units(system.states, system), _with_units(system.inputs, system),
+        _with_units(wanted, system), parameters, start,
+        tuple(_discrete(system)), start_d,
+    )  # fmt: skip
+
+
+def _start(system: System, params: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """States, and discrete variables, before the first event."""
+    packed = system.pack(params)
+    if system.events is None:
+        return np.asarray(system.initial_state(params), float), np.zeros(0)
+    u = system.input_values(None, "u0")
+    blank = system.values(0.0, np.zeros(len(system.states)), u, packed)
+
+    def state(d: Any) -> Any:
+        return system.initializer(packed, None, u, 0.0, d=d)
+
+    start = system.initializer.discrete_start(packed)
+    x = before_events(system.events, blank, start, state)[0]
+    return np.asarray(x, float), np.asarray(start, float)
+
+
+def _discrete(system: System) -> Iterator[str]:
+    """What the discrete variables are called; conditions by their components and texts."""
+    events = system.events
+    for place, node in enumerate(system.reduced.discrete.tolist()):
+        is_condition = events is not None and place < events.n_guards
+        yield events.describe(place) if events and is_condition else system.reduced.name(node)
+
+
+def _with_units(names: Sequence[str], system: System) -> list[tuple[Run, str]]:
+    return [(run, system.unit(run.names[0])) for run in runs(names)]
+
+
+def _identifier(title: str) -> str:
+    """A class's name in small letters, words apart by underscores."""
+    name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", title).lower()
+    return f"{name}_model" if name in RESERVED else name

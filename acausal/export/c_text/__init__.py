@@ -1,0 +1,1 @@
+"""C text from traced functions: arrays without storage, loops, memory, steps, and the files of a model."""

@@ -1,0 +1,89 @@
+"""Split a block: what depends on parameters alone is computed once, when they change."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from acausal.export.traced import Atom, Block, Constant, Operation, Value
+
+VIEWS = frozenset({"slice", "squeeze", "reshape", "broadcast_in_dim", "split", "expand_dims"})
+"""Operations that only say where numbers lie: they are not worth an array of their own."""
+
+
+def split(block: Block, parameters: Collection[Value]) -> tuple[Block, Block]:
+    """Two blocks with the same meaning: one for the parameters alone, one for the rest.
+
+    Arguments:
+        block: all operations.
+        parameters: those of its inputs that change seldom.
+
+    Returns:
+        The first takes the parameters and gives some values; the second takes the block's inputs and these values.
+    """
+    fixed: set[Atom] = set(parameters)
+    operations: list[Operation] = []
+    early: list[Operation] = []
+    for operation in (o for each in block.operations for o in _turned(each, fixed)):
+        operations.append(operation)
+        if all(isinstance(a, Constant) or a in fixed for a in operation.inputs):
+            fixed.update(operation.outputs)
+            early.append(operation)
+    producer = {o: operation for operation in early for o in operation.outputs}
+    late = {id(o) for o in operations} - {id(o) for o in early}
+    crossing: dict[Value, None] = {}
+    again: set[int] = set()
+
+    def need(atom: Atom) -> None:
+        """Make a value available after the split."""
+        if not isinstance(atom, Value) or atom not in producer:
+            return
+        operation = producer[atom]
+        if operation.name not in VIEWS and atom.kind == "real":
+            crossing[atom] = None
+        elif id(operation) not in again:
+            again.add(id(operation))
+            for below in operation.inputs:
+                need(below)
+
+    for operation in operations:
+        if id(operation) in late:
+            for atom in operation.inputs:
+                need(atom)
+    for atom in block.outputs:
+        need(atom)
+    rest = tuple(o for o in operations if id(o) in late or id(o) in again)
+    known = tuple(crossing)
+    inputs = tuple(i for i in block.inputs if i in set(parameters))
+    return (
+        Block(inputs, tuple(_needed(early, known)), known),
+        Block((*block.inputs, *known), rest, block.outputs),
+    )
+
+
+def _needed(operations: list[Operation], wanted: Collection[Atom]) -> list[Operation]:
+    found: list[Operation] = []
+    needed = set(wanted)
+    for operation in reversed(operations):
+        if any(o in needed for o in operation.outputs):
+            found.append(operation)
+            needed.update(operation.inputs)
+    return found[::-1]
+
+
+def _turned(operation: Operation, fixed: Collection[Atom]) -> list[Operation]:
+    """A matrix of parameters times a vector: turned once, so that the sums run along memory."""
+    if operation.name != "dot_general" or operation.inputs[0] not in fixed:
+        return [operation]
+    (ca, cb), (ba, bb) = operation.params["dimension_numbers"]
+    matrix, vector = operation.inputs
+    if (ba, bb) != ((), ()) or ca != (1,) or len(matrix.shape) != 2 or len(vector.shape) != 1:
+        return [operation]
+    if 1 in matrix.shape:
+        return [operation]
+    turned = Value((matrix.shape[1], matrix.shape[0]), matrix.kind)
+    turn = Operation("transpose", (matrix,), (turned,), {"permutation": (1, 0)}, operation.origin)
+    params = {**operation.params, "dimension_numbers": (((0,), cb), ((), ()))}
+    return [
+        turn,
+        Operation(operation.name, (turned, vector), operation.outputs, params, operation.origin),
+    ]

@@ -1,0 +1,111 @@
+"""A function of C from a block: arguments, memory, statements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from acausal.export.c_text.arrays import Array, stored
+from acausal.export.c_text.lowering import Lowering, Memory
+from acausal.export.c_text.rules import RULES
+from acausal.export.c_text.statements import TYPES, Buffer, Statement, names, written
+from acausal.export.c_text.unused import without_unused
+from acausal.export.traced import Block
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An array or a number that a function takes.
+
+    Attributes:
+        buffer: its name and size. shape: how it is read. c: the declaration in the function's head.
+    """
+
+    buffer: Buffer
+    shape: tuple[int, ...]
+    offset: int = 0
+
+    @property
+    def array(self) -> Array:
+        """As an array to be read."""
+        return stored(self.buffer, self.shape, self.offset)
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function that is written.
+
+    Attributes:
+        lines: those of its body. memory: what it needs. real, whole: numbers of working memory, by kind.
+    """
+
+    lines: tuple[str, ...]
+    memory: Memory
+    real: int
+    whole: int
+
+
+def write_function(
+    block: Block,
+    arguments: Sequence[Argument],
+    results: Sequence[tuple[Buffer, int]],
+    memory: Memory,
+) -> Function:
+    """The body of a function.
+
+    Arguments:
+        block: its operations.
+        arguments: one for each input of the block.
+        results: for each output of the block the buffer that it is written to, and from which place on.
+        memory: tables and helper functions, shared by the functions of a file.
+    """
+    statements: list[Statement] = []
+    work = Memory(tables=memory.tables, prelude=memory.prelude, describe=memory.describe)
+    work.name = memory.name  # type: ignore[method-assign]
+    low = Lowering(RULES, work, statements)
+    found = low.lower(block, [a.array for a in arguments])
+    for array, (buffer, offset) in zip(found, results, strict=True):
+        low.store(array, buffer, offset)
+    statements = without_unused(statements, {buffer.name for buffer, _ in results})
+    offsets, real, whole = _places(work.work, statements)
+    lines = [*_pointers(work.work, offsets), *written(statements)]
+    return Function(tuple(lines), work, real, whole)
+
+
+def _pointers(buffers: Sequence[Buffer], offsets: dict[str, int]) -> Iterator[str]:
+    for buffer in buffers:
+        if buffer.name in offsets:
+            kind = TYPES[buffer.kind]
+            pool = "work" if kind == "real" else "whole_work"
+            yield f"    {kind} *const {buffer.name} = m->{pool} + {offsets[buffer.name]};"
+
+
+def _places(
+    buffers: Sequence[Buffer], statements: Sequence[Statement]
+) -> tuple[dict[str, int], int, int]:
+    """Where arrays lie in the working memory: two that are never needed together may share a place."""
+    wanted = {b.name for b in buffers}
+    first: dict[str, int] = {}
+    last: dict[str, int] = {}
+    for number, statement in enumerate(statements):
+        for name in names(statement) & wanted:
+            first.setdefault(name, number)
+            last[name] = number
+    offsets: dict[str, int] = {}
+    ends = {"real": 0, "int": 0}
+    for kind in ends:
+        placed: list[Buffer] = []
+        own = [b for b in buffers if b.name in first and TYPES[b.kind] == kind]
+        for buffer in sorted(own, key=lambda b: first[b.name]):
+            together = sorted(
+                (offsets[p.name], p.size or 1) for p in placed if last[p.name] >= first[buffer.name]
+            )
+            place = 0
+            for start, size in together:
+                if place + (buffer.size or 1) <= start:
+                    break
+                place = max(place, start + size)
+            offsets[buffer.name] = place
+            placed.append(buffer)
+            ends[kind] = max(ends[kind], place + (buffer.size or 1))
+    return offsets, ends["real"], ends["int"]

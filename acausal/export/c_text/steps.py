@@ -1,0 +1,212 @@
+"""Fixed steps in C, by the tableaus that `acausal.simulate` uses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import diffrax as dfx
+import numpy as np
+
+from acausal.errors import ExportError
+from acausal.export.c_text.expressions import literal
+from acausal.simulation import solver_named
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """A Runge–Kutta scheme.
+
+    Attributes:
+        name: of the solver. a: rows of coefficients of the earlier stages. diagonal: those of the stages themselves.
+        b: of the result. c: times of the stages, as parts of the step.
+    """
+
+    name: str
+    a: tuple[np.ndarray, ...]
+    diagonal: np.ndarray
+    b: np.ndarray
+    c: np.ndarray
+
+    @property
+    def stages(self) -> int:
+        """How many times the derivatives are needed."""
+        return len(self.b)
+
+    @property
+    def implicit(self) -> bool:
+        """Whether a stage is the solution of equations."""
+        return bool(self.diagonal.any())
+
+
+def scheme_named(name: str) -> Scheme:
+    """A scheme by its name.
+
+    Raises:
+        ExportError: for a solver that is no Runge–Kutta scheme.
+    """
+    solver = solver_named(name)
+    if isinstance(solver, dfx.Euler):
+        return Scheme(name, (np.zeros(0),), np.zeros(1), np.ones(1), np.zeros(1))
+    if isinstance(solver, dfx.ImplicitEuler):
+        return Scheme(name, (np.zeros(0),), np.ones(1), np.ones(1), np.ones(1))
+    tableau = getattr(solver, "tableau", None)
+    if not isinstance(tableau, dfx.ButcherTableau):
+        raise ExportError(
+            f"export: solver='{name}' has no steps in C; choose 'euler', 'heun', 'rk4', 'tsit5', or for stiff models "
+            "'implicit_euler', 'kvaerno3' or 'kvaerno5'."
+        )
+    stages = len(tableau.b_sol)
+    diagonal = tableau.a_diagonal if tableau.a_diagonal is not None else np.zeros(stages)
+    a = (np.zeros(0), *map(np.asarray, tableau.a_lower))
+    c = np.array([tableau.c1, *tableau.c])
+    b = np.asarray(tableau.b_sol)
+    if (
+        not diagonal.any() and b[-1] == 0 and tableau.fsal
+    ):  # the last stage serves the error estimate only
+        a, diagonal, b, c = a[:-1], diagonal[:-1], b[:-1], c[:-1]
+    return Scheme(name, a, np.asarray(diagonal), b, c)
+
+
+NEWTON = """static int solve_stage(
+    NAME *m, const real t, const real *u, const real h, const real *from, real *k, real *x) {
+    /* k = rates(t, from + h k), by Newton's method with the factors of 1 - h J of this step */
+    real previous = INFINITY;
+    for (int n = 0; n < 50; n++) {
+        real size = 0;
+        for (int i = 0; i < STATES; i++) x[i] = from[i] + h * k[i];
+        rates(m, t, x, u, m->scratch);
+        for (int i = 0; i < STATES; i++) m->scratch[i] -= k[i];
+        lu_solve(m->matrix, m->pivots, m->scratch, STATES);
+        for (int i = 0; i < STATES; i++) {
+            k[i] += m->scratch[i];
+            const real part = h * m->scratch[i] / (R(1e-9) + fabs(x[i]));
+            size = size > fabs(part) || size != size ? size : fabs(part);
+        }
+        if (!isfinite(size)) return 0;
+        if (size <= TOLERANCE || (size >= previous && size < LOOSE)) return 1;
+        previous = size;
+    }
+    return 0;
+}"""
+
+LU = """static int lu_factor(real *a, int *p, const int n) {
+    for (int k = 0; k < n; k++) {
+        int r = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(a[i * n + k]) > fabs(a[r * n + k])) r = i;
+        p[k] = r;
+        if (!(fabs(a[r * n + k]) > 0)) return 0;
+        if (r != k)
+            for (int j = 0; j < n; j++) {
+                const real swapped = a[k * n + j];
+                a[k * n + j] = a[r * n + j];
+                a[r * n + j] = swapped;
+            }
+        for (int i = k + 1; i < n; i++) {
+            const real f = a[i * n + k] /= a[k * n + k];
+            if (f != 0)
+                for (int j = k + 1; j < n; j++) a[i * n + j] -= f * a[k * n + j];
+        }
+    }
+    return 1;
+}
+
+static void lu_solve(const real *a, const int *p, real *b, const int n) {
+    for (int k = 0; k < n; k++) {
+        const real swapped = b[p[k]];
+        b[p[k]] = b[k];
+        b[k] = swapped;
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) b[i] -= a[i * n + j] * b[j];
+    for (int i = n - 1; i >= 0; i--) {
+        for (int j = i + 1; j < n; j++) b[i] -= a[i * n + j] * b[j];
+        b[i] /= a[i * n + i];
+    }
+}"""
+
+
+def step_lines(scheme: Scheme, inputs: bool) -> Iterator[str]:
+    """The body of a step: ``m->x`` and ``m->time`` move on by ``h``; inputs run from ``m->u`` to ``u_end``.
+
+    Arguments:
+        inputs: whether the model has any.
+    """
+    yield "    const real t = m->time;"
+    if inputs:
+        yield "    const real *const begin = m->u;"
+        yield "    const real *const end = u_end ? u_end : m->u;"
+    else:
+        yield "    (void)u_end;"
+    yield from _stages(scheme, inputs)
+    yield f"    for (int i = 0; i < STATES; i++) m->x[i] += {_combination(scheme.b)[3:]};"
+    if inputs:
+        yield "    for (int i = 0; i < INPUTS; i++) m->u[i] = end[i];"
+    yield "    m->time = t + h;"
+    yield "    return all_finite(m->x, STATES) ? STATUS_OK : STATUS_NOT_FINITE;"
+
+
+def attempt_lines(scheme: Scheme, inputs: bool) -> Iterator[str]:
+    """The body of a step that may be made again: from ``m->x`` to ``m->e.x_end``, with the rates at both ends.
+
+    Arguments:
+        inputs: whether the model has any; they run from ``m->e.u_from`` to ``m->e.u_to``.
+    """
+    begin, end = "m->u", "m->u"
+    if inputs:
+        begin, end = "m->e.u_from", "m->e.u_to"
+        yield f"    const real *const begin = {begin};"
+        yield f"    const real *const end = {end};"
+    yield from _stages(scheme, inputs)
+    yield f"    for (int i = 0; i < STATES; i++) m->e.x_end[i] = m->x[i]{_combination(scheme.b)};"
+    yield f"    rates(m, t, m->x, {begin}, m->e.dx_begin);"
+    yield f"    rates(m, t + h, m->e.x_end, {end}, m->e.dx_end);"
+    yield "    return all_finite(m->e.x_end, STATES) ? STATUS_OK : STATUS_NOT_FINITE;"
+
+
+def _stages(scheme: Scheme, inputs: bool) -> Iterator[str]:
+    """The rates at the stages, from ``t`` on by ``h``; inputs run from ``begin`` to ``end``."""
+    for s in range(scheme.stages):
+        yield f"    real *const k{s} = m->stages + {s} * STATES;"
+    if scheme.implicit or any(row.any() for row in scheme.a):
+        yield "    real *const x = m->stage;"
+    if inputs:
+        yield "    real u[INPUTS];"
+    else:
+        yield "    const real *const u = m->u;"
+    if scheme.implicit:
+        yield (
+            "    if (!factor(m, h * "
+            + literal(float(scheme.diagonal[-1]), "real")
+            + ")) return STATUS_SINGULAR;"
+        )
+    for s in range(scheme.stages):
+        time = "t" if scheme.c[s] == 0 else f"t + {literal(float(scheme.c[s]), 'real')} * h"
+        if inputs and (s == 0 or scheme.c[s] != scheme.c[s - 1]):
+            part = literal(float(scheme.c[s]), "real")
+            yield f"    for (int i = 0; i < INPUTS; i++) u[i] = begin[i] + {part} * (end[i] - begin[i]);"
+        moved = _combination(scheme.a[s]) if s < len(scheme.a) else ""
+        if scheme.diagonal[s]:
+            yield f"    for (int i = 0; i < STATES; i++) m->from[i] = m->x[i]{moved};"
+            guess = f"k{s - 1}[i]" if s else "0"
+            yield f"    for (int i = 0; i < STATES; i++) k{s}[i] = {guess};"
+            gamma = literal(float(scheme.diagonal[s]), "real")
+            yield f"    if (!solve_stage(m, {time}, u, {gamma} * h, m->from, k{s}, x)) return STATUS_NO_CONVERGENCE;"
+        elif moved:
+            yield f"    for (int i = 0; i < STATES; i++) x[i] = m->x[i]{moved};"
+            yield f"    rates(m, {time}, x, u, k{s});"
+        else:
+            yield f"    rates(m, {time}, m->x, u, k{s});"
+
+
+def _combination(row: np.ndarray) -> str:
+    """What is added to a state: the step times a weighted sum of stages."""
+    terms = [
+        f"k{s}[i]" if w == 1 else f"{literal(float(w), 'real')} * k{s}[i]"
+        for s, w in enumerate(row)
+        if w != 0
+    ]
+    if not terms:
+        return ""
+    return f" + h * ({' + '.join(terms)})" if len(terms) > 1 else f" + h * {terms[0]}"

@@ -1,0 +1,93 @@
+"""What the files of a model in C say: names, sizes and functions."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from acausal.export.c_text.code import Code
+from acausal.export.c_text.outside import (
+    FUNCTION as EXCESS,
+)
+from acausal.export.c_text.steps import Scheme
+from acausal.export.names import Run
+from acausal.export.vector import ParameterVector
+
+
+@dataclass(frozen=True, eq=False)
+class Text:
+    """What is written about a model.
+
+    Attributes:
+        name: of the functions and the struct. title: of the model. precision: "double" or "float".
+        code: its functions. scheme: of the steps. vector: its parameters.
+        states, inputs, outputs, parameters: names in groups, with units.
+        start: states at the start, shape (n_states,).
+        discrete: names of discrete variables, the conditions first. discrete_start: their values before the start.
+    """
+
+    name: str
+    title: str
+    precision: str
+    code: Code
+    scheme: Scheme
+    vector: ParameterVector
+    states: Sequence[tuple[Run, str]]
+    inputs: Sequence[tuple[Run, str]]
+    outputs: Sequence[tuple[Run, str]]
+    parameters: Sequence[tuple[Run, str]]
+    start: np.ndarray
+    discrete: Sequence[str] = ()
+    discrete_start: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0))
+
+    @property
+    def has_events(self) -> bool:
+        """Whether the model has events."""
+        return self.code.events is not None
+
+    @property
+    def has_starts(self) -> bool:
+        """Whether start values follow from time, inputs and parameters."""
+        return "starts" in self.code.functions
+
+    @property
+    def of_start(self) -> str:
+        """What is said of start values."""
+        if self.has_starts:
+            return "m.x at the start, from m.time, m.u, m.p"
+        return "m.x at the start, as exported: whatever m.p"
+
+    @property
+    def watches(self) -> bool:
+        """Whether it tells that a network leaves the range in which it was trained."""
+        return EXCESS in self.code.functions
+
+    @property
+    def has_tangent(self) -> bool:
+        """Whether there are directional derivatives."""
+        return "tangent" in self.code.functions
+
+    def directional_head(self) -> str:
+        """The head of the function of directional derivatives."""
+        n, real = self.name, f"const {self.name}_real"
+        return (
+            f"{n}_status {n}_directional({n} *m, {real} along_time, {real} *along_x, {real} *along_u,\n"
+            f"    {real} *along_p, {n}_real *of_dx, {n}_real *of_y)"
+        )
+
+    def tables(self) -> list[tuple[str, Sequence[tuple[Run, str]]]]:
+        """Names and units in groups, by kind."""
+        return [
+            ("states", self.states),
+            ("inputs", self.inputs),
+            ("outputs", self.outputs),
+            ("parameters", self.parameters),
+        ]
+
+
+def least(size: int) -> int:
+    """C has no empty arrays."""
+    return max(size, 1)

@@ -1,0 +1,269 @@
+"""`fmu`: a model as a functional mock-up unit, for other tools."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import warnings
+import zipfile
+from collections.abc import Mapping, Sequence
+from importlib.resources import files as package_files
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from acausal.by_name import names_in
+from acausal.errors import (
+    DataError,
+    ExportError,
+    listing,
+    nearest,
+    need_compiled,
+    shown,
+    user_level,
+)
+from acausal.export.c_file import model_text
+from acausal.export.c_text.header import header as header_in_c
+from acausal.export.c_text.source import source
+from acausal.export.c_text.text import Text
+from acausal.export.files import new_file, write
+from acausal.export.fmu_text.binary import (
+    PLATFORMS,
+    Platform,
+    build,
+    compiler,
+    cross_compiler,
+    platform_named,
+    this_platform,
+)
+from acausal.export.fmu_text.dependencies import dependencies
+from acausal.export.fmu_text.description import KINDS, Description, build_description
+from acausal.export.fmu_text.header import model_header
+from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
+from acausal.export.ranges import Ranges, Watch, watched
+from acausal.system import System
+
+VERSIONS = ("2.0", "3.0")
+
+
+def fmu(
+    system: System,
+    path: str | Path,
+    params: Mapping[str, Any] | None = None,
+    *,
+    fmi: str = "3.0",
+    kinds: str | Sequence[str] = ("model_exchange", "co_simulation"),
+    inputs: Sequence[str] | None = None,
+    outputs: Sequence[str] | None = None,
+    solver: str = "rk4",
+    step: float = 1e-3,
+    name: str | None = None,
+    ranges: Ranges | None = None,
+    binary: bool = True,
+    platforms: Sequence[str] | None = None,
+    overwrite: bool = False,
+) -> Path:
+    """Write a model as an FMU: C sources, a library for this platform, and a description of its variables.
+
+    Parameters are tunable, those of networks among them. Directional derivatives and copies of the state are there.
+    In FMI 3, component lists and arrays of networks are arrays; in FMI 2 every number is a variable.
+
+    Arguments:
+        system: a compiled model.
+        path: of the file, as a rule with the ending ``.fmu``.
+        params: as `System.parameters` gives them, for example ``fit.params``; by default the model's.
+        fmi: the version of the standard, ``"3.0"`` or ``"2.0"``.
+        kinds: ``"model_exchange"``, ``"co_simulation"``, or both.
+        inputs: those that the importer sets, by default all; the others become parameters that start at 0.
+        outputs: names of variables, by default the states.
+        solver: of co-simulation, a fixed-step one as in `acausal.export.c`.
+        step: of co-simulation, at most [s]; a communication step is divided into equal steps, inputs held.
+        name: of files in the FMU; by default the model's class in small letters.
+        ranges: by network the interval of its argument in training, or one for each argument, such as ``fit.ranges``:
+            the Boolean output ``outside_training_range`` tells whether an argument has left its range.
+        binary: whether libraries are built; without a compiler only the sources are written.
+        platforms: those that libraries are built for, such as ``["x86_64-linux", "x86_64-windows", "aarch64-darwin"]``,
+            by default this computer's; others need ``pip install 'acausal[export-platforms]'``.
+        overwrite: whether a file of this path may be replaced.
+
+    Returns:
+        The path.
+
+    Raises:
+        DataError: for an unknown name, a path that exists, or an argument that does not fit.
+        ExportError: for an operation without C, a solver that has no fixed steps in C, or a platform without a
+            compiler.
+    """
+    need_compiled(system, "export.fmu")
+    target = new_file(path, "fmu", overwrite)
+    chosen = _checked_kinds(fmi, kinds, step)
+    places = _checked_platforms(platforms, fmi) if binary else ()
+    scalars = fmi == "2.0"
+    free = _known(inputs, system.inputs)
+    wanted = _wanted(outputs, system)
+    merged = set(shown_by_others(system, wanted, scalars))
+    own = [n for n in wanted if n not in merged]
+    watch = watched(system, ranges, "fmu")
+    text = model_text(system, params, name, own, solver, True, np.float64, watch)
+    if text.name.startswith(("fmu_", "fmi2_", "fmi3_")):
+        raise DataError(f"export.fmu: name='{text.name}' is kept for FMI's files; give another.")
+    content = _content(text, system, watch, free, wanted, fmi, chosen, float(step), places)
+    write(target, _zipped(content), "fmu")
+    return target
+
+
+def _content(
+    text: Text,
+    system: System,
+    watch: Watch | None,
+    inputs: Sequence[str],
+    outputs: Sequence[str],
+    fmi: str,
+    kinds: Sequence[str],
+    step: float,
+    platforms: Sequence[Platform] | None,
+) -> dict[str, bytes]:
+    """The FMU's files by their paths in it."""
+    scalars = fmi == "2.0"
+    interface = f"fmi{fmi[0]}"
+    templates = package_files("acausal.export.fmu_text")
+    fixed = ("fmu_instance.h", f"{interface}_interface.h", f"{interface}_functions.c")
+    sources = {f"{text.name}.h": header_in_c(text), f"{text.name}.c": source(text)}
+    sources |= {file: templates.joinpath(file).read_text("utf-8") for file in fixed}
+    compiled = (f"{text.name}.c", f"{interface}_functions.c")
+    found = variables(text, system, inputs, outputs, scalars)
+    read = dependencies(text, system, found, np.zeros(0) if watch is None else watch.nodes)
+    indicators = len(event_indicators(text))
+
+    def description(token: str) -> bytes:
+        return Description(
+            fmi, text.name, text.title, token, kinds, step, found, read, compiled, indicators
+        ).xml()
+
+    nominal = np.abs(system.reduced.nominal(system.reduced.states))
+
+    def header(token: str) -> str:
+        return model_header(text, token, step, kinds, scalars, nominal)
+
+    digest = hashlib.sha256(description(""))
+    for part in (header(""), *sources.values()):
+        digest.update(part.encode())
+    token = f"{{{digest.hexdigest()[:32]}}}"
+    sources["fmu_model.h"] = header(token)
+    content = {"modelDescription.xml": description(token)}
+    content |= {f"sources/{file}": data.encode() for file, data in sources.items()}
+    if fmi == "3.0":
+        content["sources/buildDescription.xml"] = build_description(text.name, compiled)
+    if platforms is None:
+        return content | _library(text.name, sources, compiled, fmi)
+    for place in platforms:
+        library = build(text.name, sources, compiled, _command(place, fmi))
+        content[f"binaries/{place.folder}/{text.name}{place.ending}"] = library
+    return content
+
+
+def _library(
+    name: str, sources: Mapping[str, str], compiled: Sequence[str], fmi: str
+) -> dict[str, bytes]:
+    """The library for this computer under its path in the FMU; none, with a warning, where it cannot be built."""
+    place, command = this_platform(fmi), compiler()
+    if place is None or command is None:
+        missing = (
+            "there is no C compiler" if command is None else "FMI has no name for this platform"
+        )
+        warnings.warn(
+            f"export.fmu: {missing}, so the FMU holds sources only; its importer must compile them.",
+            stacklevel=user_level(),
+        )
+        return {}
+    library = build(name, sources, compiled, [command])
+    return {f"binaries/{place.folder}/{name}{place.ending}": library}
+
+
+def _command(place: Platform, fmi: str) -> Sequence[str]:
+    """The compiler for a platform."""
+    own = compiler() if place == this_platform(fmi) else None
+    command = [own] if own else cross_compiler(place)
+    if command is None:
+        raise ExportError(
+            f"export.fmu: a library for '{place.name}' needs the package ziglang; pip install "
+            "'acausal[export-platforms]', or leave it out of platforms=[...]."
+        )
+    return command
+
+
+def _zipped(content: Mapping[str, bytes]) -> bytes:
+    """An archive that depends on nothing but its content."""
+    stream = BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, data in content.items():
+            entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+            entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
+            archive.writestr(entry, data)
+    return stream.getvalue()
+
+
+# -- arguments -----------------------------------------------------------------------------------------
+
+
+def _checked_kinds(fmi: str, kinds: str | Sequence[str], step: float) -> tuple[str, ...]:
+    if fmi not in VERSIONS:
+        raise DataError(f"export.fmu: there is no fmi={shown(fmi)}; give '3.0' or '2.0'.")
+    chosen = names_in(kinds, "export.fmu: kinds")
+    for kind in chosen:
+        if kind not in KINDS:
+            raise DataError(f"export.fmu: there is no kind '{kind}'; {nearest(kind, KINDS)}")
+    if not chosen:
+        raise DataError(f"export.fmu: kinds=() leaves nothing to write; give {listing(KINDS)}.")
+    if not isinstance(step, int | float) or not (0 < step < math.inf):
+        raise DataError(f"export.fmu: step={shown(step)} is no length of a step; give seconds.")
+    return chosen
+
+
+def _checked_platforms(names: Sequence[str] | None, fmi: str) -> tuple[Platform, ...] | None:
+    """Platforms by name; None for this computer's."""
+    if names is None:
+        return None
+    found: dict[str, Platform] = {}
+    for name in dict.fromkeys(names_in(names, "export.fmu: platforms")):
+        if name not in PLATFORMS:
+            raise DataError(
+                f"export.fmu: there is no platform '{name}'; {nearest(name, PLATFORMS)}"
+            )
+        place = platform_named(name, fmi)
+        if place is None:
+            raise DataError(
+                f"export.fmu: FMI {fmi} has no name for '{name}'; leave it out, or write fmi='3.0'."
+            )
+        other = found.setdefault(place.folder, place)
+        if other is not place:
+            raise DataError(
+                f"export.fmu: FMI {fmi} has one folder for '{other.name}' and '{name}'; give one of them, or fmi='3.0'."
+            )
+    return tuple(found.values())
+
+
+def _known(inputs: Sequence[str] | None, known: Sequence[str]) -> tuple[str, ...]:
+    if inputs is None:
+        return tuple(known)
+    chosen = names_in(inputs, "export.fmu: inputs")
+    for name in chosen:
+        if name not in known:
+            raise DataError(f"export.fmu: the model has no input '{name}'; {nearest(name, known)}")
+    return chosen
+
+
+def _wanted(outputs: Sequence[str] | None, system: System) -> tuple[str, ...]:
+    if outputs is None:
+        return tuple(system.states)
+    chosen = tuple(dict.fromkeys(names_in(outputs, "export.fmu: outputs")))
+    for name in chosen:
+        if name in system.inputs:
+            raise DataError(f"export.fmu: '{name}' is an input; leave it out of outputs=[...].")
+        if name not in system.variables and not name.startswith("der("):
+            raise DataError(
+                f"export.fmu: the model has no variable '{name}'; {nearest(name, system.variables)}"
+            )
+    return chosen

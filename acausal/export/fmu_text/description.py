@@ -1,0 +1,211 @@
+"""``modelDescription.xml`` of an FMU."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from acausal.export.fmu_text.units import add_units
+from acausal.export.fmu_text.variables import DERIVATIVE, INDICATOR, OUTSIDE, STATE, Variable
+
+KINDS = {"model_exchange": "ModelExchange", "co_simulation": "CoSimulation"}
+"""FMI's words by ours."""
+
+
+@dataclass(frozen=True)
+class Description:
+    """What the model description says.
+
+    Attributes:
+        fmi: "2.0" or "3.0". name: of files and functions. title: of the model. token: of this content.
+        kinds: keys of `KINDS`. step: of co-simulation [s].
+        variables: all but time. dependencies: references by reference, or None if each depends on all.
+        sources: names of the C files to compile. indicators: the number of event indicators.
+    """
+
+    fmi: str
+    name: str
+    title: str
+    token: str
+    kinds: Sequence[str]
+    step: float
+    variables: Sequence[Variable]
+    dependencies: Mapping[int, Sequence[int]] | None
+    sources: Sequence[str]
+    indicators: int = 0
+
+    def xml(self) -> bytes:
+        """The text of the file."""
+        old = self.fmi == "2.0"
+        root = Element(
+            "fmiModelDescription",
+            {
+                "fmiVersion": self.fmi,
+                "modelName": self.title,
+                "guid" if old else "instantiationToken": self.token,
+                "generationTool": "acausal",
+                "variableNamingConvention": "structured",
+            },
+        )
+        if old and self.indicators:
+            root.set("numberOfEventIndicators", str(self.indicators))
+        for kind in KINDS:
+            if kind in self.kinds:
+                self._add_kind(root, kind)
+        add_units(root, ["s", *(v.unit for v in self.variables)])
+        listed = SubElement(root, "LogCategories")
+        for name, what in (
+            ("logStatusDiscard", "a step or a value that could not be computed"),
+            ("logStatusError", "wrong calls"),
+        ):
+            SubElement(listed, "Category", name=name, description=what)
+        SubElement(root, "DefaultExperiment", startTime="0", stepSize=number(self.step))
+        listed = SubElement(root, "ModelVariables")
+        (self._add_scalars if old else self._add_arrays)(listed)
+        (self._add_structure_2 if old else self._add_structure_3)(root)
+        indent(root, " ")
+        return b'<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, "utf-8") + b"\n"
+
+    def _add_kind(self, root: Element, kind: str) -> None:
+        old = self.fmi == "2.0"
+        found = {"modelIdentifier": self.name}
+        if old:
+            found |= dict.fromkeys(
+                ("canNotUseMemoryManagementFunctions", "canGetAndSetFMUstate", "canSerializeFMUstate",
+                 "providesDirectionalDerivative"), "true",
+            )  # fmt: skip
+        else:
+            found |= dict.fromkeys(
+                ("canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives",
+                 "providesAdjointDerivatives"), "true",
+            )  # fmt: skip
+        watches = any(v.kind == OUTSIDE for v in self.variables)
+        if kind == "model_exchange" and (self.indicators or watches) and not old:
+            found["needsCompletedIntegratorStep"] = "true"
+        if kind == "co_simulation":
+            found["canHandleVariableCommunicationStepSize"] = "true"
+            if not old:
+                found["fixedInternalStepSize"] = number(self.step)
+        element = SubElement(root, KINDS[kind], found)
+        if old:
+            listed = SubElement(element, "SourceFiles")
+            for name in self.sources:
+                SubElement(listed, "File", name=name)
+
+    def _add_scalars(self, listed: Element) -> None:
+        time = SubElement(
+            listed, "ScalarVariable", name="time", valueReference="0", causality="independent",
+            variability="continuous",
+        )  # fmt: skip
+        SubElement(time, "Real", unit="s")
+        index = {v.reference: str(i + 2) for i, v in enumerate(self.variables)}
+        for v in self.variables:
+            kind = "Boolean" if v.kind == OUTSIDE else "Real"
+            real = SubElement(SubElement(listed, "ScalarVariable", _words(v)), kind, _values(v))
+            if v.kind == DERIVATIVE:
+                real.set("derivative", index[_state_of(v)])
+
+    def _add_arrays(self, listed: Element) -> None:
+        SubElement(
+            listed, "Float64", name="time", valueReference="0", causality="independent",
+            variability="continuous", unit="s",
+        )  # fmt: skip
+        for v in self.variables:
+            kind = "Boolean" if v.kind == OUTSIDE else "Float64"
+            element = SubElement(listed, kind, {**_words(v), **_values(v)})
+            if v.kind == DERIVATIVE:
+                element.set("derivative", str(_state_of(v)))
+            for length in v.shape:
+                SubElement(element, "Dimension", start=str(length))
+
+    def _unknowns(self) -> tuple[list[Variable], list[Variable], list[Variable]]:
+        """Outputs, derivatives, and what is to be computed at the start."""
+        outputs = [v for v in self.variables if v.causality == "output"]
+        rates = [v for v in self.variables if v.kind == DERIVATIVE]
+        computed = ("calculated", "approx")
+        first = [v for v in self.variables if v.initial in computed and v.kind != INDICATOR]
+        return outputs, rates, first
+
+    @property
+    def _computes_starts(self) -> bool:
+        """Whether states are computed at the start, so that what is unknown there depends on all parameters."""
+        return any(v.initial == "approx" for v in self.variables)
+
+    def _add_structure_2(self, root: Element) -> None:
+        index = {0: 1, **{v.reference: i + 2 for i, v in enumerate(self.variables)}}
+        structure = SubElement(root, "ModelStructure")
+        for name, unknowns in zip(
+            ("Outputs", "Derivatives", "InitialUnknowns"), self._unknowns(), strict=True
+        ):
+            if not unknowns:
+                continue
+            listed = SubElement(structure, name)
+            for v in unknowns:
+                unknown = SubElement(listed, "Unknown", index=str(index[v.reference]))
+                if self.dependencies is not None and name != "InitialUnknowns":
+                    read = sorted(index[r] for r in self.dependencies[v.reference])
+                    unknown.set("dependencies", " ".join(map(str, read)))
+
+    def _add_structure_3(self, root: Element) -> None:
+        structure = SubElement(root, "ModelStructure")
+        parameters = [v.reference for v in self.variables if v.causality == "parameter"]
+        for name, unknowns in zip(
+            ("Output", "ContinuousStateDerivative", "InitialUnknown"),
+            self._unknowns(),
+            strict=True,
+        ):
+            for v in unknowns:
+                unknown = SubElement(structure, name, valueReference=str(v.reference))
+                at_start = name == "InitialUnknown"
+                depends_on_all = at_start and (self.indicators or self._computes_starts)
+                if self.dependencies is not None and not depends_on_all:
+                    read = [*self.dependencies[v.reference]]
+                    read += parameters if at_start else []
+                    unknown.set("dependencies", " ".join(map(str, sorted(read))))
+        for v in self.variables:
+            if v.kind == INDICATOR:
+                SubElement(structure, "EventIndicator", valueReference=str(v.reference))
+
+
+def build_description(name: str, sources: Sequence[str]) -> bytes:
+    """``sources/buildDescription.xml`` of FMI 3: how the C is compiled."""
+    root = Element("fmiBuildDescription", fmiVersion="3.0")
+    build = SubElement(root, "BuildConfiguration", modelIdentifier=name)
+    files = SubElement(build, "SourceFileSet", language="C99")
+    for source in sources:
+        SubElement(files, "SourceFile", name=source)
+    indent(root, " ")
+    return b'<?xml version="1.0" encoding="UTF-8"?>\n' + tostring(root, "utf-8") + b"\n"
+
+
+def number(value: float) -> str:
+    """A number with all its digits and no more."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def _words(v: Variable) -> dict[str, str]:
+    found = {
+        "name": v.name,
+        "valueReference": str(v.reference),
+        "causality": v.causality,
+        "variability": v.variability,
+    }
+    if v.initial:
+        found["initial"] = v.initial
+    if v.doc:
+        found["description"] = v.doc
+    return found
+
+
+def _values(v: Variable) -> dict[str, str]:
+    found = {"unit": v.unit} if v.unit else {}
+    if len(set(v.nominal)) == 1 and v.nominal[0] != 1:
+        found["nominal"] = number(v.nominal[0])
+    if v.start is not None:
+        found["start"] = " ".join(map(number, v.start))
+    return found
+
+
+def _state_of(v: Variable) -> int:
+    return (STATE << 24) + v.number

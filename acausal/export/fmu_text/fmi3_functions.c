@@ -1,0 +1,330 @@
+/* The functions of FMI 3.0: model exchange and co-simulation. */
+#include "fmi3_interface.h"
+
+typedef struct {
+    fmi3LogMessageCallback logger;
+    void *environment;
+} Host;
+
+#define WITH_ADJOINT
+#include "fmu_instance.h"
+
+static void tell(Instance *c, int status, const char *message) {
+    if (c->host.logger)
+        c->host.logger(c->host.environment, (fmi3Status)status,
+                       status == DISCARD ? "logStatusDiscard" : "logStatusError", message);
+}
+
+#define STATUS FMI_EXPORT fmi3Status
+
+/* -- common --------------------------------------------------------------------------------------- */
+
+FMI_EXPORT const char *FMI(GetVersion)(void) { return "3.0"; }
+
+STATUS FMI(SetDebugLogging)(fmi3Instance c, fmi3Boolean on, size_t n, const fmi3String categories[]) {
+    (void)c, (void)on, (void)n, (void)categories; /* only failures are logged, and always */
+    return fmi3OK;
+}
+
+static Instance *instantiate(fmi3String token, int possible, void *environment, fmi3LogMessageCallback logger) {
+    Instance *c = calloc(1, sizeof(Instance));
+    if (!c) return NULL;
+    c->host.logger = logger;
+    c->host.environment = environment;
+    if (!token || strcmp(token, TOKEN) != 0)
+        complain(c, FAILED, TITLE ": the token is not that of this binary; unpack the FMU again.");
+    else if (!possible)
+        complain(c, FAILED, TITLE ": this FMU was not exported for this kind of use.");
+    else {
+        start(c);
+        return c;
+    }
+    free(c);
+    return NULL;
+}
+
+FMI_EXPORT fmi3Instance FMI(InstantiateModelExchange)(fmi3String name, fmi3String token, fmi3String resources,
+                                                      fmi3Boolean visible, fmi3Boolean logging,
+                                                      fmi3InstanceEnvironment environment,
+                                                      fmi3LogMessageCallback logger) {
+    (void)name, (void)resources, (void)visible, (void)logging;
+    return instantiate(token, MODEL_EXCHANGE, environment, logger);
+}
+
+FMI_EXPORT fmi3Instance FMI(InstantiateCoSimulation)(fmi3String name, fmi3String token, fmi3String resources,
+                                                     fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean event_mode,
+                                                     fmi3Boolean early_return,
+                                                     const fmi3ValueReference intermediate[], size_t n_intermediate,
+                                                     fmi3InstanceEnvironment environment,
+                                                     fmi3LogMessageCallback logger,
+                                                     fmi3IntermediateUpdateCallback update) {
+    (void)name, (void)resources, (void)visible, (void)logging, (void)event_mode, (void)early_return;
+    (void)intermediate, (void)n_intermediate, (void)update;
+    return instantiate(token, CO_SIMULATION, environment, logger);
+}
+
+FMI_EXPORT fmi3Instance FMI(InstantiateScheduledExecution)(fmi3String name, fmi3String token, fmi3String resources,
+                                                           fmi3Boolean visible, fmi3Boolean logging,
+                                                           fmi3InstanceEnvironment environment,
+                                                           fmi3LogMessageCallback logger,
+                                                           fmi3ClockUpdateCallback update,
+                                                           fmi3LockPreemptionCallback lock,
+                                                           fmi3UnlockPreemptionCallback unlock) {
+    (void)name, (void)resources, (void)visible, (void)logging, (void)update, (void)lock, (void)unlock;
+    return instantiate(token, 0, environment, logger);
+}
+
+FMI_EXPORT void FMI(FreeInstance)(fmi3Instance c) { free(c); }
+
+STATUS FMI(EnterInitializationMode)(fmi3Instance c, fmi3Boolean has_tolerance, fmi3Float64 tolerance, fmi3Float64 time,
+                                    fmi3Boolean has_end, fmi3Float64 end) {
+    (void)has_tolerance, (void)tolerance, (void)has_end, (void)end;
+    begin(c, time);
+    return fmi3OK;
+}
+
+#define NOTHING(name)             \
+    STATUS FMI(name)(fmi3Instance c) { \
+        (void)c;                  \
+        return fmi3OK;            \
+    }
+
+NOTHING(EnterStepMode)
+NOTHING(EnterConfigurationMode)
+NOTHING(ExitConfigurationMode)
+NOTHING(EvaluateDiscreteStates)
+NOTHING(Terminate)
+
+STATUS FMI(ExitInitializationMode)(fmi3Instance c) { return (fmi3Status)end_start(c); }
+
+STATUS FMI(Reset)(fmi3Instance c) {
+    start(c);
+    return fmi3OK;
+}
+
+/* -- values --------------------------------------------------------------------------------------- */
+
+STATUS FMI(GetFloat64)(fmi3Instance c, const fmi3ValueReference references[], size_t n, fmi3Float64 values[],
+                       size_t size) {
+    return (fmi3Status)get_values(c, references, n, values, size);
+}
+
+STATUS FMI(SetFloat64)(fmi3Instance c, const fmi3ValueReference references[], size_t n, const fmi3Float64 values[],
+                       size_t size) {
+    return (fmi3Status)set_values(c, references, n, values, size);
+}
+
+/* There are numbers of this one type only, and one truth value. */
+#define OTHER(type)                                                                                              \
+    STATUS FMI(Get##type)(fmi3Instance c, const fmi3ValueReference references[], size_t n, fmi3##type values[],    \
+                          size_t size) {                                                                         \
+        (void)references, (void)values, (void)size;                                                              \
+        return n ? (fmi3Status)unknown(c) : fmi3OK;                                                              \
+    }                                                                                                            \
+    STATUS FMI(Set##type)(fmi3Instance c, const fmi3ValueReference references[], size_t n, const fmi3##type values[], \
+                          size_t size) {                                                                         \
+        (void)references, (void)values, (void)size;                                                              \
+        return n ? (fmi3Status)unknown(c) : fmi3OK;                                                              \
+    }
+
+OTHER(Float32)
+OTHER(Int8)
+OTHER(UInt8)
+OTHER(Int16)
+OTHER(UInt16)
+OTHER(Int32)
+OTHER(UInt32)
+OTHER(Int64)
+OTHER(UInt64)
+OTHER(String)
+
+STATUS FMI(GetBoolean)(fmi3Instance c, const fmi3ValueReference references[], size_t n, fmi3Boolean values[],
+                       size_t size) {
+    int outside = 0;
+    const int status = size == n ? get_outside(c, references, n, &outside) : unknown(c);
+    for (size_t i = 0; status == OK && i < n; i++) values[i] = outside != 0;
+    return (fmi3Status)status;
+}
+
+STATUS FMI(SetBoolean)(fmi3Instance c, const fmi3ValueReference references[], size_t n, const fmi3Boolean values[],
+                       size_t size) {
+    (void)references, (void)values, (void)size;
+    return n ? (fmi3Status)unknown(c) : fmi3OK;
+}
+
+STATUS FMI(GetBinary)(fmi3Instance c, const fmi3ValueReference references[], size_t n, size_t sizes[],
+                      fmi3Binary values[], size_t size) {
+    (void)references, (void)sizes, (void)values, (void)size;
+    return n ? (fmi3Status)unknown(c) : fmi3OK;
+}
+
+STATUS FMI(SetBinary)(fmi3Instance c, const fmi3ValueReference references[], size_t n, const size_t sizes[],
+                      const fmi3Binary values[], size_t size) {
+    (void)references, (void)sizes, (void)values, (void)size;
+    return n ? (fmi3Status)unknown(c) : fmi3OK;
+}
+
+/* There are no clocks. */
+#define CLOCKS(name, ...)                                                                               \
+    STATUS FMI(name)(fmi3Instance c, const fmi3ValueReference references[], size_t n, __VA_ARGS__) {      \
+        (void)references, (void)first;                                                                  \
+        return n ? (fmi3Status)unknown(c) : fmi3OK;                                                     \
+    }
+#define CLOCKS2(name, ...)                                                                              \
+    STATUS FMI(name)(fmi3Instance c, const fmi3ValueReference references[], size_t n, __VA_ARGS__) {      \
+        (void)references, (void)first, (void)second;                                                    \
+        return n ? (fmi3Status)unknown(c) : fmi3OK;                                                     \
+    }
+
+CLOCKS(GetClock, fmi3Clock first[])
+CLOCKS(SetClock, const fmi3Clock first[])
+CLOCKS2(GetIntervalDecimal, fmi3Float64 first[], fmi3IntervalQualifier second[])
+CLOCKS(SetIntervalDecimal, const fmi3Float64 first[])
+CLOCKS(GetShiftDecimal, fmi3Float64 first[])
+CLOCKS(SetShiftDecimal, const fmi3Float64 first[])
+CLOCKS2(GetShiftFraction, fmi3UInt64 first[], fmi3UInt64 second[])
+CLOCKS2(SetShiftFraction, const fmi3UInt64 first[], const fmi3UInt64 second[])
+CLOCKS2(SetIntervalFraction, const fmi3UInt64 first[], const fmi3UInt64 second[])
+
+STATUS FMI(GetIntervalFraction)(fmi3Instance c, const fmi3ValueReference references[], size_t n, fmi3UInt64 counters[],
+                                fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[]) {
+    (void)references, (void)counters, (void)resolutions, (void)qualifiers;
+    return n ? (fmi3Status)unknown(c) : fmi3OK;
+}
+
+STATUS FMI(ActivateModelPartition)(fmi3Instance c, fmi3ValueReference clock, fmi3Float64 time) {
+    (void)clock, (void)time;
+    return (fmi3Status)unknown(c);
+}
+
+/* No array changes its size, so dependencies are those of the model description. */
+STATUS FMI(GetNumberOfVariableDependencies)(fmi3Instance c, fmi3ValueReference reference, size_t *n) {
+    (void)reference, (void)n;
+    return (fmi3Status)complain(c, FAILED, TITLE ": dependencies are in modelDescription.xml.");
+}
+
+STATUS FMI(GetVariableDependencies)(fmi3Instance c, fmi3ValueReference reference, size_t dependent[],
+                                    fmi3ValueReference independents[], size_t elements[], fmi3DependencyKind kinds[],
+                                    size_t n) {
+    (void)reference, (void)dependent, (void)independents, (void)elements, (void)kinds, (void)n;
+    return (fmi3Status)complain(c, FAILED, TITLE ": dependencies are in modelDescription.xml.");
+}
+
+/* -- the state of the FMU --------------------------------------------------------------------------- */
+
+STATUS FMI(GetFMUState)(fmi3Instance c, fmi3FMUState *state) { return (fmi3Status)keep(c, state); }
+
+STATUS FMI(SetFMUState)(fmi3Instance c, fmi3FMUState state) { return (fmi3Status)restore(c, state); }
+
+STATUS FMI(FreeFMUState)(fmi3Instance c, fmi3FMUState *state) {
+    (void)c;
+    return (fmi3Status)forget(state);
+}
+
+STATUS FMI(SerializedFMUStateSize)(fmi3Instance c, fmi3FMUState state, size_t *size) {
+    (void)c, (void)state;
+    *size = sizeof(State);
+    return fmi3OK;
+}
+
+STATUS FMI(SerializeFMUState)(fmi3Instance c, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
+    return (fmi3Status)serialize(c, state, bytes, size);
+}
+
+STATUS FMI(DeserializeFMUState)(fmi3Instance c, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
+    return (fmi3Status)deserialize(c, bytes, size, state);
+}
+
+/* -- derivatives ---------------------------------------------------------------------------------- */
+
+STATUS FMI(GetDirectionalDerivative)(fmi3Instance c, const fmi3ValueReference unknowns[], size_t n_unknowns,
+                                     const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
+                                     size_t n_seed, fmi3Float64 result[], size_t n_result) {
+    return (fmi3Status)directional(c, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result);
+}
+
+STATUS FMI(GetAdjointDerivative)(fmi3Instance c, const fmi3ValueReference unknowns[], size_t n_unknowns,
+                                 const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
+                                 size_t n_seed, fmi3Float64 result[], size_t n_result) {
+    return (fmi3Status)adjoint(c, unknowns, n_unknowns, knowns, n_knowns, seed, n_seed, result, n_result);
+}
+
+/* -- model exchange ------------------------------------------------------------------------------- */
+
+STATUS FMI(EnterEventMode)(fmi3Instance c) { return (fmi3Status)hold_outside(c, 0); }
+
+STATUS FMI(EnterContinuousTimeMode)(fmi3Instance c) { return (fmi3Status)hold_outside(c, 1); }
+
+STATUS FMI(UpdateDiscreteStates)(fmi3Instance c, fmi3Boolean *again, fmi3Boolean *terminate, fmi3Boolean *nominals,
+                                 fmi3Boolean *states, fmi3Boolean *has_next, fmi3Float64 *next) {
+    int changed, timed;
+    const int status = update(c, &changed, &timed, next);
+    *again = *terminate = *nominals = false;
+    *states = changed;
+    *has_next = timed;
+    return (fmi3Status)status;
+}
+
+STATUS FMI(CompletedIntegratorStep)(fmi3Instance c, fmi3Boolean no_return, fmi3Boolean *event, fmi3Boolean *end) {
+    (void)no_return;
+    completed(c);
+    *event = outside_changes(c) != 0;
+    *end = false;
+    return fmi3OK;
+}
+
+STATUS FMI(SetTime)(fmi3Instance c, fmi3Float64 time) {
+    begin(c, time);
+    return fmi3OK;
+}
+
+STATUS FMI(SetContinuousStates)(fmi3Instance c, const fmi3Float64 x[], size_t n) {
+    return (fmi3Status)each_state(c, STATES, NULL, x, n);
+}
+
+STATUS FMI(GetContinuousStates)(fmi3Instance c, fmi3Float64 x[], size_t n) {
+    return (fmi3Status)each_state(c, STATES, x, NULL, n);
+}
+
+STATUS FMI(GetContinuousStateDerivatives)(fmi3Instance c, fmi3Float64 dx[], size_t n) {
+    return (fmi3Status)each_state(c, DERIVATIVES, dx, NULL, n);
+}
+
+STATUS FMI(GetEventIndicators)(fmi3Instance c, fmi3Float64 indicators[], size_t n) {
+    return (fmi3Status)get_indicators(c, indicators, n);
+}
+
+STATUS FMI(GetNominalsOfContinuousStates)(fmi3Instance c, fmi3Float64 values[], size_t n) {
+    return (fmi3Status)nominals(c, values, n);
+}
+
+STATUS FMI(GetNumberOfEventIndicators)(fmi3Instance c, size_t *n) {
+    (void)c;
+    *n = N_INDICATORS;
+    return fmi3OK;
+}
+
+STATUS FMI(GetNumberOfContinuousStates)(fmi3Instance c, size_t *n) {
+    (void)c;
+    *n = N_STATES;
+    return fmi3OK;
+}
+
+/* -- co-simulation -------------------------------------------------------------------------------- */
+
+STATUS FMI(DoStep)(fmi3Instance instance, fmi3Float64 time, fmi3Float64 h, fmi3Boolean no_return, fmi3Boolean *event,
+                   fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached) {
+    Instance *c = instance;
+    (void)no_return;
+    *event = *terminate = *early = false;
+    const int status = advance(c, time, h);
+    *reached = c->reached;
+    *terminate = status != OK;
+    return (fmi3Status)status;
+}
+
+STATUS FMI(GetOutputDerivatives)(fmi3Instance c, const fmi3ValueReference references[], size_t n,
+                                 const fmi3Int32 orders[], fmi3Float64 values[], size_t size) {
+    (void)references, (void)orders, (void)values, (void)size;
+    return n ? (fmi3Status)complain(c, FAILED, TITLE ": outputs have no derivatives here.") : fmi3OK;
+}

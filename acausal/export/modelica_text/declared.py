@@ -1,0 +1,44 @@
+"""What classes declare: connectors, and names and values of parts."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.export.modelica_text.spelling import class_name, comment, identifier, modifiers, unit
+from acausal.modeling import Component, Connector, Flow, Start, references
+
+Flat = dict[tuple[str, ...], str]
+"""Texts of modifiers, by the names on the way to them."""
+
+ELEMENT = re.compile(r"(.+)\[[0-9,]+\]")
+
+
+def lies_within(value: Any, component: Component) -> bool:
+    """Whether a value refers to nothing outside of a component."""
+    values = [value.value] if isinstance(value, Start) else [value]
+    for one in values:
+        for element in np.ravel(np.asarray(one, dtype=object)):
+            if isinstance(element, sp.Expr) and any(
+                r.owner.route_from(component._node) is None for r in references(element)
+            ):
+                return False
+    return True
+
+
+def plain(name: str) -> str:
+    """The name of a part; an element of a list ``m[2]`` is ``m_2``."""
+    return re.sub(r"\W+", "_", name).rstrip("_") if ELEMENT.fullmatch(name) else name
+
+
+def connector_class(name: str, kind: type[Connector]) -> str:
+    """The text of a connector's class."""
+    lines = [f"connector {name}{comment((kind.__doc__ or '').strip().splitlines()[0])}"]
+    for variable, declared in kind.declarations.items():
+        role = "flow Real" if isinstance(declared, Flow) else "Real"
+        flat: Flat = {(key,): v for key, v in unit(declared.unit).items()}
+        lines.append(f"  {role} {identifier(class_name(variable))}{modifiers(flat)};")
+    return "\n".join([*lines, f"end {name};"])

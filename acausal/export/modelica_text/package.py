@@ -1,0 +1,316 @@
+"""A component tree as a package of Modelica: one class for each structure, one block for each network."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import ModelError
+from acausal.export.modelica_text.declared import Flat, connector_class, lies_within, plain
+from acausal.export.modelica_text.expressions import Printer, equation
+from acausal.export.modelica_text.network import block_of
+from acausal.export.modelica_text.spelling import (
+    array,
+    class_name,
+    comment,
+    dotted,
+    identifier,
+    modifiers,
+    number,
+    unit,
+)
+from acausal.modeling import (
+    Component,
+    Connector,
+    Discrete,
+    InitialParameter,
+    Input,
+    Output,
+    Parameter,
+    Start,
+    Variable,
+    owner_and_name,
+)
+
+
+@dataclass
+class Package:
+    """The classes that have been written so far.
+
+    Attributes:
+        networks: by dotted name. standard: Modelica's name and modifiers of a part that the standard library has, or
+            None. connector: its name of a connector, by class and name, or None. texts: of the classes, by name.
+    """
+
+    networks: Mapping[str, Any]
+    standard: Callable[[Component, str], tuple[str, Flat] | None]
+    connector: Callable[[type, str], str | None]
+    texts: dict[str, str] = field(default_factory=dict)
+    blocks: dict[tuple[int, tuple[int, ...]], str] = field(default_factory=dict)
+
+    def add(self, wanted: str, write: Callable[[str], str]) -> str:
+        """The name of a class; classes of equal text are one."""
+        base = class_name(wanted)
+        for n in range(1, len(self.texts) + 2):
+            name = base if n == 1 else f"{base}_{n}"
+            text = write(name)
+            if self.texts.setdefault(name, text) == text:
+                return name
+        raise AssertionError
+
+    def port(self, kind: type[Connector], name: str) -> str:
+        """The class of a connector."""
+        return self.connector(kind, name) or self.add(
+            kind.__name__, lambda n: connector_class(n, kind)
+        )
+
+    def signal(self, declared: Input | Output) -> str:
+        """The class of a signal."""
+        role = Input if isinstance(declared, Input) else Output
+        word = role.__name__.lower()
+        own = f"Real{role.__name__}"
+        return self.connector(role, "") or self.add(own, lambda n: f"connector {n} = {word} Real;")
+
+    def network(self, name: str, orders: tuple[int, ...]) -> str:
+        """The block of a network, or of a derivative of it."""
+        module = self.networks[name]
+        key = (id(module), orders)
+        if key not in self.blocks:
+            suffix = "_d" + "".join(map(str, orders)) if any(orders) else ""
+            wanted = f"{name[0].upper()}{name[1:]}{suffix}"
+            self.blocks[key] = self.add(wanted, lambda n: block_of(n, module, orders))
+        return self.blocks[key]
+
+    def model(self, component: Component, wanted: str, inputs: Sequence[str] | None = None) -> str:
+        """The class of a component; of the whole model with its open inputs."""
+        return self.add(wanted, lambda name: Model(self, component, inputs).text(name))
+
+
+class Model:
+    """Writes the class of one component."""
+
+    def __init__(
+        self, package: Package, component: Component, inputs: Sequence[str] | None = None
+    ) -> None:
+        self.package, self.component, self.inputs = package, component, inputs or ()
+        self.node = component._node
+        self.calls: dict[tuple[str, str], str] = {}
+        self.feeds: list[str] = []
+        self.printer = Printer(self.path, self._call)
+        self.given: Flat = {}  # what was set in the whole model itself: no class around it says so
+        if inputs is not None:
+            for name, value in self.node.modifiers.items():
+                self.given |= self._modifier(component, name, value, tuple(name.split(".")))
+
+    def text(self, name: str) -> str:
+        """The whole class."""
+        doc = (type(self.component).__doc__ or "").strip().split("\n")[0].replace("`", "")
+        declared = [line for n, d in self.node.declarations() for line in self._declaration(n, d)]
+        parts = self._parts()
+        stated = [
+            line for e in self.component.equations() for line in equation(self.printer, e, "  ")
+        ]
+        start = [
+            line
+            for e in self.component.initial_equations()
+            for line in equation(self.printer, e, "  ")
+        ]
+        pairs = [f"connect({self._end(a)}, {self._end(b)});" for a, b in self.node.connections]
+        for given in self.inputs:
+            own = class_name(given)
+            role = self.package.signal(Input())
+            declared.append(f"{role} {own};")
+            target = dotted(given.split("."))
+            pairs.append(
+                f"connect({own}, {target});" if given.count(".") == 1 else f"{target} = {own};"
+            )
+        blocks = [f"{kind} {own};" for (kind, _), own in self.calls.items()]
+        lines = [f"model {name}{comment(doc)}", *(f"  {line}" for line in [*declared, *parts])]
+        if blocks:
+            lines += ["protected", *(f"  {line}" for line in blocks)]
+        if start:
+            lines += ["initial equation", *start]
+        if stated or self.feeds or pairs:
+            lines += ["equation", *stated, *(f"  {line}" for line in [*self.feeds, *pairs])]
+        return "\n".join([*lines, f"end {name};"])
+
+    # -- names and values ----------------------------------------------------------------------------
+
+    def path(self, reference: Any) -> str:
+        """The name of a reference, seen from the class."""
+        route = reference.owner.route_from(self.node)
+        if route is None:
+            raise ModelError(
+                f"export.modelica: {self.node.label} refers to '{reference.path}' of another component; "
+                "give it by a parameter or a connector"
+            )
+        return dotted([*map(plain, route), *reference.path.split(".")])
+
+    def _end(self, end: Any) -> str:
+        owner, local = owner_and_name(end)
+        route = None if owner is None else owner.route_from(self.node)
+        if route is None:
+            raise ModelError(
+                f"export.modelica: {self.node.label} connects '{local}', which is not part of it"
+            )
+        return dotted([*map(plain, route), *local.split(".")])
+
+    def value(self, given: Any, shape: tuple[int, ...] | None = None) -> str:
+        """The text of a value; one number for a whole array of a shape fills it."""
+        if shape and np.ndim(given) == 0:
+            return f"fill({', '.join([self.value(given), *map(str, shape)])})"
+        if isinstance(given, np.ndarray) and given.ndim == 0:
+            given = given.item()
+        if isinstance(given, list | tuple | np.ndarray):
+            return array(np.asarray(given, dtype=object), self.value)
+        return self.printer.print(given) if isinstance(given, sp.Basic) else number(given)
+
+    def _call(self, call: Any, written: Callable[[Any], str]) -> str:
+        """A network that is applied: an instance of its block, with equations for its inputs."""
+        module, orders, *arguments = call.args
+        prefix = module.owner.path
+        full = f"{prefix}.{module.path}" if prefix else module.path
+        kind = self.package.network(full, tuple(map(int, orders)))
+        texts = list(map(written, arguments))
+        key = (kind, "; ".join(texts))
+        if key not in self.calls:
+            own = self.calls[key] = f"net_{len(self.calls) + 1}"
+            names = ["x"] if len(texts) == 1 else [f"x{i + 1}" for i in range(len(texts))]
+            self.feeds += [f"{own}.{n} = {t};" for n, t in zip(names, texts, strict=True)]
+        return f"{self.calls[key]}.y"
+
+    # -- declarations --------------------------------------------------------------------------------
+
+    def _declaration(self, name: str, declared: Any) -> list[str]:
+        given = {place[1:]: v for place, v in self.given.items() if place[0] == name}
+        if isinstance(declared, Connector):
+            kind = self.package.port(type(declared), name)
+            return [f"{kind} {identifier(name)}{modifiers(given)};"]
+        if not isinstance(declared, Parameter | Variable):
+            return []
+        shape = self.node.shape(name, declared)
+        size = f"[{', '.join(map(str, shape))}]" if shape else ""
+        each = "each " if shape else ""
+        attributes = {f"{each}{key}": v for key, v in unit(declared.unit).items()}
+        if isinstance(declared, Parameter):
+            for key, bound in (("min", declared.min), ("max", declared.max)):
+                if bound is not None:
+                    attributes[f"{each}{key}"] = number(bound)
+            default = declared.default
+            if callable(default) and not isinstance(default, sp.Basic):
+                default = default(self.component)
+            value = given.pop((), None if default is None else self.value(default, shape))
+            kind = "parameter Real"
+        else:
+            attributes |= self._attributes(declared, each)
+            kind, value = self._kind(declared), given.pop((), None)
+        flat: Flat = {(key,): v for key, v in attributes.items()}
+        for (key,), text in given.items():
+            flat.pop((f"each {key}",), None)
+            flat[key,] = text
+        binding = "" if value is None else f" = {value}"
+        return [
+            f"{kind} {identifier(name)}{size}{modifiers(flat)}{binding}{comment(declared.doc)};"
+        ]
+
+    def _kind(self, declared: Variable) -> str:
+        match declared:
+            case InitialParameter():
+                return "parameter Real"
+            case Discrete():
+                return "discrete Real" if declared.kind == "real" else "Integer"
+            case Input() | Output():
+                return self.package.signal(declared)
+            case _:
+                return "Real"
+
+    def _attributes(self, declared: Variable, each: str) -> dict[str, str]:
+        """Start, fixed, nominal and priority, each perhaps that of another attribute of the component."""
+
+        def settled(given: Any) -> Any:
+            return getattr(self.component, given) if isinstance(given, str) else given
+
+        found: dict[str, str] = {}
+        start, fixed, nominal = map(settled, (declared.start, declared.fixed, declared.nominal))
+        state = declared.state
+        if state not in ("never", "avoid", "default", "prefer", "always"):
+            state = settled(state)
+        if isinstance(start, sp.Basic | list | tuple | np.ndarray) or start != 0 or fixed:
+            bare = isinstance(start, list | tuple | np.ndarray)
+            found["start" if bare else f"{each}start"] = self.value(start)
+        if isinstance(declared, InitialParameter):
+            return {**found, "fixed": "false"}
+        if isinstance(declared, Discrete) and not fixed:
+            fixed = True  # the value before the first event
+        if fixed:
+            found[f"{each}fixed"] = "true"
+        if nominal != 1:
+            found[f"{each}nominal"] = self.value(nominal)
+        if state != "default":
+            found[f"{each}stateSelect"] = f"StateSelect.{state}"
+        return found
+
+    # -- parts ---------------------------------------------------------------------------------------
+
+    def _parts(self) -> list[str]:
+        return [self._part(name, part) for name, part in self.node.children.items()]
+
+    def _part(self, name: str, part: Component) -> str:
+        known = self.package.standard(self.component, name)
+        if known is not None:
+            kind, flat = known
+        else:
+            kind = self.package.model(part, part._node.title or type(part).__name__)
+            flat = self._own(part, ())
+        return f"{kind} {identifier(plain(name))}{modifiers(flat)};"
+
+    def _own(self, part: Component, path: tuple[str, ...]) -> Flat:
+        """Modifiers of a part, and those of parts within it whose values refer to this class."""
+        found: Flat = {}
+        top = self.component._node.children[path[0]] if path else part
+        for name, value in part._node.modifiers.items():
+            if not lies_within(value, self.component) or (path and lies_within(value, top)):
+                continue
+            place = (*map(plain, path[1:]), *name.split("."))
+            found |= self._modifier(part, name, value, place)
+        own = path or (part._node.name,)
+        for name, child in part._node.children.items():
+            found |= self._own(child, (*own, name))
+        return found
+
+    def _modifier(self, part: Component, name: str, value: Any, place: tuple[str, ...]) -> Flat:
+        declared = part._node.declaration(name.partition(".")[0])
+        known = isinstance(declared, Parameter | Variable)
+        shape = part._node.shape(name, declared) if known else None
+        if not isinstance(value, Start):
+            return {place: self.value(value, shape)} if known else {}
+        found: Flat = {}
+        if value.value is not None:
+            found[*place, "start"] = self.value(value.value, shape)
+        if value.nominal is not None:
+            found[*place, "nominal"] = self.value(value.nominal, shape)
+        each = "each " if shape else ""
+        if value.fixed is not None:
+            found[*place, f"{each}fixed"] = "true" if value.fixed else "false"
+        if value.state is not None:
+            found[*place, f"{each}stateSelect"] = f"StateSelect.{value.state}"
+        return found
+
+
+def package_of(
+    model: Component, title: str, about: str, package: Package, inputs: Sequence[str]
+) -> str:
+    """The text of a package whose last class is the model.
+
+    Arguments:
+        title: name of the package. about: its description. inputs: dotted names of the model's open inputs.
+    """
+    open_inputs = [name for name in inputs if "." in name and not name.startswith("der(")]
+    package.model(model, model._node.title or type(model).__name__, open_inputs)
+    indented = ["  " + line for text in package.texts.values() for line in [*text.split("\n"), ""]]
+    lines = [f"package {title}{comment(about)}", *indented, f"end {title};", ""]
+    return "\n".join(line.rstrip() for line in lines)

@@ -1,0 +1,96 @@
+"""How names, units, numbers and modifiers are spelled in Modelica."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+KEYWORDS = frozenset([
+    "algorithm", "and", "annotation", "assert", "block", "break", "class", "connect", "connector", "constant",
+    "constrainedby", "der", "discrete", "each", "else", "elseif", "elsewhen", "encapsulated", "end", "enumeration",
+    "equation", "expandable", "extends", "external", "false", "final", "flow", "for", "function", "if", "import",
+    "impure", "in", "initial", "inner", "input", "loop", "model", "not", "operator", "or", "outer", "output",
+    "package", "parameter", "partial", "protected", "public", "pure", "record", "redeclare", "replaceable",
+    "return", "stream", "then", "true", "type", "when", "while", "within",
+])  # fmt: skip
+"""Words that no element may have as its name; they are quoted."""
+
+PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+UNIT = re.compile(r"[A-Za-zΩµ%.0-9/()\-]*")
+
+
+def identifier(name: str) -> str:
+    """A name, quoted where Modelica needs that; an index stays behind it."""
+    word, bracket, index = name.partition("[")
+    if not PLAIN.fullmatch(word) or word in KEYWORDS:
+        escaped = word.replace("\\", "\\\\").replace("'", "\\'")
+        word = f"'{escaped}'"
+    return word + bracket + index
+
+
+def dotted(path: Sequence[str]) -> str:
+    """A name of names."""
+    return ".".join(map(identifier, path))
+
+
+def class_name(name: str) -> str:
+    """A name for a class: letters, digits and underscores."""
+    word = re.sub(r"\W+", "_", name, flags=re.ASCII).strip("_") or "Model"
+    return f"M_{word}" if word[0].isdigit() or word in KEYWORDS else word
+
+
+def text(value: object) -> str:
+    """A text in quotes."""
+    escaped = " ".join(str(value).split()).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{escaped}"'
+
+
+def comment(value: object) -> str:
+    """A description behind a declaration."""
+    return f" {text(value)}" if value else ""
+
+
+def number(value: Any) -> str:
+    """A number in full; whole ones without a point."""
+    real = float(value)
+    return str(int(real)) if real.is_integer() and abs(real) < 1e15 else repr(real)
+
+
+def array(value: Any, spelled: Any = number) -> str:
+    """Numbers in braces, row by row."""
+    if isinstance(value, str) or np.ndim(value) == 0:
+        return spelled(value)
+    return "{" + ", ".join(array(v, spelled) for v in value) + "}"
+
+
+def unit(given: str) -> dict[str, str]:
+    """The attribute of a unit; one that Modelica cannot spell, such as ``N^0.5``, is left out."""
+    return {"unit": text(given)} if given and UNIT.fullmatch(given) else {}
+
+
+def modifiers(flat: Mapping[tuple[str, ...], str]) -> str:
+    """Modifiers in parentheses, nested: ``(m=1, s(start=0, fixed=true))``."""
+    if not flat:
+        return ""
+    tree: dict[str, Any] = {}
+    for path, value in flat.items():
+        inner = tree
+        for word in path[:-1]:
+            inner = inner.setdefault(word, {})
+            if isinstance(inner, str):
+                break
+        else:
+            inner[path[-1]] = value
+    return f"({_nested(tree)})"
+
+
+def _nested(tree: Mapping[str, Any]) -> str:
+    parts: list[str] = []
+    for name, value in tree.items():
+        each, bare = name.startswith("each "), name.removeprefix("each ")
+        word = ("each " if each else "") + identifier(bare)
+        parts.append(f"{word}({_nested(value)})" if isinstance(value, dict) else f"{word}={value}")
+    return ", ".join(parts)

@@ -1,0 +1,79 @@
+"""Names of the Modelica Standard Library for parts of the library."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from acausal.export.modelica_text.spelling import array, number
+from acausal.modeling import Component, Option
+from acausal.netlist import Library, Writer, installed
+
+TYPES: dict[str, str] = {
+    **dict.fromkeys(("never", "avoid", "default", "prefer", "always"), "StateSelect"),
+    **{
+        value: f"Modelica.Blocks.Types.{kind}"
+        for kind, values in {
+            "Init": "NoInit SteadyState InitialState InitialOutput",
+            "SimpleController": "P PI PD PID",
+            "Smoothness": "LinearSegments ContinuousDerivative ConstantSegments MonotoneContinuousDerivative1 "
+            "MonotoneContinuousDerivative2 ModifiedContinuousDerivative",
+            "Extrapolation": "HoldLastPoint LastTwoPoints Periodic NoExtrapolation",
+            "AnalogFilter": "CriticalDamping Bessel Butterworth ChebyshevI",
+            "FilterType": "LowPass HighPass BandPass BandStop",
+            "Regularization": "Exp Sine Linear CoSine",
+            "TimeEvents": "Always AtDiscontinuities NoTimeEvents",
+        }.items()
+        for value in values.split()
+    },
+}
+"""The type of Modelica that has a choice of an option."""
+
+Flat = dict[tuple[str, ...], str]
+
+
+def standard_part(model: Component, name: str) -> tuple[str, Flat] | None:
+    """Modelica's name and the modifiers of a part that the standard library has, else None."""
+    part = model._node.children[name]
+    if not any((n := b.name_of(type(part))) and n.startswith("Modelica.") for b in installed()):
+        return None
+    entry = Writer(installed()).part(model, name)
+    return entry["class"], _flat(entry.get("with", {}), part)
+
+
+def standard_connector(kind: type, name: str) -> str | None:
+    """Modelica's name of a connector or signal; of several, that which fits the name of the connector."""
+    names = [n for b in installed() for n in _names(b, kind) if n.startswith("Modelica.")]
+    ending = {"p": "PositivePin", "n": "NegativePin"}.get(name, name[-2:])
+    fitting = [n for n in names if n.endswith(ending)] if name else []
+    return next(iter([*fitting, *names]), None)
+
+
+def _names(library: Library, kind: type) -> list[str]:
+    return [n for n in library.modelica_names if library.find(n) is kind]
+
+
+def _flat(given: Mapping[str, Any], part: Component | None) -> Flat:
+    found: Flat = {}
+    for key, value in given.items():
+        declared = part._node.declaration(key) if part is not None else None
+        if isinstance(value, Mapping):
+            inner = part._node.children.get(key) if part is not None else None
+            found |= {(key, *path): text for path, text in _flat(value, inner).items()}
+        else:
+            found[key,] = _text(value, declared)
+    return found
+
+
+def _text(value: Any, declared: Any) -> str:
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case int() | float():
+            return number(value)
+        case list():
+            return array(value, lambda v: _text(v, declared))
+        case str() if isinstance(declared, Option) and value in TYPES:
+            return f"{TYPES[value]}.{value}"
+        case _:
+            return str(value)

@@ -1,0 +1,83 @@
+"""Networks and right-hand sides as ONNX files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from jax.typing import DTypeLike
+
+from acausal._jax import need_double_precision, precision
+from acausal.export.choice import chosen
+from acausal.export.files import need_package, new_file, write
+from acausal.export.subject import Subject, traced
+from acausal.system import System
+
+
+def onnx(
+    model: System | Callable[..., Any],
+    path: str | Path,
+    params: Mapping[str, Any] | None = None,
+    *,
+    network: str | None = None,
+    inputs: Sequence[str] | None = None,
+    outputs: Sequence[str] = (),
+    units: Mapping[str, str] | None = None,
+    parameters: bool = False,
+    batch: str | None = None,
+    dtype: DTypeLike = "float64",
+    overwrite: bool = False,
+) -> Path:
+    """Write a network, or the right-hand side of a model, as an ONNX file.
+
+    A network is a function of its arguments in physical units: scales and promises are part of the graph. Of a model
+    the file has inputs ``t``, ``x``, ``u`` (and ``d``, the discrete variables, if there are any), and results
+    ``der(x)`` and ``y``; what has no elements is left out. The file's ``metadata_props`` have the names and units of
+    all elements.
+
+    Arguments:
+        model: a compiled system, or a network: a module that is called with scalars.
+        path: the file, usually ``….onnx``.
+        params: of the system; by default its own.
+        network: the name of a network among ``params``, to write it alone.
+        inputs: names of a network's arguments; by default those of the equation in which the system calls it, else
+            ``x`` or ``x1``, ``x2``, ...
+        outputs: names of the variables in ``y``; of a network the name of its result.
+        units: of a network's inputs and output, by name; those of the system where it knows them.
+        parameters: whether the system's parameters, and the weights of its networks, are inputs, too; their values
+            are the defaults.
+        batch: the name of a leading dimension of all inputs but parameters, such as ``"N"``; by default there is none.
+        dtype: ``"float64"`` or ``"float32"``. What is computed iteratively needs double precision.
+        overwrite: whether the file may exist.
+
+    Returns:
+        The path.
+
+    Raises:
+        DataError: in one sentence, for an operation that has no counterpart in ONNX, an unknown name, a path that
+            exists, or if the package onnx is not installed.
+    """
+    need_double_precision()
+    real = precision(dtype)
+    target = new_file(path, "onnx", overwrite)
+    need_package("onnx", "onnx")
+    from acausal.export.graph import model_of
+
+    subject = chosen(model, params, network, inputs, outputs, units or {}, parameters, "onnx")
+    closed = traced(subject, batch, "onnx")
+    names = [p.name for p in subject.inputs], [p.name for p in subject.outputs]
+    defaults = {p.name: p.default for p in subject.inputs if p.default is not None}
+    message = model_of(closed, names, defaults, real, subject.title, notes(subject))
+    write(target, message.SerializeToString(), "onnx")
+    return target
+
+
+def notes(subject: Subject) -> dict[str, str]:
+    """Names and units of the elements of each input and result, as JSON."""
+    return {
+        f"acausal.{p.name}": json.dumps({"names": p.elements, "units": p.units})
+        for p in (*subject.inputs, *subject.outputs)
+        if p.default is None
+    }

@@ -1,0 +1,202 @@
+"""Parameters without a gradient: they act through conditions alone that are not events, but make values jump."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from acausal.flattening.reading import read_statements
+from acausal.modeling import (
+    Component,
+    Discrete,
+    Eq,
+    Parameter,
+    Reference,
+    Tick,
+    Variable,
+    Watched,
+    When,
+    literal,
+    number_or_truth,
+    time,
+)
+
+POINTS = 3
+"""So many random points on the surface where a condition changes are looked at."""
+
+LIBRARY = "acausal.components."
+"""Where classes come from whose conditions users cannot change."""
+
+CLOSE = 1e-9
+"""Two values that differ by less, are equal."""
+
+
+@dataclass(frozen=True)
+class Silent:
+    """A parameter of a component that acts through a condition alone.
+
+    Attributes:
+        parameter: its local name. condition: in words.
+        asked: whether this is as the class means it: the condition would be an event if the model had others
+            (``events=None``), or the library keeps it literal.
+    """
+
+    parameter: str
+    condition: str
+    asked: bool
+
+    def sentence(self, name: str) -> str:
+        """What to say of the parameter, by its dotted name."""
+        mend = (
+            "compile the model by ac.compile(model, events=True)"
+            if self.asked
+            else "write ac.where(..., events=True)"
+        )
+        return (
+            f"The gradient by '{name}' is zero, as it acts through the condition {self.condition} alone, which is no "
+            f"event; {mend}."
+        )
+
+
+def silent_parameters(
+    component: Component, stated: Sequence[Any], *, with_events: bool
+) -> tuple[Silent, ...]:
+    """The parameters of a component that act through conditions alone at which values jump, unseen by derivatives.
+
+    Arguments:
+        component: whose equations are looked at. stated: all that it states.
+        with_events: whether the model has events, so that conditions with ``events=None`` are watched.
+    """
+    sides = [s for one in stated if _is_literal(one) for s in (one.lhs, one.rhs)]
+    cased = [number_or_truth(s) for s in sides if s.has(sp.Piecewise, Watched)]
+    relations = {r for s in cased for r in s.atoms(Relational)}
+    if not any(_parameters(r, component) and _changes(r) for r in relations):
+        return ()
+    ours = type(component).__module__.startswith(LIBRARY)
+    found: dict[Reference, Silent] = {}
+    visible: set[Any] | None = None
+    for asked, condition, value, otherwise in _cases(cased, with_events):
+        for relation in sorted(condition.atoms(Relational), key=str):
+            some = _parameters(relation, component)
+            if not some or not _changes(relation):
+                continue
+            visible = _visible(component, stated, with_events) if visible is None else visible
+            unseen = [p for p in some if p not in found and p not in visible]
+            if unseen and _jumps(relation, value - otherwise):
+                found |= {p: Silent(p.path, str(relation), asked or ours) for p in unseen}
+    return tuple(found.values())
+
+
+def _is_literal(stated: Any) -> bool:
+    """Whether this is an equation that holds at all times; in those of discrete variables, conditions are events."""
+    return isinstance(stated, Eq) and not _gives_discrete(stated)
+
+
+def _gives_discrete(equation: Eq) -> bool:
+    sides = (equation.lhs, equation.rhs)
+    return any(isinstance(s, Reference) and isinstance(s.declaration, Discrete) for s in sides)
+
+
+def _cases(sides: Sequence[Any], with_events: bool) -> Iterator[tuple[bool, Any, Any, Any]]:
+    """Case distinctions that are evaluated as they stand: a condition, the value where it holds, and the other."""
+    for side in sides:
+        for watched in sorted(side.atoms(Watched), key=str):
+            condition, value, otherwise, always = watched.args
+            if not (with_events or always == 1):
+                yield True, condition, literal(value), literal(otherwise)
+        for pieces in sorted(side.atoms(sp.Piecewise), key=str):
+            args = [(literal(v), c) for v, c in pieces.args]
+            for k, (value, condition) in enumerate(args[:-1]):
+                yield False, condition, value, sp.Piecewise(*args[k + 1 :])
+
+
+def _parameters(relation: Any, component: Component) -> list[Reference]:
+    """The component's own parameters in a relation, in order of declaration."""
+    own = [
+        s
+        for s in relation.free_symbols
+        if isinstance(s, Reference)
+        and isinstance(s.declaration, Parameter)
+        and s.owner is component._node
+    ]
+    return sorted(own, key=lambda s: s.serial)
+
+
+def _changes(relation: Any) -> bool:
+    """Whether a relation can change in a run."""
+    return any(
+        s == time or (isinstance(s, Reference) and isinstance(s.declaration, Variable))
+        for s in relation.free_symbols
+    )
+
+
+def _jumps(relation: Any, difference: Any) -> bool:
+    """Whether a difference is not zero where a relation changes, as far as some points can tell."""
+    number = relation.lhs - relation.rhs
+    symbols = sorted(number.free_symbols, key=str)
+    for symbol in symbols:
+        slope = number.diff(symbol)
+        if slope != 0 and symbol not in slope.free_symbols:
+            on_surface = difference.xreplace({symbol: symbol - number / slope})
+            return _differs_from_zero(on_surface)
+    return False
+
+
+def _differs_from_zero(expression: Any) -> bool:
+    others = sorted(expression.free_symbols, key=str)
+    numbers = random.Random(0)
+    for _ in range(POINTS):
+        values = {s: sp.Float(numbers.uniform(0.5, 2.0)) for s in others}
+        try:
+            if abs(float(expression.xreplace(values))) > CLOSE:
+                return True
+        except (TypeError, ValueError):
+            return False  # it holds a network, or has no value there
+    return False
+
+
+def _visible(component: Component, stated: Sequence[Any], with_events: bool) -> set[Any]:
+    """The symbols that act in another way than through conditions as they stand."""
+    found: set[Any] = set()
+    for one in stated:
+        if _is_literal(one):
+            for side in (one.lhs, one.rhs):
+                found |= _acting(number_or_truth(side), with_events).free_symbols
+        elif isinstance(one, Eq):
+            found |= one.lhs.free_symbols | one.rhs.free_symbols
+        elif isinstance(one, When):
+            for link in one.chain():
+                parts = [p for s in link.statements for p in vars(s).values()]
+                found |= {s for part in (*link.conditions, *parts) for s in part.free_symbols}
+    for tick in [s for s in found if isinstance(s, Tick)]:
+        found |= tick.start.free_symbols | tick.period.free_symbols
+    node = component._node
+    given = [*node.modifiers.values(), *(node.class_declarations.values())]
+    for child in node.children.values():
+        given += child._node.modifiers.values()
+    for value in given:
+        for inner in (value, *(getattr(value, n, None) for n in ("value", "default", "start"))):
+            if isinstance(inner, sp.Basic):
+                found |= inner.free_symbols
+    for equation in read_statements(component, component.initial_equations, 0):
+        if isinstance(equation, Eq):
+            found |= equation.lhs.free_symbols | equation.rhs.free_symbols
+    return found
+
+
+def _acting(expression: Any, with_events: bool) -> sp.Basic:
+    """What acts in an expression: its arguments as tuples, without the conditions that are not events."""
+    if isinstance(expression, sp.Piecewise):
+        return sp.Tuple(*(_acting(piece.args[0], with_events) for piece in expression.args))
+    if isinstance(expression, Watched):
+        condition, value, otherwise, always = iter(expression.args)
+        kept = [condition] if with_events or always == 1 else []
+        return sp.Tuple(_acting(value, with_events), _acting(otherwise, with_events), *kept)
+    if not expression.args:
+        return expression
+    return sp.Tuple(*(_acting(a, with_events) for a in expression.args))

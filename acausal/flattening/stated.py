@@ -1,0 +1,390 @@
+"""What a component states: equations that hold at all times, and those of discrete variables, which hold at events.
+
+Conditions that are watched become hidden discrete variables, 1 or 0; between events they are known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy as sp
+from sympy.core.relational import Relational
+
+from acausal.errors import DeclarationError
+from acausal.flattening.silent import Silent
+from acausal.modeling import (
+    HALF,
+    INITIAL,
+    Component,
+    Discrete,
+    Eq,
+    Floored,
+    Previous,
+    Reference,
+    Reinit,
+    Tick,
+    Variable,
+    Watched,
+    When,
+    der,
+    literal,
+    number_or_truth,
+    time,
+)
+
+HIDDEN = "_event"
+"""How the names of hidden discrete variables begin."""
+
+TINY = sp.Float(1e-60)
+"""No period is shorter [s]."""
+
+ROUNDING = sp.Float(1e-9)
+"""Of a period: an instant that is so near has come."""
+
+
+@dataclass(frozen=True)
+class Guard:
+    """``target`` is 1 where ``value > 0`` (or ``>= 0`` unless ``strict``), else 0; steps end where that changes.
+
+    Attributes:
+        text: the condition, for messages.
+        ticks: whether it is a clock's: not true while initial values are found.
+    """
+
+    target: Reference
+    value: sp.Expr
+    strict: bool
+    text: str
+    ticks: bool = False
+
+
+@dataclass(frozen=True)
+class Update:
+    """``target = value`` at every event; of a state, what it jumps to."""
+
+    target: Reference
+    value: sp.Expr
+    text: str
+
+
+@dataclass(frozen=True)
+class Stated:
+    """What a component states.
+
+    Attributes:
+        equations: hold at all times; without hidden conditions yet where the model has no events.
+        guards, updates, jumps: what holds at events.
+        hidden: local names and declarations of the hidden variables.
+        silent: parameters that act through conditions alone that are not events.
+    """
+
+    equations: tuple[Eq, ...]
+    guards: tuple[Guard, ...] = ()
+    updates: tuple[Update, ...] = ()
+    jumps: tuple[Update, ...] = ()
+    hidden: tuple[tuple[str, Discrete], ...] = ()
+    silent: tuple[Silent, ...] = ()
+
+
+def asks_for_events(declared: Iterable[Variable], stated: Iterable[Any]) -> bool:
+    """Whether a component has discrete variables or events of its own, whatever the rest of the model has."""
+    if any(isinstance(v, Discrete) for v in declared):
+        return True
+    return any(isinstance(s, When) or _always_watched(s) for s in stated)
+
+
+def _always_watched(stated: Any) -> bool:
+    if not isinstance(stated, Eq):
+        return False
+    sides = (stated.lhs, stated.rhs)
+    if any(side.has(Previous, Tick) for side in sides):
+        return True
+    return any(w.args[-1] == 1 for side in sides for w in side.atoms(Watched, Floored))
+
+
+def without_events(equation: Eq) -> Eq:
+    """The equation as it stands, its conditions not watched."""
+    sides = (number_or_truth(equation.lhs), number_or_truth(equation.rhs))
+    if not any(s.has(Watched, Floored) for s in sides):
+        return Eq(*sides)
+    return Eq(*(literal(s) for s in sides))
+
+
+def with_events(component: Component, stated: Sequence[Any]) -> Stated:
+    """Sort what a component states, and watch its conditions.
+
+    Raises:
+        DeclarationError: for a discrete variable that is not given explicitly, or twice.
+    """
+    return _Sorting(component).sorted(stated)
+
+
+@dataclass
+class _Sorting:
+    component: Component
+    guards: list[Guard] = field(default_factory=list[Guard])
+    updates: dict[Reference, Update] = field(default_factory=dict[Reference, Update])
+    jumps: dict[Reference, Update] = field(default_factory=dict[Reference, Update])
+    hidden: list[tuple[str, Discrete]] = field(default_factory=list[tuple[str, Discrete]])
+    known: dict[Any, Reference] = field(default_factory=dict[Any, Reference])
+
+    def sorted(self, stated: Sequence[Any]) -> Stated:
+        """All of it, each where it belongs."""
+        equations: list[Eq] = []
+        for one in stated:
+            if isinstance(one, When):
+                self._when(one)
+            elif not isinstance(one, Eq):
+                equations.append(one)  # refused where templates are made
+            elif (target := _discrete_side(one)) is not None:
+                value = one.rhs if target is one.lhs else one.lhs
+                self._update(target, self._watched(number_or_truth(value)), str(one))
+            else:
+                equations.append(self._continuous(one))
+        return Stated(
+            tuple(equations),
+            tuple(self.guards),
+            tuple(self.updates.values()),
+            tuple(self.jumps.values()),
+            tuple(self.hidden),
+        )
+
+    # -- equations ---------------------------------------------------------------------------------
+
+    def _continuous(self, equation: Eq) -> Eq:
+        sides = [number_or_truth(s) for s in (equation.lhs, equation.rhs)]
+        if not any(s.has(Watched, Floored, Previous, Tick) for s in sides):
+            return Eq(*sides)
+        return Eq(*(self._held(self._cases(side)) for side in sides))
+
+    def _held(self, expression: Any) -> Any:
+        """What holds between events: values before an event, and clocks, become variables."""
+        replaced: dict[Any, Any] = {}
+        for symbol in _in_order(expression.atoms(Previous, Tick)):
+            replaced[symbol] = self._variable(symbol, self._ticking(symbol), "real")
+        return expression.xreplace(replaced)
+
+    def _variable(self, key: Any, value: Any, kind: Any) -> Reference:
+        """A hidden variable for an expression; the same for the same."""
+        if key not in self.known:
+            reference = self.known[key] = self._new(kind)
+            text = str(key[-1] if isinstance(key, tuple) else key)
+            self.updates[reference] = Update(reference, value, text)
+        return self.known[key]
+
+    def _update(self, target: Reference, value: sp.Expr, text: str) -> None:
+        if target in self.updates:
+            raise DeclarationError(
+                f"{self.component._node.label}: two equations give the discrete variable '{target.path}': "
+                f"{self.updates[target].text}, and {text}"
+            )
+        self.updates[target] = Update(target, value, text)
+
+    # -- when --------------------------------------------------------------------------------------
+
+    def _when(self, when: When) -> None:
+        """Its statements, each where its condition has just come true and none before it in the chain."""
+        cases: dict[Reference, list[tuple[sp.Expr, Any]]] = {}
+        jumps: dict[Reference, list[tuple[sp.Expr, Any]]] = {}
+        earlier: list[Any] = []
+        for link in when.chain():
+            happens = sp.And(self._comes_true(link), *(sp.Not(e) for e in earlier))
+            earlier.append(happens)
+            for statement in link.statements:
+                if isinstance(statement, Reinit):
+                    value = self._ticking(literal(statement.value))
+                    jumps.setdefault(statement.state, []).append((value, happens))
+                    continue
+                target = _discrete_side(statement)
+                if target is None:
+                    raise DeclarationError(
+                        f"{self.component._node.label}: {statement} stands in When(...), but neither side is a "
+                        "discrete variable; declare it as ac.Discrete"
+                    )
+                value = statement.rhs if target is statement.lhs else statement.lhs
+                value = self._ticking(literal(number_or_truth(value)))
+                cases.setdefault(target, []).append((value, happens))
+        for target, some in cases.items():
+            self._update(target, sp.Piecewise(*some, (Previous(target), True)), str(when))
+        for state, some in jumps.items():
+            if state in self.jumps:
+                raise DeclarationError(
+                    f"{self.component._node.label}: two When(...) make '{state.path}' jump; join them by otherwise="
+                )
+            value = sp.Piecewise(*some, (state, True))
+            self.jumps[state] = Update(state, value, str(when))
+
+    def _comes_true(self, when: When) -> Any:
+        """The condition under which it happens, in terms of hidden variables."""
+        initial = sp.Gt(INITIAL, HALF)
+        happens: list[Any] = []
+        for condition in when.conditions:
+            later = condition.xreplace({initial: sp.false})
+            if condition.xreplace({initial: sp.true}) is sp.true:
+                happens.append(initial)
+            if later is not sp.false:
+                c = self._condition(later)
+                rises = sp.And(sp.Gt(c, HALF), sp.Le(Previous(c), HALF))
+                happens.append(sp.And(sp.Le(INITIAL, HALF), rises))
+        return sp.Or(*happens)
+
+    def _condition(self, condition: Any) -> Reference:
+        """A hidden variable that is 1 where a condition holds."""
+        truth = self._truth(condition)
+        guards = {sp.Gt(g.target, HALF): g.target for g in self.guards}
+        value = sp.Piecewise((1, truth), (0, True))
+        return guards.get(truth) or self._variable(("condition", condition), value, "bool")
+
+    # -- conditions --------------------------------------------------------------------------------
+
+    def _watched(self, expression: Any) -> Any:
+        """The value of a discrete equation, all its conditions watched."""
+        pieces = literal(expression.replace(Floored, self._floor))
+        conditions = {c for p in pieces.atoms(sp.Piecewise) for _, c in p.args}
+        replaced = {c: self._truth(c) for c in _in_order(conditions) if c is not sp.true}
+        return self._ticking(pieces.xreplace(replaced))
+
+    def _cases(self, expression: Any) -> Any:
+        """The value of an equation that holds at all times, its watched conditions frozen."""
+        return expression.replace(Floored, self._floor).replace(Watched, self._frozen)
+
+    def _frozen(self, condition: Any, value: Any, otherwise: Any, _: Any) -> Any:
+        return sp.Piecewise((value, self._truth(condition)), (otherwise, True))
+
+    def _truth(self, condition: Any) -> Any:
+        """A condition whose comparisons of what changes continuously are hidden variables."""
+        replaced = {
+            r: sp.Gt(self._guard(r), HALF)
+            for r in _in_order(condition.atoms(Relational))
+            if _is_continuous(r)
+        }
+        return self._ticking(condition.xreplace(replaced))
+
+    def _guard(self, relation: Any) -> Reference:
+        if relation not in self.known:
+            if not isinstance(relation, sp.Gt | sp.Ge | sp.Lt | sp.Le):
+                raise DeclarationError(
+                    f"{self.component._node.label}: {relation} cannot be watched, as two numbers are hardly ever "
+                    "equal; compare by > or <"
+                )
+            above = isinstance(relation, sp.Gt | sp.Ge)
+            lhs, rhs = literal(relation.lhs), literal(relation.rhs)
+            value: Any = lhs - rhs if above else rhs - lhs
+            strict = isinstance(relation, sp.Gt | sp.Lt)
+            target = self.known[relation] = self._new("bool")
+            self.guards.append(Guard(target, self._ticking(value), strict, str(relation)))
+        return self.known[relation]
+
+    def _floor(self, number: Any, _: Any) -> Reference:
+        """The greatest integer not above a number, as a hidden variable.
+
+        Of the integers at both ends of where the number now lies, one is even and one is odd. Each has a condition of
+        its own, so that the one that has just been passed stays what it has become, whatever rounding makes of it.
+        """
+        key = Floored(number, sp.S.Zero)
+        if key not in self.known:
+            n = self.known[key] = self._new("int")
+            before, number = Previous(n), self._ticking(literal(number))
+            ends = 2 * sp.floor((before + 1) / 2), 2 * sp.floor(before / 2) + 1
+            passed: list[Any] = []
+            for end in ends:
+                passed.append(r := self._new("bool"))
+                self.guards.append(Guard(r, number - end, False, f"floor({number})"))
+            up = sp.Or(
+                *(
+                    sp.And(sp.Gt(e, before), sp.Gt(r, HALF))
+                    for e, r in zip(ends, passed, strict=True)
+                )
+            )
+            down = sp.Or(
+                *(
+                    sp.And(sp.Le(e, before), sp.Le(r, HALF))
+                    for e, r in zip(ends, passed, strict=True)
+                )
+            )
+            value = sp.Piecewise(
+                (sp.floor(number + ROUNDING), sp.Gt(INITIAL, HALF)),
+                (sp.Max(before + 1, sp.floor(number)), up),
+                (sp.Min(before - 1, sp.floor(number)), down),
+                (before, True),
+            )
+            self.updates[n] = Update(n, value, f"floor({number})")
+        return self.known[key]
+
+    def _ticking(self, expression: Any) -> Any:
+        """Clocks become hidden variables: how often each has ticked, and whether it just does."""
+        ticks = expression.atoms(Tick) if isinstance(expression, sp.Basic) else ()
+        replaced = {tick: self._tick(tick) for tick in _in_order(ticks)}
+        if not replaced:
+            return expression
+        return expression.xreplace(replaced)
+
+    def _tick(self, tick: Tick) -> Any:
+        if tick not in self.known:
+            r, count = self._new("bool"), self._new("int")
+            now = self.known[tick] = self._new("bool")
+            due = time - (tick.start + Previous(count) * tick.period)
+            self.guards.append(Guard(r, due, False, str(tick), ticks=True))
+            just = sp.And(sp.Gt(r, HALF), sp.Le(Previous(r), HALF))
+            passed = sp.Max(0, sp.ceiling((time - tick.start) / tick.period - ROUNDING))
+            if (
+                not tick.period.is_number
+            ):  # not finite for a period that is not positive; else nothing
+                passed += sp.floor(TINY / sp.Max(tick.period, 0))
+            counted = sp.Piecewise(
+                (passed, sp.Gt(INITIAL, HALF)), (Previous(count) + 1, just), (Previous(count), True)
+            )
+            self.updates[count] = Update(count, counted, str(tick))
+            self.updates[now] = Update(now, sp.Piecewise((1, just), (0, True)), str(tick))
+        return self.known[tick]
+
+    def _new(self, kind: Any) -> Reference:
+        declaration = Discrete(0, kind=kind)
+        path = f"{HIDDEN}[{len(self.hidden) + 1}]"
+        declaration.name = path
+        self.hidden.append((path, declaration))
+        return Reference(self.component._node, path, declaration)
+
+
+def _discrete_side(equation: Eq) -> Reference | None:
+    """The discrete variable that an equation gives, if a side is one.
+
+    The right side only if the left one is not a variable: ``y = n`` with a discrete n gives y, ``der(x) = n`` gives x.
+    """
+    if any(s.has(der) for s in (equation.lhs, equation.rhs) if isinstance(s, sp.Basic)):
+        return None
+    for side in (equation.lhs, equation.rhs):
+        if isinstance(side, Reference) and isinstance(side.declaration, Variable):
+            return side if isinstance(side.declaration, Discrete) else None
+    return None
+
+
+def _in_order(expressions: Iterable[Any]) -> list[Any]:
+    """Expressions in an order that does not depend on the hash seed, though some may read alike."""
+
+    def key(expression: Any) -> tuple[str, list[int]]:
+        symbols = set(expression.free_symbols)
+        for tick in expression.atoms(Tick):
+            symbols |= tick.start.free_symbols | tick.period.free_symbols
+        return str(expression), sorted(map(_serial, symbols))
+
+    return sorted(expressions, key=key)
+
+
+def _serial(symbol: Any) -> int:
+    reference = symbol.reference if isinstance(symbol, Previous) else symbol
+    return reference.serial if isinstance(reference, Reference) else -1
+
+
+def _is_continuous(relation: Relational) -> bool:
+    """Whether a comparison can change between events."""
+    for symbol in relation.free_symbols:
+        if symbol == time:
+            return True
+        if isinstance(symbol, Reference):
+            declared = symbol.declaration
+            if isinstance(declared, Variable) and not isinstance(declared, Discrete):
+                return True
+    return bool(relation.has(sp.Function) and not relation.free_symbols)

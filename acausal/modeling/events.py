@@ -1,0 +1,237 @@
+"""The language of events: values before an event, conditions that are watched, and what happens when one comes true.
+
+A condition is an expression of sympy's: a comparison, ``&``, ``|`` and ``~`` of others, or a variable that is 1 or 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
+
+from acausal.errors import DeclarationError, shown
+from acausal.modeling.symbols import Eq, Reference, number_or_expression
+from acausal.modeling.whole import Floored, floor
+
+HALF = sp.Rational(1, 2)
+
+INITIAL = sp.Symbol("initial()", real=True)
+"""1 while initial values are being found, else 0."""
+
+
+class Previous(sp.Symbol):
+    """The value of a variable just before an event; between events its value.
+
+    Attributes:
+        reference: the variable.
+    """
+
+    reference: Reference
+
+    def __new__(cls, reference: Reference) -> Previous:
+        """The same symbol for the same variable."""
+        symbol = super().__new__(cls, f"pre({reference.name})", real=True)
+        symbol.reference = reference
+        return symbol
+
+    def _sympystr(self, printer: Any) -> str:
+        return f"pre({self.reference.path})"
+
+
+class Tick(sp.Symbol):
+    """1 at the instants ``start + k * period``, k = 0, 1, ...; else 0.
+
+    Attributes:
+        start, period: expressions of parameters, in seconds.
+    """
+
+    start: sp.Expr
+    period: sp.Expr
+
+    def __new__(cls, start: sp.Expr, period: sp.Expr) -> Tick:
+        """The same symbol for the same instants."""
+        of = sorted(
+            s.name for s in (start.free_symbols | period.free_symbols) if isinstance(s, sp.Symbol)
+        )
+        symbol = super().__new__(cls, f"sample({start}, {period})#{','.join(of)}", real=True)
+        symbol.start, symbol.period = start, period
+        return symbol
+
+    def _sympystr(self, printer: Any) -> str:
+        return f"sample({printer._print(self.start)}, {printer._print(self.period)})"
+
+
+class Watched(sp.Function):
+    """``Watched(condition, value, otherwise, always)``: a case distinction whose condition is an event.
+
+    With ``always`` 0 it is an event only in a model that has others, too.
+    """
+
+    nargs = 4
+
+    def _eval_is_real(self) -> bool:
+        return True
+
+    def _sympystr(self, printer: Any) -> str:
+        return printer._print(literal(self))
+
+
+def literal(expression: Any) -> Any:
+    """The same without events: case distinctions are evaluated as they stand."""
+
+    def cases(condition: Any, value: Any, otherwise: Any, _: Any) -> Any:
+        return sp.Piecewise((value, condition), (otherwise, True))
+
+    return expression.replace(Watched, cases).replace(Floored, lambda number, _: floor(number))
+
+
+def condition(value: Any, where: str) -> Boolean:
+    """A condition; a variable or another signal counts as true above 1/2.
+
+    Arguments:
+        value: what the user gave. where: for the message.
+
+    Raises:
+        DeclarationError: for what is not a condition.
+    """
+    if isinstance(value, bool):
+        return sp.true if value else sp.false
+    if isinstance(value, BooleanFunction | BooleanAtom) and not value.is_Relational:
+        return value.func(*(condition(a, where) for a in value.args)) if value.args else value
+    if isinstance(value, Boolean) and value.is_Relational:
+        return value
+    if isinstance(value, sp.Expr):
+        return sp.Gt(value, HALF)
+    raise DeclarationError(
+        f"{where} is {type(value).__name__} {shown(value)}; give a comparison such as u > 1, or a variable that is "
+        "1 or 0"
+    )
+
+
+def where(condition_: Any, value: Any, otherwise: Any, *, events: bool | None = False) -> Any:
+    """``value`` where the condition holds, else ``otherwise``.
+
+    Chain it for more than two branches. Derivatives are taken branch by branch.
+
+    Arguments:
+        condition_: a comparison, or ``&``, ``|``, ``~`` of some; a variable counts as true above 1/2.
+        value, otherwise: expressions or numbers.
+        events: whether steps end where the condition changes. With False it is evaluated as it stands at every
+            point, and a parameter that acts through the condition alone has no gradient. None: in models that have
+            other events.
+    """
+    holds = condition(condition_, "the condition of where(...)")
+    first, second = number_or_truth(value), number_or_truth(otherwise)
+    if events is False or isinstance(holds, BooleanAtom):
+        return sp.Piecewise((first, holds), (second, True))
+    return Watched(holds, first, second, sp.Integer(events is True))
+
+
+def number_or_truth(value: Any) -> sp.Expr:
+    """An expression; of a condition 1 or 0."""
+    if isinstance(value, Boolean) and not isinstance(value, sp.Symbol):
+        return where(value, 1, 0, events=None)
+    return number_or_expression(value, "a value of where(...)")
+
+
+def pre(variable: Any) -> Previous:
+    """The value of a variable just before an event; between events its value.
+
+    Raises:
+        DeclarationError: for what is not a variable.
+    """
+    if not isinstance(variable, Reference):
+        raise DeclarationError(f"pre({shown(variable)}): the value before an event is a variable's")
+    return Previous(variable)
+
+
+def edge(variable: Any) -> Any:
+    """Whether a variable that is 1 or 0 has just become 1."""
+    return sp.And(sp.Gt(variable, HALF), sp.Le(pre(variable), HALF))
+
+
+def change(variable: Any) -> Any:
+    """Whether a discrete variable has just changed."""
+    return sp.Ne(variable, pre(variable))
+
+
+def initial() -> sp.Symbol:
+    """True while initial values are being found."""
+    return INITIAL
+
+
+def sample(start: Any, period: Any) -> Tick:
+    """True at the instants ``start + k * period``, k = 0, 1, ...
+
+    Arguments:
+        start: the first instant [s]. period: from each to the next [s], positive.
+
+    Raises:
+        DeclarationError: for a period that is a number, but not positive.
+    """
+    begin, length = (number_or_expression(v, "an argument of sample(...)") for v in (start, period))
+    if length.is_number and not length > 0:
+        raise DeclarationError(f"sample(...) needs a period above zero, not {length}")
+    return Tick(begin, length)
+
+
+@dataclass(frozen=True)
+class Reinit:
+    """A state that jumps to a value.
+
+    Attributes:
+        state: the variable. value: an expression.
+    """
+
+    state: Reference
+    value: sp.Expr
+
+    def __init__(self, state: Any, value: Any) -> None:
+        if not isinstance(state, Reference):
+            raise DeclarationError(f"Reinit({shown(state)}, ...): only a variable can jump")
+        object.__setattr__(self, "state", state)
+        object.__setattr__(
+            self, "value", number_or_expression(value, f"what {state.path} jumps to")
+        )
+
+    def __str__(self) -> str:
+        return f"Reinit({self.state}, {self.value})"
+
+
+class When:
+    """What happens at the instant at which a condition comes true: discrete equations and jumps.
+
+    Attributes:
+        conditions: it happens where one of them comes true, whether others hold already or not.
+        statements: ``Eq(discrete variable, expression)`` and `Reinit`.
+        otherwise: another `When`, which counts where this one does not happen at the same instant.
+    """
+
+    def __init__(self, condition_: Any, *statements: Any, otherwise: When | None = None) -> None:
+        given = condition_ if isinstance(condition_, list | tuple) else (condition_,)
+        self.conditions = tuple(condition(c, "a condition of When(...)") for c in given)
+        for statement in statements:
+            if not isinstance(statement, Eq | Reinit):
+                raise DeclarationError(
+                    f"When(...) contains {shown(statement)}; give ac.Eq(discrete variable, value) or "
+                    "ac.Reinit(state, value)"
+                )
+        if not (otherwise is None or isinstance(otherwise, When)):
+            raise DeclarationError(f"otherwise={shown(otherwise)} is not a When(...)")
+        self.statements: tuple[Eq | Reinit, ...] = statements
+        self.otherwise = otherwise
+
+    def chain(self) -> Iterator[When]:
+        """It, and those that count where it does not happen."""
+        link: When | None = self
+        while link is not None:
+            yield link
+            link = link.otherwise
+
+    def __str__(self) -> str:
+        return (
+            f"When({', '.join(map(str, self.conditions))}, {', '.join(map(str, self.statements))})"
+        )

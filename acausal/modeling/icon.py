@@ -1,0 +1,60 @@
+"""Icons: how a class of components looks in a diagram."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from acausal.errors import DeclarationError, shown
+
+Side = Literal["left", "right", "top", "bottom"]
+
+PATH = re.compile(r"[MmLlHhVvCcSsQqTtAaZz0-9eE+\-., \n]*")
+"""What path data is made of: whoever reads a class need not fear its picture."""
+
+
+@dataclass(frozen=True)
+class Icon:
+    """The picture of a component in a few strokes; a class states it as ``ICON`` and its subclasses inherit it.
+
+    Strokes are SVG path data in pixels: the origin is the centre, x points right and y down. Wires end in the middle
+    of a side, so the strokes of an element with two connectors run from ``(-width/2, 0)`` to ``(width/2, 0)``. Where
+    the wires need it, a picture is mirrored or turned; its text stays upright.
+
+    Attributes:
+        strokes: path data that is drawn as lines.
+        fills: path data that is filled.
+        text: short text in the middle.
+        size: width and height, in pixels.
+        frame: whether a box surrounds it, as for blocks.
+        sides: name of a connector or signal -> the side it is on, where that differs from the usual one.
+        source: whether a drawing begins with it, at the left, as with a voltage source.
+        reference: whether it only fixes a potential, as a ground: one that is connected to several components is
+            drawn at each of them.
+
+    Raises:
+        DeclarationError: for path data that has anything but commands and numbers, or for an unknown side.
+    """
+
+    strokes: str = ""
+    fills: str = ""
+    text: str = ""
+    size: tuple[float, float] = (60.0, 40.0)
+    frame: bool = False
+    sides: Mapping[str, Side] = field(default_factory=dict[str, Side])
+    source: bool = False
+    reference: bool = False
+
+    def __post_init__(self) -> None:
+        for data in (self.strokes, self.fills):
+            if not PATH.fullmatch(data):
+                raise DeclarationError(
+                    f"an icon's strokes are SVG path data such as 'M-30 0H30', got {shown(data)}"
+                )
+        for name, side in self.sides.items():
+            if side not in ("left", "right", "top", "bottom"):
+                raise DeclarationError(
+                    f"an icon's side of '{name}' is left, right, top or bottom, got {shown(side)}"
+                )

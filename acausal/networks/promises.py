@@ -1,0 +1,103 @@
+"""What a network promises for all weights, read off the parts that it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Set
+from typing import Any
+
+from acausal.networks.bounded import Between, Positive
+from acausal.networks.convex import Convex
+from acausal.networks.energy import Bowl, FromRest, Levelled
+from acausal.networks.extrapolation import Continued, ContinuedEnergy
+from acausal.networks.min_slope import WithMinCurvature, WithMinSlope
+from acausal.networks.monotone import Monotone
+from acausal.networks.passive import Passive, SameSign
+from acausal.networks.scaled import EnergyLaw, Scaled
+from acausal.networks.symmetry import Even, Odd
+from acausal.networks.zero import OffsetCorrected, ThroughZero
+
+Promises = frozenset[str]
+
+WORDS = {
+    "energy": "conserves energy: it is the derivative of one",
+    "passive": "passive: it never gives back more energy than it took",
+    "monotone": "monotone: its derivative is nowhere negative",
+    "odd": "odd",
+    "even": "even",
+    "zero": "zero at zero",
+    "positive": "positive",
+    "bounded": "between two bounds",
+}
+"""What promises are called in reports, in this order."""
+
+
+def promises_of(network: object) -> tuple[str, ...]:
+    """What a network's law promises for all weights, in words; nothing for a module of your own."""
+    kept = _of_law(network)
+    return tuple(words for name, words in WORDS.items() if name in kept)
+
+
+def _of_law(net: Any) -> Promises:
+    """The names of promises."""
+    if isinstance(net, EnergyLaw):
+        return _of_derivative(_of_energy(net.net), net.inputs)
+    rule = _LAWS.get(type(net))
+    return frozenset() if rule is None else frozenset(rule(net, _of_law(getattr(net, "net", None))))
+
+
+def _of_energy(net: Any) -> Promises:
+    rule = _ENERGIES.get(type(net))
+    if rule is None:
+        return frozenset()
+    return frozenset(rule(net, _of_energy(getattr(net, "net", None))))
+
+
+def _of_derivative(energy: Promises, inputs: int) -> Promises:
+    """Of the derivative of an energy."""
+    found = {"energy"} | (energy & {"passive", "zero"})
+    found |= {"odd", "zero"} if "even" in energy else set()
+    return frozenset(found | ({"monotone"} if "convex" in energy and inputs == 1 else set()))
+
+
+def _product(net: Any, inside: Promises) -> Set[str]:
+    """Of an odd factor and a network: odd where the network is even."""
+    return {"zero", "odd"} if "even" in inside else {"zero"}
+
+
+def _continued(net: Any, inside: Promises) -> Set[str]:
+    """Beyond limits: odd and even ones need symmetric limits, and passive ones that no tangent falls."""
+    lost = set() if net.low == -net.high else {"odd", "even"}
+    lost |= set() if getattr(net, "rising", True) else {"passive"}
+    return inside - lost - {"positive", "bounded"}
+
+
+Rule = Callable[[Any, Promises], Set[str]]
+
+_LAWS: dict[type, Rule] = {
+    Scaled: lambda net, inside: inside,
+    Continued: _continued,
+    Monotone: lambda net, inside: {"monotone"},
+    WithMinSlope: lambda net, inside: inside & {"monotone", "odd", "zero", "passive"},
+    Odd: lambda net, inside: (inside & {"monotone"}) | {"odd", "zero"},
+    Even: lambda net, inside: (inside & {"positive", "bounded"}) | {"even"},
+    Passive: lambda net, inside: _product(net, inside) | {"passive"},
+    SameSign: lambda net, inside: inside | {"passive", "zero"},
+    OffsetCorrected: lambda net, inside: (inside - {"positive", "bounded"}) | {"zero"},
+    ThroughZero: _product,
+    Positive: lambda net, inside: (inside & {"monotone", "even"}) | {"positive"},
+    Between: lambda net, inside: (inside & {"monotone", "even"}) | {"bounded"},
+}
+"""What parts promise of a law, given what the network inside promises; others promise nothing."""
+
+_ENERGIES: dict[type, Rule] = {
+    ContinuedEnergy: _continued,
+    Convex: lambda net, inside: {"convex"},
+    WithMinCurvature: lambda net, inside: inside & {"convex", "even"},
+    Even: lambda net, inside: inside | {"even"},
+    Bowl: lambda net, inside: (inside & {"even"}) | {"passive", "zero"},
+    FromRest: lambda net, inside: inside | ({"passive"} if {"even", "convex"} <= inside else set()),
+    Levelled: lambda net, inside: (
+        inside | ({"passive", "zero"} if "convex" in inside else {"zero"})
+    ),
+}
+"""The same of an energy."""

@@ -1,0 +1,218 @@
+"""A card for every component: its equations, parameters, promises, laws, trajectories and energy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.codegen import Packed, read_parameters
+from acausal.flattening import HIDDEN
+from acausal.modeling import Component, Eq, Module
+from acausal.pages.drawn import schematic
+from acausal.pages.energy_of_components import energy_blocks, power_names
+from acausal.pages.own_law import own_equations
+from acausal.pages.promises import promises
+from acausal.pages.trajectories import plot_of_runs, plots_by_unit
+from acausal.reporting import (
+    Block,
+    Card,
+    Equations,
+    Plot,
+    Table,
+    Text,
+    table,
+    titled_sections,
+)
+from acausal.simulation import Solution
+from acausal.system import System
+
+MOST_CARDS = 120
+"""The first so many components have a card."""
+
+MOST_EQUATIONS, MOST_VARIABLES, MOST_STATES = 40, 8, 12
+"""Of a card: equations, variables with a plot, and states whose explicit equations are shown."""
+
+POINTS = 800
+"""About so many points has a plot of a card."""
+
+NOTHING = ("", "")
+
+Numbers = Float[np.ndarray, " n"]
+
+
+@dataclass(frozen=True)
+class Law:
+    """What was learned by a network, for the card of its component."""
+
+    network: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What is known of a model besides its equations.
+
+    Attributes:
+        packed: values of parameters, and networks.
+        changes: by trained parameter, its change and its standard deviation, as texts.
+        runs: trajectories by label; the last one is that of ``packed``. over: what they are, in words.
+        laws: what was learned.
+    """
+
+    packed: Packed
+    changes: Mapping[str, tuple[str, str]] = field(default_factory=dict[str, tuple[str, str]])
+    runs: Mapping[str, Solution] = field(default_factory=dict[str, Solution])
+    over: str = ""
+    laws: Sequence[Law] = ()
+
+
+def component_cards(system: System, known: Known) -> tuple[Card, ...]:
+    """Cards of the model and of its components, parents before their parts."""
+    book = _Book(system, known)
+    return tuple(book.card(i) for i in range(book.count))
+
+
+@dataclass(frozen=True, eq=False)
+class _Book:
+    """What cards are written from; looked up once for all."""
+
+    system: System
+    known: Known
+
+    @property
+    def count(self) -> int:
+        return min(MOST_CARDS, len(self.system.flat.layout.components))
+
+    @cached_property
+    def parameter_values(self) -> Numbers:
+        numbers = np.arange(int(self.system.flat.layout.parameter_base[-1]))
+        return np.asarray(read_parameters(self.system.layout, numbers, self.known.packed))
+
+    @cached_property
+    def variables(self) -> list[dict[str, str]]:
+        """By card, local and dotted names of the variables that are drawn; what equals another is left out."""
+        return [self._variables_of(i) for i in range(self.count)]
+
+    def _variables_of(self, number: int) -> dict[str, str]:
+        layout, reduced = self.system.flat.layout, self.system.reduced
+        first, form = int(layout.variable_base[number]), layout.form(number)
+        names = [(i, path) for i, (path, _) in enumerate(form.variables)]
+        seen: set[int] = set()
+        found: dict[str, str] = {}
+        for i, local in sorted(names, key=lambda pair: "." in pair[1]):
+            node = reduced.resolve(first + i)[0]
+            if local.startswith(HIDDEN) or node in seen or len(found) >= MOST_VARIABLES:
+                continue
+            seen.add(node)
+            found[local] = layout.variable(first + i)
+        return found
+
+    @cached_property
+    def columns(self) -> dict[str, dict[str, Numbers]]:
+        """By run, all variables that cards show; read at once, which compiles one program."""
+        drawn = [n for card in self.variables for n in card.values()]
+        flows = [n for i in range(self.count) for n in power_names(self.system, i)]
+        names = list(dict.fromkeys((*drawn, *flows)))
+        return {label: run.to_dict(names) for label, run in self.known.runs.items()}
+
+    # -- the parts of a card ---------------------------------------------------------------------------
+
+    def card(self, number: int) -> Card:
+        layout = self.system.flat.layout
+        component, path = layout.components[number], layout.paths[number]
+        doc = (type(component).__doc__ or "").strip().partition("\n\n")[0]
+        own = {
+            law.network: law for law in self.known.laws if law.network.rpartition(".")[0] == path
+        }
+        return Card(
+            path,
+            type(component).__name__,
+            " ".join(doc.split()),
+            any(isinstance(d, Module) for _, d in component._node.declarations()),
+            titled_sections(
+                {
+                    "Equations": list(self._equations(component, path)),
+                    "Parameters": [self._parameters(number)],
+                    "What the network promises": [promises(component)],
+                    "Learned law": [b for law in own.values() for b in law.blocks],
+                    "Trajectories": self._trajectories(number),
+                    "Energy": self._energy(number),
+                }
+            ),
+            schematic(component) if path else "",
+        )
+
+    def _equations(self, component: Component, path: str) -> Iterable[Block]:
+        stated = own_equations(component)
+        shown = tuple(
+            (e.lhs, e.rhs) if isinstance(e, Eq) else str(e) for e in stated[:MOST_EQUATIONS]
+        )
+        if shown:
+            yield Equations(shown)
+        if len(stated) > len(shown):
+            yield Text(f"These are the first {len(shown)} of {len(stated)}.")
+        if not path and 0 < len(self.system.states) <= MOST_STATES:
+            explicit = tuple((e.lhs, e.rhs) for e in self.system.equations)
+            yield Text("The differential equations that follow from the connected components:")
+            yield Equations(explicit)
+
+    def _parameters(self, number: int) -> Table | None:
+        layout = self.system.flat.layout
+        form, first = layout.form(number), int(layout.parameter_base[number])
+        if not form.parameters:
+            return None
+        indices = first + np.arange(len(form.parameters))
+        values = self.parameter_values[indices]
+        rows = [
+            (local, f"{value:.6g}", declared.unit or "1", *self._change(layout.parameter(int(i))), declared.doc)
+            for i, (local, declared), value in zip(indices, form.parameters, values.tolist(), strict=True)
+        ]  # fmt: skip
+        if all(row[3:5] == NOTHING for row in rows):
+            rows = [(*row[:3], *row[5:]) for row in rows]
+            return table(("parameter", "value", "unit", "meaning"), rows)
+        return table(("parameter", "value", "unit", "trained change", "one sigma", "meaning"), rows)
+
+    def _change(self, name: str) -> tuple[str, str]:
+        return self.known.changes.get(name, NOTHING)
+
+    def _trajectories(self, number: int) -> list[Block]:
+        plots = self._plots(number)
+        return [Text(self.known.over), *plots] if plots and self.known.over else [*plots]
+
+    def _plots(self, number: int) -> list[Plot]:
+        names, runs = self.variables[number], self.columns
+        path = self.system.flat.layout.paths[number]
+        group = f"card {path}"
+        if not runs or not names:
+            return []
+        if len(runs) == 1:
+            (columns,) = runs.values()
+            return plots_by_unit(
+                columns["time"],
+                {local: columns[n] for local, n in names.items()},
+                {local: self.system.unit(n) for local, n in names.items()},
+                group=group,
+                most=POINTS,
+                steps=[local for local, n in names.items() if self.system.is_discrete(n)],
+            )
+        return [
+            plot_of_runs(
+                local,
+                self.system.unit(n),
+                {label: (columns["time"], columns[n]) for label, columns in runs.items()},
+                group=group,
+                most=POINTS,
+            )
+            for local, n in names.items()
+        ]
+
+    def _energy(self, number: int) -> list[Block]:
+        if not self.columns:
+            return []
+        label, columns = list(self.columns.items())[-1]
+        of = "" if label == "simulated" else f" {label}"
+        return energy_blocks(self.system, number, columns, of, POINTS)

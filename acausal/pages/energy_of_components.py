@@ -1,0 +1,113 @@
+"""The energy of a model's components over a trajectory: which variables give it, and how pages show it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.pages.energy import LOSSES, Power, energy, gradient, powers
+from acausal.pages.trajectories import labelled, thinned
+from acausal.reporting import Block, Curve, Plot, Text, table
+from acausal.system import System
+
+Numbers = Float[np.ndarray, " n"]
+
+
+def power_names(system: System, number: int) -> Iterable[str]:
+    """The variables that must be read for the power of a component, by its number."""
+    for power in _powers(system, number):
+        yield power.flow
+        if power.effort:
+            yield _effort(system, power.effort).name
+    if loss := _loss_name(system, number):
+        yield loss
+
+
+def energy_blocks(
+    system: System, number: int, columns: Mapping[str, Numbers], of: str, most: int
+) -> list[Block]:
+    """A table of the energies at the end, and a plot of them; nothing for a component without power.
+
+    Arguments:
+        system: the model. number: of the component.
+        columns: ``time`` and the variables of `power_names`.
+        of: what is added to captions, such as `` after training``.
+        most: points in the plot.
+    """
+    layout, found = system.flat.layout, _powers(system, number)
+    if not found:
+        return []
+    path, t = layout.paths[number], columns["time"]
+    total = np.zeros_like(t)
+    loss = columns.get(_loss_name(system, number))
+    for power in found:
+        if loss is not None and not power.effort:
+            continue  # there the loss leaves as heat
+        total = total + columns[power.flow] * _effort_values(system, power.effort, columns)
+    one = energy(layout.components[number], t, total, loss)
+    parts = {"taken in": one.taken, "dissipated": one.dissipated, "stored": one.stored}
+    shown = {name: part for name, part in parts.items() if part is not None}
+    if not all(np.isfinite(part).all() for part in shown.values()):
+        return [Text("Its energy is not known: the trajectory is not finite everywhere.")]
+    least = 1e-5 * max(float(np.abs(part).max()) for part in shown.values())
+    ends = {name: float(part[-1]) for name, part in shown.items()}
+    rows = [(n, f"{0.0 if abs(end) < least else end:.5g}") for n, end in ends.items()]
+    curves = thinned([Curve(name, t, part) for name, part in shown.items()], most)
+    caption = f"Energy of '{path or 'the model'}' since the start{of}."
+    return [
+        table((f"energy{of}, until {t[-1]:g} s", "J"), rows),
+        Plot(caption, "time [s]", labelled("energy", "J"), curves, group=f"card {path}"),
+    ]
+
+
+def _powers(system: System, number: int) -> tuple[Power, ...]:
+    """The power of every connector of a component; empty where one has none."""
+    layout = system.flat.layout
+    kinds = {name: kind for name, (kind, _) in layout.form(number).connectors.items()}
+    return powers(layout.paths[number], kinds) or ()
+
+
+def _loss_name(system: System, number: int) -> str:
+    """The variable that holds the power that a component loses; empty where there is none."""
+    layout = system.flat.layout
+    own = (n for n in LOSSES if n in layout.form(number).variable_index)
+    return next((f"{layout.paths[number]}.{n}".removeprefix(".") for n in own), "")
+
+
+@dataclass(frozen=True)
+class _Effort:
+    """Which variable gives an effort, with what sign, and whether it must be differentiated in time."""
+
+    name: str
+    sign: int = 1
+    differentiate: bool = False
+
+
+def _effort(system: System, effort: str) -> _Effort:
+    """Where an effort is read: the derivative of a position where the model has a variable that equals it."""
+    potential = effort.removeprefix("der(").removesuffix(")")
+    if effort == potential:
+        return _Effort(effort)
+    layout, reduced = system.flat.layout, system.reduced
+    index = layout.find_variable(potential)
+    assert index is not None
+    found = reduced.resolve_derivative(index, 1)
+    if found is not None:
+        node, sign = found
+        same = np.flatnonzero(reduced.aliases.representative[: system.flat.n_variables] == node)
+        if len(same):
+            own = reduced.resolve(int(same[0]))[1]
+            return _Effort(layout.variable(int(same[0])), sign * own)
+    return _Effort(potential, differentiate=True)
+
+
+def _effort_values(system: System, effort: str, columns: Mapping[str, Numbers]) -> Numbers:
+    t = columns["time"]
+    if not effort:
+        return np.ones_like(t)
+    found = _effort(system, effort)
+    values = found.sign * columns[found.name]
+    return gradient(t, values) if found.differentiate else values

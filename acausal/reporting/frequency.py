@@ -1,0 +1,116 @@
+"""Plots of linear models: frequency responses and step responses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from jaxtyping import Complex, Float
+from numpy.typing import ArrayLike
+
+from acausal.errors import DataError
+from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.plot import GUIDE, LEARNED
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def plot_bode(
+    omega: ArrayLike,
+    curves: Mapping[str, Complex[np.ndarray, " n"]],
+    *,
+    axes: Sequence[Axes] | None = None,
+) -> Figure:
+    """Draw magnitude [dB] and phase [degrees] over the angular frequency [rad/s].
+
+    Arguments:
+        omega: angular frequencies.
+        curves: responses by label.
+        axes: two matplotlib axes; by default those of a new figure.
+
+    Raises:
+        DataError: for other axes.
+    """
+    upper, lower = (
+        new_axes((7.0, 5.0), 2) if axes is None else _as_many(axes, 2, "magnitude and phase")
+    )
+    for (label, response), color in zip(curves.items(), _colors(len(curves)), strict=True):
+        with np.errstate(divide="ignore"):
+            upper.semilogx(omega, 20 * np.log10(np.abs(response)), color=color, label=label)
+        phase = np.unwrap(np.angle(response))
+        lower.semilogx(omega, np.degrees(phase), color=color)
+    upper.set_ylabel("magnitude in dB")
+    lower.set(ylabel="phase in degrees", xlabel="angular frequency in rad/s")
+    lower.locator_params("y", steps=[1, 1.5, 3, 4.5, 9, 10])
+    for ax in (upper, lower):
+        ax.grid(alpha=0.25, which="both")
+    upper.legend(frameon=False)
+    return cast("Figure", upper.figure)
+
+
+def plot_nyquist(
+    curves: Mapping[str, Complex[np.ndarray, " n"]], *, ax: Axes | None = None
+) -> Figure:
+    """Draw responses in the complex plane, for negative frequencies dashed, and mark the point -1.
+
+    Arguments:
+        curves: responses by label.
+        ax: matplotlib axes; by default those of a new figure.
+    """
+    (ax,) = new_axes((6.0, 5.0)) if ax is None else (need_axes(ax),)
+    for (label, response), color in zip(curves.items(), _colors(len(curves)), strict=True):
+        real, imaginary = np.real(response), np.imag(response)
+        ax.plot(real, imaginary, color=color, label=label)
+        ax.plot(real, -imaginary, color=color, ls="--", lw=0.9)
+    ax.plot(-1, 0, "+", color=GUIDE, ms=10, mew=2)
+    ax.axhline(0, color=GUIDE, lw=0.6)
+    ax.axvline(0, color=GUIDE, lw=0.6)
+    ax.set(xlabel="real part", ylabel="imaginary part")
+    ax.grid(alpha=0.25)
+    ax.legend(frameon=False)
+    return cast("Figure", ax.figure)
+
+
+def plot_steps(
+    time: Float[np.ndarray, " n"],
+    curves: Mapping[str, Mapping[str, Float[np.ndarray, " n"]]],
+    *,
+    axes: Sequence[Axes] | None = None,
+) -> Figure:
+    """Draw step responses over time [s], with a diagram for each output.
+
+    Arguments:
+        time: in seconds.
+        curves: responses by output and label.
+        axes: matplotlib axes, one for each output; by default those of a new figure.
+
+    Raises:
+        DataError: for other axes.
+    """
+    n = len(curves)
+    diagrams = new_axes((7.0, 1.0 + 2.0 * n), n) if axes is None else _as_many(axes, n, "outputs")
+    for ax, (output, responses) in zip(diagrams, curves.items(), strict=True):
+        for (label, y), color in zip(responses.items(), _colors(len(responses)), strict=True):
+            ax.plot(time, y, color=color, label=label)
+        ax.set_ylabel(output)
+        ax.grid(alpha=0.25)
+        if len(responses) > 1:
+            ax.legend(frameon=False)
+    diagrams[-1].set_xlabel("time in s")
+    return cast("Figure", diagrams[0].figure)
+
+
+def _as_many(axes: object, n: int, what: str) -> list[Axes]:
+    """The axes, if there are so many."""
+    given = cast("Iterable[Axes]", axes) if isinstance(axes, Iterable) else [cast("Axes", axes)]
+    found = [need_axes(ax, "axes") for ax in given]
+    if len(found) != n:
+        raise DataError(f"axes: there are {len(found)}; give {n}, for {what}.")
+    return found
+
+
+def _colors(n: int) -> list[str]:
+    return [LEARNED[i % len(LEARNED)] for i in range(n)]

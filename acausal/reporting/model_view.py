@@ -1,0 +1,109 @@
+"""The view of a compiled model: its equations in short names, its diagram, and what the names mean."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import sympy as sp
+
+from acausal.modeling import Component
+from acausal.reporting.diagram_picture import diagram_svg
+from acausal.reporting.mathml import latex, mathml, name_as_mathml
+from acausal.reporting.short_names import Short, shorten
+from acausal.reporting.view import Html, View, html_table
+
+MOST_EQUATIONS = 40
+"""Models of more differential equations are shown without them."""
+
+MOST_OPERATIONS = 120
+"""A longer right-hand side is not written out."""
+
+
+class Quantity(NamedTuple):
+    """A named quantity of a model.
+
+    Attributes:
+        name: dotted. value: of a parameter, or the start of a state; None for an input or a network.
+    """
+
+    name: str
+    unit: str
+    value: float | None
+    doc: str
+
+
+def system_view(
+    model: Component,
+    title: str,
+    about: str,
+    equations: Sequence[sp.Equality],
+    quantities: Mapping[str, Sequence[Quantity]],
+) -> str:
+    """HTML that shows a compiled model.
+
+    Arguments:
+        model: what was compiled.
+        title, about: its name, and a sentence.
+        equations: the explicit ones; none where there are too many to show.
+        quantities: states, inputs, parameters, networks: by such a heading, in order.
+    """
+    known = [quantity.name for group in quantities.values() for quantity in group]
+    names = shorten([*known, *_symbols(equations)])
+    view = View(title, about)
+    if equations:
+        written = "".join(_equation(e, names) for e in equations)
+        view.folded(f"Equations ({len(equations)})", written, opened=True)
+    drawing = diagram_svg(model)
+    if drawing:
+        view.folded("Diagram", drawing, opened=True)
+    for heading, group in quantities.items():
+        if group:
+            content = _table(heading, group, names if equations else {})
+            view.folded(f"{heading} ({len(group)})", content, opened=heading == "States")
+    return str(view)
+
+
+def equations_as_latex(equations: Sequence[sp.Equality]) -> str:
+    """The equations in one block of LaTeX, with short names."""
+    names = shorten(_symbols(equations))
+    rows = [f"{latex(e.lhs, names)} &= {latex(e.rhs, names)}" for e in equations]
+    return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
+
+
+def _symbols(equations: Iterable[sp.Equality]) -> list[str]:
+    """Names of symbols and functions in equations, in order."""
+    found: dict[str, None] = {}
+    for equation in equations:
+        symbols: Any = equation.free_symbols
+        functions: Any = equation.atoms(sp.core.function.AppliedUndef)  # pyright: ignore[reportAttributeAccessIssue]
+        names = {s.name for s in symbols} | {f.func.__name__ for f in functions}
+        found |= dict.fromkeys(sorted(names))
+    return list(found)
+
+
+def _equation(equation: Any, names: Mapping[str, Short]) -> str:
+    operations = int(sp.count_ops(equation.rhs))
+    if operations <= MOST_OPERATIONS or not isinstance(equation.lhs, sp.Derivative):
+        return mathml(equation, names)
+    text = f" = ... ({operations} operations; see system.equations)"
+    state: Any = equation.lhs.expr
+    left = name_as_mathml(names[state.name].differentiated())
+    return f"<p>{left}{html.escape(text)}</p>"
+
+
+def _table(heading: str, group: Sequence[Quantity], names: Mapping[str, Short]) -> str:
+    value = {"States": "start", "Parameters": "value"}.get(heading)
+    header = (*(["symbol"] if names else []), "name", *([value] if value else []), "unit", "")
+    rows = (
+        (
+            *([Html(name_as_mathml(names[q.name]))] if names else []),
+            q.name,
+            *([q.value] if value else []),
+            q.unit,
+            q.doc,
+        )
+        for q in group
+    )
+    return html_table(header, rows)

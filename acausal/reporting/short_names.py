@@ -1,0 +1,130 @@
+"""Short names for formulas: ``body.m`` is m with the subscript "body", and plain m where no other part has one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+GREEK = {
+    name: chr(code)
+    for name, code in (
+        *(
+            ("alpha", 0x3B1),
+            ("beta", 0x3B2),
+            ("gamma", 0x3B3),
+            ("delta", 0x3B4),
+            ("epsilon", 0x3B5),
+        ),
+        *(("zeta", 0x3B6), ("eta", 0x3B7), ("theta", 0x3B8), ("kappa", 0x3BA), ("lamda", 0x3BB)),
+        *(("lambda", 0x3BB), ("mu", 0x3BC), ("nu", 0x3BD), ("xi", 0x3BE), ("rho", 0x3C1)),
+        *(("sigma", 0x3C3), ("tau", 0x3C4), ("phi", 0x3C6), ("chi", 0x3C7), ("psi", 0x3C8)),
+        *(
+            ("omega", 0x3C9),
+            ("Gamma", 0x393),
+            ("Delta", 0x394),
+            ("Theta", 0x398),
+            ("Lambda", 0x39B),
+        ),
+        *(("Sigma", 0x3A3), ("Phi", 0x3A6), ("Psi", 0x3A8), ("Omega", 0x3A9), ("pi", 0x3C0)),
+    )
+}
+"""Greek letters by the names that variables have."""
+
+_LAST = re.compile(r"(?P<word>[^\[\]]*?)(?P<places>(?:\[[^\]]*\])*)(?P<primes>(?:'\d*)*)$")
+
+
+@dataclass(frozen=True)
+class Short:
+    """A name as a formula shows it.
+
+    Attributes:
+        base: the letter or word.
+        subscript: below it; may be empty.
+        dots: how many time derivatives are meant.
+        primes: marks of derivatives by an argument, as for networks.
+    """
+
+    base: str
+    subscript: str = ""
+    dots: int = 0
+    primes: str = ""
+
+    @classmethod
+    def of(cls, name: str, *below: str) -> Short:
+        """A name without dots, such as ``v_rel`` or ``T[2]``, with further subscripts."""
+        dots = 0
+        while name.startswith("der(") and name.endswith(")"):
+            name, dots = name[4:-1], dots + 1
+        found = _LAST.match(name.lstrip("_") or name)
+        assert found is not None
+        word, _, rest = found["word"].partition("_")
+        places = found["places"].strip("[]").replace("][", ",")
+        subscripts = [s for s in (rest.strip("_").replace("_", " "), places, *below) if s]
+        return cls(GREEK.get(word, word), ", ".join(subscripts), dots, found["primes"])
+
+    def differentiated(self) -> Short:
+        """Its time derivative."""
+        return replace(self, dots=self.dots + 1)
+
+    @property
+    def text(self) -> str:
+        """In one line of text: ``v_rel``."""
+        end = f"_{self.subscript}" if self.subscript else ""
+        return "".join([self.base, "\u0307" * self.dots, self.primes, end])
+
+    @property
+    def latex(self) -> str:
+        """As LaTeX."""
+        base = self.base if len(self.base) == 1 else rf"\mathrm{{{_escaped(self.base)}}}"
+        if self.dots:
+            base = rf"\{'d' * min(self.dots, 4)}ot{{{base}}}"
+        below = _escaped(self.subscript).replace(" ", r"\,")
+        return f"{base}{_marks(self.primes)}" + (rf"_{{\mathrm{{{below}}}}}" if below else "")
+
+
+def shorten(names: Iterable[str]) -> dict[str, Short]:
+    """A short name for each of several dotted names; no two look alike.
+
+    What tells a variable from others of its name becomes a subscript: the nearest part of its path that does, more
+    parts where one is not enough.
+    """
+    full = list(dict.fromkeys(names))
+    taken: dict[Short, str] = {}
+    levels = {name: list(_candidates(name)) for name in full}
+    wanted: dict[Short, set[str]] = {}
+    for name, candidates in levels.items():
+        for short in candidates:
+            wanted.setdefault(short, set()).add(name)
+    for name, candidates in levels.items():
+        alone = (s for s in candidates if len(wanted[s]) == 1 and s not in taken)
+        chosen = next(alone, Short(name))
+        taken[chosen] = name
+    return {name: short for short, name in taken.items()}
+
+
+def _candidates(name: str) -> Iterator[Short]:
+    """Short names of growing length: without a path, with one part of it, with two and so on."""
+    dots, inner = 0, name
+    while inner.startswith("der(") and inner.endswith(")"):
+        inner, dots = inner[4:-1], dots + 1
+    *path, last = inner.split(".")
+    plain = replace(Short.of(last), dots=dots)
+    parts = [p.replace("_", " ").replace("[", " ").replace("]", "") for p in reversed(path)]
+    for count in range(min(len(parts), 2) + 1):
+        for chosen in combinations(parts, count):
+            below = [*filter(None, [plain.subscript]), *reversed(chosen)]
+            yield replace(plain, subscript=", ".join(below))
+    below = [*filter(None, [plain.subscript]), *reversed(parts)]
+    yield replace(plain, subscript=", ".join(below))
+
+
+def _escaped(text: str) -> str:
+    return re.sub(r"([_#$%&{}])", r"\\\1", text)
+
+
+def _marks(primes: str) -> str:
+    """Primes as LaTeX: ``'`` by the first argument, a number by another."""
+    found = re.findall(r"'(\d*)", primes)
+    return "".join(rf"^{{\prime {n}}}" if n else "'" for n in found)

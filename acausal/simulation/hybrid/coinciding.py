@@ -1,0 +1,139 @@
+"""Conditions that change at the same instant, one after another: for derivatives each of them has its own time.
+
+An event changes them together. Where the same comes of it if they change in turn, a derivative takes them so: each at
+its own time, with a step of length zero between two, whose length has a derivative. Where it does not, what comes of
+them depends on their order, and all are taken to change at the time of the one that was found.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal.codegen import Events, due, guards
+from acausal.initialization import After, Rates, happen
+from acausal.simulation.adaptive.problem import Problem
+from acausal.simulation.hybrid.row import Reach, Row, chosen, grazes, rates_at, values_at
+
+MOST = 8
+"""So many conditions of one instant, at most, are taken in turn."""
+
+
+class Turn(NamedTuple):
+    """Which conditions of an event change now.
+
+    Attributes:
+        decreed: what conditions within their band are. waits: those that change later.
+    """
+
+    decreed: Float[Array, " n_guards"]
+    waits: Bool[Array, " n_guards"]
+
+    def rates(self, rates: Rates) -> Rates:
+        """How fast the numbers of conditions grow; zero for those that wait, whatever becomes of them."""
+        return lambda x, d: jnp.where(self.waits, 0.0, rates(x, d))
+
+
+def count(row: Row) -> Int[Array, ""]:
+    """How many turns an event has."""
+    n = jnp.sum(row.band >= 0)
+    return jnp.where((n > 1) & (n <= MOST), n, 1)
+
+
+def turn(row: Row, d: Float[Array, " n_discrete"], i: Int[Array, ""], together: Any) -> Turn:
+    """One turn of an event, or all its conditions together."""
+    among, places = row.band >= 0, jnp.arange(len(row.band))
+    place = jnp.where(places == row.which, 0, jnp.cumsum(among & (places != row.which)))
+    own = d[: len(row.band)]
+    now = among & (together | (place == i))
+    return Turn(jnp.where(now, 1 - own, own), among & ~together & (place > i))
+
+
+def guard_of(row: Row, i: Int[Array, ""]) -> Int[Array, ""]:
+    """Whose turn it is."""
+    among, places = row.band >= 0, jnp.arange(len(row.band))
+    place = jnp.where(places == row.which, 0, jnp.cumsum(among & (places != row.which)))
+    return jnp.argmax(among & (place == i))
+
+
+def still_wait(
+    problem: Problem, events: Events, row: Row, turn: Turn, t: Array, x: Array, d: Array
+) -> Bool[Array, ""]:
+    """Whether the conditions that wait are still about to change."""
+    numbers = lax.stop_gradient(guards(events, values_at(problem, t, x, d)))
+    return jnp.all(~turn.waits | (jnp.abs(numbers) <= row.band))
+
+
+def until(
+    problem: Problem, events: Events, row: Row, guard: Int[Array, ""], t: Array, x: Array, d: Array
+) -> tuple[Float[Array, ""], Float[Array, " n_states"]]:
+    """Time and states where a condition changes: those given, with other derivatives."""
+    field = problem.held(d).field
+    rate = field(t, x)
+    fixed = lax.stop_gradient((rate, jnp.ones_like(t)))
+
+    def number(t: Array, x: Array) -> Array:
+        return chosen(guards(events, field.at(t).values(x)), guard)
+
+    def where_it_changes() -> Array:
+        g, slope = jax.jvp(number, (t, x), (fixed[1], fixed[0]))
+        slope = lax.stop_gradient(slope)
+        none = grazes(row, g, slope)
+        return jnp.where(none, 0.0, (lax.stop_gradient(g) - g) / jnp.where(none, 1.0, slope))
+
+    h = where_it_changes()
+    if events.timed.any():
+        its_time = chosen(due(events, field.at(t).values(x)).t, guard)
+        h = jnp.where(jnp.asarray(events.timed)[guard], its_time - t, h)
+    h = h - lax.stop_gradient(h)
+    return t + h, x + fixed[0] * h
+
+
+def follow_in_turn(
+    problem: Problem, events: Events, row: Row, end: Reach, d: Array
+) -> tuple[Float[Array, ""], After]:
+    """Time and values behind an event, with derivatives in forward mode."""
+    rates = rates_at(problem, events, end.t)
+    n = count(row)
+
+    def one(state: tuple[Any, ...]) -> tuple[Any, ...]:
+        """All together first; then in turn."""
+        k, t, x, d_now, whole, fits = state
+        own = turn(row, d_now, k - 1, k == 0)
+        later = until(problem, events, row, guard_of(row, k - 1), t, x, d_now)
+        t, x = (jnp.where(k > 1, a, b) for a, b in zip(later, (t, x), strict=True))
+        at = values_at(problem, t, x, d_now)
+        after = happen(events, at, row.band, own.rates(rates), decreed=own.decreed)
+        fits = fits & still_wait(problem, events, row, own, t, after.x, after.d)
+        first = k == 0
+        whole = jax.tree.map(lambda a, b: jnp.where(first, a, b), after, whole)
+        t, x, d_now = (
+            jnp.where(first, a, b)
+            for a, b in zip((end.t, end.x, d), (t, after.x, after.d), strict=True)
+        )
+        return k + 1, t, x, d_now, whole, fits & after.settled
+
+    def goes_on(state: tuple[Any, ...]) -> Array:
+        return (state[0] == 0) | ((n > 1) & (state[0] <= n))
+
+    yes = jnp.array(True)
+    start = jnp.asarray(0), end.t, end.x, d, After(end.x, d, yes), yes
+    _, t, x, d_end, whole, fits = lax.while_loop(goes_on, one, start)
+    apart = fits & (n > 1) & same((x, d_end), (whole.x, whole.d))
+    picked = (
+        jnp.where(apart, a, b)
+        for a, b in zip((t, x, d_end), (end.t, whole.x, whole.d), strict=True)
+    )
+    t, x, d_end = picked
+    return t, After(x, d_end, whole.settled)
+
+
+def same(a: tuple[Array, Array], b: tuple[Array, Array]) -> Bool[Array, ""]:
+    """Whether two ways lead to the same values, but for rounding."""
+    pairs = [(jnp.append(*one)) for one in (a, b)]
+    first, second = lax.stop_gradient(pairs)
+    return jnp.all(jnp.abs(first - second) <= 1e-8 * (1 + jnp.abs(second)))

@@ -1,0 +1,180 @@
+"""Derivatives of one event in reverse mode: its conditions in turn, each through its rounds, last to first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array
+
+from acausal.codegen import Events
+from acausal.initialization import Round, after_round, rounds_of
+from acausal.simulation.adaptive.problem import Problem
+from acausal.simulation.hybrid import coinciding
+from acausal.simulation.hybrid.row import RESTART, Reach, Row, rates_at, restarted, values_at
+from acausal.simulation.hybrid.search import Begin
+
+Task = tuple[Any, Problem, Begin]
+"""Method, problem, start."""
+
+OfMoved = Callable[[list[Array]], Task]
+"""The task, from those of its arrays whose derivatives are needed."""
+
+
+class Adjoint(NamedTuple):
+    """Cotangents of time, states and discrete variables, and of what moves."""
+
+    t: Array
+    x: Array
+    d: Array
+    own: list[Array]
+
+
+def through_event(
+    of_moved: OfMoved,
+    events: Events,
+    own: list[Array],
+    row: Row,
+    end: Reach,
+    then: tuple[Array, Array],
+    behind: Adjoint,
+) -> Adjoint:
+    """The cotangents before an event, from those behind it."""
+    problem = of_moved(own)[1]
+
+    def event() -> Adjoint:
+        if events.n_guards > 1:
+            return _through_turns(of_moved, events, own, row, end, then, behind)
+        at = values_at(problem, end.t, end.x, row.d)
+        rounds, n, _ = rounds_of(events, at, row.band, rates_at(problem, events, end.t))
+        return _through_rounds(of_moved, events, own, end.t, rounds, n, behind)
+
+    if problem.first is None:
+        return event()
+
+    def restart() -> Adjoint:
+        pulled = jax.vjp(lambda own: restarted(of_moved(own)[1], row), own)[1](
+            (behind.x, behind.d)
+        )[0]
+        totals = [a + b for a, b in zip(behind.own, pulled, strict=True)]
+        return Adjoint(behind.t, jnp.zeros_like(end.x), jnp.zeros_like(row.d), totals)
+
+    return lax.cond(row.kind == RESTART, restart, event)
+
+
+def _through_rounds(
+    of_moved: OfMoved,
+    events: Events,
+    own: list[Array],
+    t: Array,
+    rounds: Round,
+    n: Array,
+    behind: Adjoint,
+) -> Adjoint:
+    """The cotangents before the rounds of an event, from those behind them: from the last to the first."""
+
+    def step(state: tuple[Array, Adjoint]) -> tuple[Array, Adjoint]:
+        k, behind = state
+        this = jax.tree.map(lambda a: a[k], rounds)
+
+        def after(own: list[Array], t: Array, x: Array, x_before: Array, d: Array) -> Any:
+            at = values_at(of_moved(own)[1], t, x, d)
+            return after_round(events, at, Round(x, x_before, d, this.found))
+
+        args = own, t, this.x, this.x_before, this.d_before
+        by_own, to_t, to_x, to_before, to_d = jax.vjp(after, *args)[1]((behind.x, behind.d))
+        totals = [a + b for a, b in zip(behind.own, by_own, strict=True)]
+        return k - 1, Adjoint(behind.t + to_t, to_x + to_before, to_d, totals)
+
+    return lax.while_loop(lambda s: s[0] >= 0, step, (n - 1, behind))[1]
+
+
+class _Turns(NamedTuple):
+    """How far the turns of an event have come: up to the last, then back.
+
+    Attributes:
+        i: the turn. last: the last one. back: whether it goes back. together: whether all is one turn.
+        xs, ds: states and discrete variables before each turn. behind: cotangents.
+    """
+
+    i: Array
+    last: Array
+    back: Array
+    together: Array
+    xs: Array
+    ds: Array
+    behind: Adjoint
+
+
+def _through_turns(
+    of_moved: OfMoved,
+    events: Events,
+    own: list[Array],
+    row: Row,
+    end: Reach,
+    then: tuple[Array, Array],
+    behind: Adjoint,
+) -> Adjoint:
+    """The cotangents before an event, from those behind it: of each condition in turn, see `coinciding`."""
+    problem = of_moved(own)[1]
+    rates = rates_at(problem, events, end.t)
+    last = coinciding.count(row) - 1
+    most = min(coinciding.MOST, events.n_guards)
+    none = jnp.zeros_like(last)
+
+    def one(state: _Turns) -> _Turns:
+        i, x, d = state.i, state.xs[state.i], state.ds[state.i]
+        turn = coinciding.turn(row, d, i, state.together)
+        at = values_at(problem, end.t, x, d)
+        rounds, n, settled = rounds_of(
+            events, at, row.band, turn.rates(rates), decreed=turn.decreed
+        )
+
+        def onwards() -> _Turns:
+            this = jax.tree.map(lambda a: a[n - 1], rounds)
+            after = after_round(events, at, this)
+            waits = coinciding.still_wait(problem, events, row, turn, end.t, *after)
+            arrived = i == state.last
+            fits = settled & waits & (~arrived | coinciding.same(after, then))
+            following = jnp.where(fits, jnp.minimum(i + 1, state.last), 0)
+            is_next = jnp.arange(most) == following
+            xs, ds = (
+                jnp.where((is_next & fits & ~arrived)[:, None], value, some)
+                for some, value in zip((state.xs, state.ds), after, strict=True)
+            )
+            turns_back = arrived | ~fits
+            return _Turns(
+                following,
+                jnp.where(fits, state.last, 0),
+                turns_back,
+                ~fits,
+                xs,
+                ds,
+                state.behind,
+            )
+
+        def backwards() -> _Turns:
+            before = _through_rounds(of_moved, events, own, end.t, rounds, n, state.behind)
+            previous = jnp.maximum(i - 1, 0)
+            guard = coinciding.guard_of(row, i)
+
+            def until(own: list[Array], t: Array, x: Array, d: Array) -> tuple[Array, Array]:
+                problem = of_moved(own)[1]
+                later = coinciding.until(problem, events, row, guard, t, x, d)
+                return jnp.where(i > 0, later[0], t), jnp.where(i > 0, later[1], x)
+
+            pull = jax.vjp(until, own, end.t, x, d)[1]
+            by_own, to_t, to_x, to_d = pull((before.t, before.x))
+            totals = [a + b for a, b in zip(before.own, by_own, strict=True)]
+            adjoint = Adjoint(to_t, to_x, to_d + before.d, totals)
+            return state._replace(i=jnp.where(i > 0, previous, -1), behind=adjoint)
+
+        return lax.cond(state.back, backwards, onwards)
+
+    xs, ds = (jnp.zeros((most, *a.shape), a.dtype).at[0].set(a) for a in (end.x, row.d))
+    alone = last == 0
+    start = _Turns(none, last, alone, alone, xs, ds, behind)
+    return lax.while_loop(lambda s: s.i >= 0, one, start).behind

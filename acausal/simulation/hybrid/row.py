@@ -1,0 +1,191 @@
+"""One step of a model with events, as it is made again for derivatives: where it ends may depend on what moves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Float, Int
+
+from acausal._jax import without_derivatives
+from acausal.codegen import Events, Values, due, guards
+from acausal.initialization import After, happen
+from acausal.simulation.adaptive.problem import Problem
+
+FREE, STOP, RESTART, JUMP, TIMED, STATE = range(6)
+"""How a step ends: as long as it was; at a known time; where another run begins; where inputs jump; at the known time
+of a condition; where one changes."""
+
+GRAZING = 1e-12
+"""A condition that changes more slowly than this, relative to its size and the step, has no time of its own."""
+
+
+class Row(NamedTuple):
+    """A step.
+
+    Attributes:
+        t, h: its start and length. kind: how it ends. which: the number of the stop, or of the condition.
+        band: the conditions that change at its end; see `happen`.
+        x, d: states and discrete variables at its start.
+        next: the first of the times to save that does not lie in it, nor in one before.
+    """
+
+    t: Float[Array, ""]
+    h: Float[Array, ""]
+    kind: Int[Array, ""]
+    which: Int[Array, ""]
+    band: Float[Array, " n_guards"]
+    x: Float[Array, " n_states"]
+    d: Float[Array, " n_discrete"]
+    next: Int[Array, ""]
+
+
+class Reach(NamedTuple):
+    """Where a step leads to, before the event at its end.
+
+    Attributes:
+        t, x: behind it. h: its length. dense: for states within it.
+    """
+
+    t: Float[Array, ""]
+    x: Float[Array, " n_states"]
+    h: Float[Array, ""]
+    dense: Any
+
+
+Event = Callable[[Problem, Events, Row, Reach, Array], tuple[Array, After]]
+"""Time and values behind an event."""
+
+
+def stop_at(problem: Problem, i: Int[Array, ""]) -> Float[Array, ""]:
+    """One of the known times at which steps end: those of breaks, then the end."""
+    n = len(problem.breaks)
+    if not n:
+        return problem.end
+    return jnp.where(i < n, problem.breaks[jnp.minimum(i, n - 1)], problem.end)
+
+
+def reach(
+    method: Any,
+    problem: Problem,
+    events: Events,
+    row: Row,
+    t: Float[Array, ""],
+    x: Float[Array, " n_states"],
+    d: Float[Array, " n_discrete"],
+    *,
+    is_event: bool,
+) -> Reach:
+    """Make a step again, up to the event at its end.
+
+    Arguments:
+        method, problem, events: what is integrated.
+        row: the step; its length counts where it does not follow from the rest.
+        t, x, d: its start. They equal the row's, and may have derivatives.
+        is_event: whether an event, or another run, follows; else the step is FREE or goes to a STOP.
+    """
+    field = problem.held(d).field
+    stop = stop_at(problem, row.which)
+
+    def step(h: Array) -> tuple[Array, Any]:
+        first = method.first(field, t, h, x, field(t, x))
+        made = method.make(field, t, h, x, first)
+        return made.x, made.dense
+
+    fixed = lax.stop_gradient(row.h)
+    if not is_event:
+        h = jnp.where(row.kind == STOP, stop - t, fixed)
+        end, dense = step(h)
+        return Reach(jnp.where(row.kind == STOP, stop, t + h), end, h, dense)
+
+    (end, dense), by_h = jax.jvp(step, (fixed,), (jnp.ones_like(fixed),))
+
+    def condition(t: Array, x: Array) -> Array:
+        return chosen(guards(events, field.at(t).values(x)), row.which)
+
+    def where_it_changes() -> Array:
+        g, slope = jax.jvp(condition, (t + fixed, end), (jnp.ones_like(fixed), by_h[0]))
+        slope = lax.stop_gradient(slope)
+        none = grazes(row, g, slope)
+        moved = (g - lax.stop_gradient(g)) / jnp.where(none, 1.0, slope)
+        return jnp.where(none, fixed, fixed - moved)
+
+    def to_its_time() -> Array:
+        return chosen(due(events, field.at(t).values(x)).t, row.which) - t
+
+    timed = to_its_time if events.timed.any() else lambda: fixed
+    changes = where_it_changes if not events.timed.all() else lambda: fixed
+    kind = jnp.maximum(row.kind, JUMP) - JUMP
+    h = lax.switch(kind, (lambda: stop - t, timed, changes))
+    moved = h - lax.stop_gradient(h)  # zero, with derivatives
+    end, dense = jax.tree.map(
+        lambda v, rate: v + lax.stop_gradient(rate) * moved, (end, dense), by_h
+    )
+    return Reach(jnp.where(row.kind <= JUMP, stop, t + h), end, h, dense)
+
+
+def grazes(row: Row, number: Array, slope: Array) -> Array:
+    """Whether a condition hardly changes at its instant: it has no time of its own then."""
+    size = lax.stop_gradient(jnp.abs(number) + jnp.max(row.band, initial=0.0))
+    return ~(jnp.abs(slope) * row.h > GRAZING * size) | ~jnp.isfinite(slope)
+
+
+def chosen(numbers: Float[Array, " n"], which: Int[Array, ""]) -> Float[Array, ""]:
+    """One of some numbers.
+
+    Read by its index, its derivative would be a scatter, and XLA would not compile the loop around it as a whole.
+    """
+    return jnp.sum(jnp.where(jnp.arange(len(numbers)) == which, numbers, 0.0))
+
+
+def values_at(problem: Problem, t: Array, x: Array, d: Array) -> Values:
+    """The values between events."""
+    return problem.held(d).field.at(t).values(x)
+
+
+def rates_at(problem: Problem, events: Events, t: Array) -> Callable[[Array, Array], Array]:
+    """How fast the conditions' numbers grow at a time, for states and discrete variables; without derivatives."""
+    problem, t = without_derivatives((problem, t))
+
+    def rates(x: Array, d: Array) -> Array:
+        field = problem.held(d).field
+        number = lambda t, x: guards(events, field.at(t).values(x))  # noqa: E731
+        return jax.jvp(number, (t, x), (jnp.ones_like(t), field(t, x)))[1]
+
+    return rates
+
+
+def follow(
+    problem: Problem, events: Events, row: Row, end: Reach, d: Array, in_turn: Event | None = None
+) -> tuple[Float[Array, ""], After]:
+    """What follows a step that ends with an event, or where another run begins.
+
+    Arguments:
+        problem, events, row: what is integrated, and the step. end, d: values at its end, before the event.
+        in_turn: what an event leads to, where derivatives must work in forward mode.
+    """
+
+    def event() -> tuple[Array, After]:
+        if in_turn is not None:
+            return in_turn(problem, events, row, end, d)
+        at = values_at(problem, end.t, end.x, d)
+        return end.t, happen(events, at, row.band, rates_at(problem, events, end.t))
+
+    if problem.first is None:
+        return event()
+
+    def restart() -> tuple[Array, After]:
+        return end.t, After(*restarted(problem, row), jnp.array(True))
+
+    return lax.cond(row.kind == RESTART, restart, event)
+
+
+def restarted(problem: Problem, row: Row) -> tuple[Array, Array]:
+    """States and discrete variables with which another run begins."""
+    assert problem.first is not None
+    assert problem.first_d is not None
+    at = jnp.minimum(row.which, len(problem.breaks) - 1)
+    return problem.first[at], problem.first_d[at]

@@ -1,0 +1,179 @@
+"""What has happened in a simulation with events."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jax.typing import DTypeLike
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal._jax import known
+from acausal.errors import DataError
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+LOG = 10_000
+"""Events that a run remembers with their times."""
+
+VALUES, FEW_VALUES = 2**16, 2**12
+"""Numbers by which a run remembers what states and discrete variables were before and after events: half a megabyte.
+
+Fewer where JAX traces: a thousand runs side by side need a thousand times the room.
+"""
+
+JUMP = "an input jumps"
+"""What is said of an event that no condition made."""
+
+
+class Event(NamedTuple):
+    """An event.
+
+    Attributes:
+        t: time [s]. condition: the one that changed first, with its component.
+        component: dotted path of the component that states the condition; empty for the model itself.
+        before, after: the discrete variables and states that changed, by name, with their values on either side;
+            ``None`` where more events happened than a run remembers with values.
+        grazes: whether the condition hardly changes at its instant. A little more or less, and there is no event: a
+            gradient through it does not exist, or is huge.
+    """
+
+    t: float
+    condition: str
+    component: str
+    before: Mapping[str, float] | None
+    after: Mapping[str, float] | None
+    grazes: bool = False
+
+    def __str__(self) -> str:
+        """In words."""
+        words = f"t = {self.t:.9g} s: {self.condition}"
+        if not self.grazes:
+            return words
+        return (
+            f"{words} (it hardly changes there: a gradient through it does not exist, or is huge)"
+        )
+
+
+class Log(NamedTuple):
+    """What has happened, as arrays.
+
+    Attributes:
+        t: times of the first events, shape (n,), in seconds; NaN where there were fewer.
+        which: the condition that changed first, by number, or -1 where inputs jumped.
+        total: how many there were, perhaps more than n.
+        before, after: states, then discrete variables on either side of the first events.
+        grazes: whether that condition hardly changed at its instant.
+    """
+
+    t: Float[Array, " n"]
+    which: Int[Array, " n"]
+    total: Int[Array, ""]
+    before: Float[Array, "m n_states_and_discrete"]
+    after: Float[Array, "m n_states_and_discrete"]
+    grazes: Bool[Array, " n"]
+
+    @staticmethod
+    def empty(n_columns: int, dtype: DTypeLike, *, events: int = LOG, values: int = VALUES) -> Log:
+        """A log before the first event.
+
+        Arguments:
+            n_columns: states and discrete variables together.
+            events: how many are remembered with their times. values: how many numbers on either side of them.
+        """
+        m = max(min(events, values // (2 * max(n_columns, 1))), 1)
+        sides = jnp.full((m, n_columns), jnp.nan, dtype)
+        which = jnp.full(events, -1, jnp.int32)
+        t, zero = jnp.full(events, jnp.nan, dtype), jnp.zeros((), jnp.int32)
+        return Log(t, which, zero, sides, sides, jnp.zeros(events, bool))
+
+    def with_event(
+        self,
+        happened: Array,
+        t: Array,
+        which: Array,
+        before: tuple[Array, Array],
+        after: tuple[Array, Array],
+        grazes: Array,
+    ) -> Log:
+        """The log with one more event, if it has happened.
+
+        Arguments:
+            happened: whether. t, which: as above.
+            before, after: states and discrete variables. grazes: as above.
+        """
+        t, before, after = lax.stop_gradient((t, before, after))
+        k, m = jnp.where(happened, self.total, len(self.t)), len(self.before)
+        row = jnp.minimum(k, m)
+        return Log(
+            self.t.at[k].set(t, mode="drop"),
+            self.which.at[k].set(which.astype(jnp.int32), mode="drop"),
+            self.total + happened,
+            self.before.at[row].set(jnp.concatenate(before), mode="drop"),
+            self.after.at[row].set(jnp.concatenate(after), mode="drop"),
+            self.grazes.at[k].set(grazes, mode="drop"),
+        )
+
+    def short(self) -> Log:
+        """The log with room for one event, for what does not read it."""
+        one = Log(*(a[:1] for a in self._replace(total=self.t)))
+        return one._replace(total=self.total)
+
+    def kept(self) -> Log:
+        """Only the events that are kept, as numbers.
+
+        Raises:
+            DataError: while JAX traces, and for runs side by side.
+        """
+        log = known(self)
+        if log is None:
+            raise DataError(
+                "Events are not known while JAX traces; return the solution, and ask for them outside."
+            )
+        if np.ndim(log.total):
+            raise DataError(
+                "These are runs side by side, each with events of its own; take one: "
+                "jax.tree.map(lambda a: a[0], run)."
+            )
+        n = int(log.total)
+        columns = (np.asarray(a)[:n] for a in log._replace(total=log.t))
+        return Log(*columns)._replace(total=log.total)  # pyright: ignore[reportArgumentType]
+
+    def conditions(self, system: System) -> list[tuple[str, str]]:
+        """The component and the condition that changed first, of each event that is kept."""
+        events = system.events
+        assert events is not None
+        return [
+            (events.component(w), events.describe(w)) if w >= 0 else ("", JUMP)
+            for w in self.kept().which.tolist()
+        ]
+
+    def events(self, system: System) -> tuple[Event, ...]:
+        """The events, as far as they are kept."""
+        log = self.kept()
+        names, places, signs = _columns(system)
+        m = len(log.before)
+        sides = [np.asarray(side)[:, places] * signs for side in (log.before, log.after)]
+        differs = (sides[0] != sides[1]) & ~(np.isnan(sides[0]) & np.isnan(sides[1]))
+        found: list[Event] = []
+        rows = zip(log.t.tolist(), self.conditions(system), strict=True)
+        for k, (t, (component, condition)) in enumerate(rows):
+            changed = np.flatnonzero(differs[k]).tolist() if k < m else None
+            before, after = (
+                None if changed is None else {names[i]: float(side[k, i]) for i in changed}
+                for side in sides
+            )
+            found.append(Event(t, condition, component, before, after, bool(log.grazes[k])))
+        return tuple(found)
+
+
+def _columns(system: System) -> tuple[list[str], list[int], np.ndarray]:
+    """States and discrete variables that have names: their names, columns in a log, and signs there."""
+    n = len(system.states)
+    discrete = [(name, n + place, sign) for name, (place, sign) in system.discrete.items()]
+    rows = [*((name, i, 1) for i, name in enumerate(system.states)), *discrete]
+    return [r[0] for r in rows], [r[1] for r in rows], np.asarray([r[2] for r in rows], float)

@@ -1,0 +1,188 @@
+"""Sliders for parameters and inputs, in a notebook: moving one simulates the compiled model again."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from acausal._jax import is_number
+from acausal.by_name import names_in
+from acausal.errors import AcausalError, DataError, nearest, need_compiled, shown
+from acausal.simulation.simulate import simulate
+from acausal.simulation.solution import Solution
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+LOGARITHMIC = 20.0
+"""A slider whose positive bounds are further apart than by this factor is logarithmic."""
+
+STEPS = 200
+"""Positions of a slider."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """What a slider moves.
+
+    Attributes:
+        name: of a parameter or an input. low, high: the bounds. value: at the beginning. unit: of all three.
+    """
+
+    name: str
+    low: float
+    high: float
+    value: float
+    unit: str
+
+    @property
+    def logarithmic(self) -> bool:
+        """Whether equal ways on the slider are equal factors."""
+        return self.low > 0 and self.high / self.low > LOGARITHMIC
+
+
+def sliders(
+    system: System,
+    ranges: Mapping[str, tuple[float, float]],
+    t: tuple[float, float],
+    *,
+    show: str | Sequence[str] = (),
+    params: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, Any] | None = None,
+    **options: Any,
+) -> Any:
+    """Sliders that simulate a model again when they are moved, with a plot that follows. Nothing is compiled anew.
+
+    Arguments:
+        system: a compiled model.
+        ranges: by parameter, or by input that is to be constant, the least and the largest value.
+        t: start and end of the simulations, in seconds.
+        show: variables to plot; by default the states.
+        params, inputs: as for `acausal.simulate`, for what no slider moves.
+        options: further arguments of `acausal.simulate`.
+
+    Returns:
+        An ``ipywidgets`` box: a notebook shows it where it is a cell's result.
+
+    Raises:
+        AcausalError: if ipywidgets is not installed.
+        DataError: for a name that is neither a parameter nor an input, bounds that are none, or what
+            `acausal.simulate` refuses.
+    """
+    need_compiled(system, "sliders")
+    try:
+        import ipywidgets as widgets
+    except ModuleNotFoundError:
+        raise AcausalError("Sliders need ipywidgets: pip install 'acausal[notebook]'.") from None
+    moved = Moved(
+        system, ranges_of(system, ranges, params), t, show, params or {}, inputs or {}, options
+    )
+    picture = widgets.HTML(moved.picture({r.name: r.value for r in moved.ranges}))
+    knobs = {r.name: _slider(widgets, r) for r in moved.ranges}
+
+    def follow(change: Any) -> None:
+        del change
+        picture.value = moved.picture({name: knob.value for name, knob in knobs.items()})
+
+    for knob in knobs.values():
+        knob.observe(follow, names="value")
+    return widgets.VBox([*knobs.values(), picture])
+
+
+@dataclass(frozen=True)
+class Moved:
+    """A model, what sliders move in it, and how it is simulated: pictures of runs, without widgets.
+
+    Attributes:
+        ranges: what is moved. t, params, inputs, options: of the simulations. show: what is plotted.
+    """
+
+    system: System
+    ranges: tuple[Range, ...]
+    t: tuple[float, float]
+    show: str | Sequence[str]
+    params: Mapping[str, Any]
+    inputs: Mapping[str, Any]
+    options: Mapping[str, Any]
+
+    def run(self, values: Mapping[str, float]) -> Solution:
+        """The simulation with these values of parameters and inputs."""
+        known = self.system.inputs
+        inputs = {**self.inputs, **{n: v for n, v in values.items() if n in known}}
+        params = {**(self.params or self.system.parameters())}
+        params |= {n: v for n, v in values.items() if n not in known}
+        return simulate(self.system, self.t, inputs=inputs, params=params, **self.options)
+
+    def picture(self, values: Mapping[str, float]) -> str:
+        """The plot as HTML; where a run fails, the sentence that says why."""
+        from acausal.reporting import SmallCurve, small_plot
+
+        try:
+            run = self.run(values)
+        except AcausalError as error:
+            return f"<p>{html.escape(str(error))}</p>"
+        names = names_in(self.show, "show") or self.system.states
+        groups: dict[str, list[SmallCurve]] = {}
+        for name in names:
+            curve = SmallCurve(
+                name, np.asarray(run.t), np.asarray(run[name]), steps=self.system.is_discrete(name)
+            )
+            groups.setdefault(self.system.unit(name), []).append(curve)
+        return "".join(
+            small_plot(curves, across="time in s", upwards=unit or "1")
+            for unit, curves in groups.items()
+        )
+
+
+def ranges_of(
+    system: System,
+    ranges: Mapping[str, tuple[float, float]],
+    params: Mapping[str, Any] | None = None,
+) -> tuple[Range, ...]:
+    """The sliders' ranges, checked; their values are the parameters', or the middle for an input.
+
+    Raises:
+        DataError: for a name that is neither, or bounds that are none.
+    """
+    known = (*system.layout.names, *system.inputs)
+    given = system.parameters() if params is None else params
+    found: list[Range] = []
+    for name, bounds in ranges.items():
+        if name not in known:
+            raise DataError(
+                f"ranges: '{name}' is neither a parameter nor an input; {nearest(name, known)}"
+            )
+        if (
+            not isinstance(bounds, Sequence)
+            or len(bounds) != 2
+            or not all(map(is_number, bounds))
+            or not bounds[0] < bounds[1]
+        ):
+            raise DataError(
+                f"ranges: '{name}' goes from {shown(bounds)}; give the least and the largest value."
+            )
+        low, high = map(float, bounds)
+        value = float(given[name]) if name in given else 0.5 * (low + high)
+        found.append(Range(name, low, high, min(max(value, low), high), system.unit(name)))
+    return tuple(found)
+
+
+def _slider(widgets: Any, one: Range) -> Any:
+    look = {
+        "description": f"{one.name} [{one.unit or '1'}]",
+        "readout_format": ".4g",
+        "style": {"description_width": "14em"},
+        "layout": widgets.Layout(width="42em"),
+    }
+    if one.logarithmic:
+        low, high = np.log10([one.low, one.high]).tolist()
+        return widgets.FloatLogSlider(
+            one.value, base=10, min=low, max=high, step=(high - low) / STEPS, **look
+        )
+    return widgets.FloatSlider(
+        one.value, min=one.low, max=one.high, step=(one.high - one.low) / STEPS, **look
+    )

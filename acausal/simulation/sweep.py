@@ -1,0 +1,299 @@
+"""`sweep`: many variants of a simulation at once, over values of parameters, inputs and initial states."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+from numpy.typing import ArrayLike
+
+from acausal._jax import is_real
+from acausal.by_name import ByName, matching, names_in
+from acausal.errors import DataError, nearest, need_compiled, shown, user_level
+from acausal.simulation.simulate import simulate
+from acausal.simulation.solution import Solution
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from xarray import Dataset
+
+    from acausal.system import System
+
+VARIANT = "variant"
+"""The axis of variants that are not a grid."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Sweep(ByName):
+    """Variants of a simulation. ``result["c.v"]`` has an axis for each value that was varied, and time last.
+
+    Attributes:
+        runs: the simulations, with a leading axis of all variants, the last value varying fastest.
+        over: the values that were varied, by name.
+        grid: whether every value meets every other; else they vary together, along one axis.
+    """
+
+    runs: Solution
+    over: Mapping[str, Float[np.ndarray, " n"]]
+    grid: bool = True
+    _columns: dict[str, Array] = field(default_factory=dict[str, Array], init=False)
+
+    @property
+    def t(self) -> Float[Array, " n"]:
+        """Times, in seconds."""
+        return self.runs.t[0]
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the axes: those that were varied, or ``"variant"``, and ``"time"``."""
+        return (*self.over, "time") if self.grid else (VARIANT, "time")
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Sizes of the axes."""
+        sizes = tuple(map(len, self.over.values()))
+        return (*(sizes if self.grid else sizes[:1]), len(self.t))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names that can be asked for."""
+        return self.runs.names
+
+    def unit(self, name: str) -> str:
+        """Unit of a variable, in Modelica's spelling; ``"s"`` for ``time``."""
+        return self.runs.unit(name)
+
+    def sel(self, values: Mapping[str, float]) -> Sweep | Solution:
+        """The variants nearest to some values: a `Solution` if one is left, else those along the other axes.
+
+        Arguments:
+            values: by name, such as ``{"r.R": 47.0}``.
+
+        Raises:
+            DataError: for a name that was not varied, or what is not a number.
+        """
+        for name, value in values.items():
+            self._known(name)
+            if not is_real(value) or np.ndim(value):
+                raise DataError(f"sel: '{name}' is {shown(value)}; give a number.")
+        if not self.grid:
+            spans = {n: np.ptp(self.over[n]) or 1.0 for n in values}
+            far = sum(((self.over[n] - v) / spans[n]) ** 2 for n, v in values.items())
+            return self.isel({VARIANT: int(np.argmin(far))})
+        return self.isel({n: int(np.argmin(np.abs(self.over[n] - v))) for n, v in values.items()})
+
+    def isel(self, indices: Mapping[str, int]) -> Sweep | Solution:
+        """The same as `sel` by positions along the axes, counted from 0.
+
+        Raises:
+            DataError: for a name that is no axis, or a position outside.
+        """
+        for name, index in indices.items():
+            if name not in self.dims[:-1]:
+                raise DataError(f"isel: {nearest(name, self.dims[:-1])}")
+            size = self.shape[self.dims.index(name)]
+            if not -size <= index < size:
+                raise DataError(
+                    f"isel: '{name}' has {size} values, counted from 0; there is no {index}."
+                )
+        rows = np.arange(prod(self.shape[:-1])).reshape(self.shape[:-1])
+        rows = rows[tuple(indices.get(name, slice(None)) for name in self.dims[:-1])]
+        runs = jax.tree.map(lambda leaf: leaf[rows.ravel() if rows.ndim else int(rows)], self.runs)
+        if not rows.ndim:
+            return runs
+        return Sweep(runs, {n: v for n, v in self.over.items() if n not in indices}, self.grid)
+
+    def to_xarray(self, names: str | Iterable[str] | None = None) -> Dataset:
+        """An xarray Dataset of some variables (by default the states; patterns as for `Solution.plot`), with units.
+
+        Raises:
+            DataError: if xarray is not installed.
+        """
+        try:
+            import xarray as xr
+        except ImportError:
+            raise DataError("A dataset needs xarray: pip install 'acausal[xarray]'.") from None
+        chosen = self.runs.system.states if names is None else matching(names, self.names)
+        axes = {n: (n if self.grid else VARIANT,) for n in self.over} | {"time": ("time",)}
+        units = {n: self.unit(n) for n in axes}
+        values = {**self.over, "time": np.asarray(self.t)}
+        return xr.Dataset(
+            {n: (self.dims, np.asarray(self[n]), {"units": self.unit(n)}) for n in chosen},
+            {n: (axis, values[n], {"units": units[n]}) for n, axis in axes.items()},
+        )
+
+    def plot(self, name: str, *, ax: Axes | None = None) -> Figure:
+        """Draw one variable over time, with a line for each variant, coloured by the first value that was varied.
+
+        Arguments:
+            name: of the variable.
+            ax: matplotlib axes; by default a new figure's.
+
+        Returns:
+            The matplotlib figure.
+        """
+        from acausal.reporting import plot_variants
+
+        first, values = next(iter(self.over.items()))
+        lines = np.asarray(self[name]).reshape(-1, len(self.t))
+        levels = np.repeat(values, len(lines) // len(values))
+        labels = (_label(name, self.unit(name)), _label(first, self.unit(first)))
+        return plot_variants(np.asarray(self.t), lines, levels, labels, ax=ax)
+
+    def _known(self, name: str) -> None:
+        if name not in self.over:
+            raise DataError(f"'{name}' was not varied; {nearest(name, self.over)}")
+
+    def _column(self, name: str) -> Float[Array, ...]:
+        return self._read((name,))[name]
+
+    def _side_by_side(self, names: tuple[str, ...]) -> Float[Array, "... n_names"]:
+        found = self._read(names)
+        return jnp.stack([found[name] for name in names], axis=-1)
+
+    def _read(self, names: tuple[str, ...]) -> dict[str, Array]:
+        new = tuple(name for name in names if name not in self._columns)
+        if new:
+            values = jax.vmap(lambda run: run[new])(self.runs)
+            for i, name in enumerate(new):
+                self._columns[name] = values[..., i].reshape(self.shape)
+        return self._columns
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{n}: {size}" for n, size in zip(self.dims, self.shape, strict=True))
+        return f"Sweep({sizes}; {len(self.names)} variables)"
+
+
+def sweep(
+    system: System,
+    over: Mapping[str, ArrayLike],
+    t: float | tuple[float, float],
+    *,
+    grid: bool = True,
+    inputs: Any = None,
+    params: Mapping[str, Any] | None = None,
+    x0: Any = None,
+    **options: Any,
+) -> Sweep:
+    """Simulate many variants of a model at once, in one compiled program.
+
+    The first call compiles; another with as many variants of the same names does not.
+
+    Arguments:
+        system: a compiled model.
+        over: values by name, each a sequence of numbers: of parameters, of inputs that are constant, or of states at
+            the start.
+        t: start and end in seconds, or the end.
+        grid: whether every value meets every other, with an axis for each name. Otherwise they vary together, and all
+            have the same length.
+        inputs, params, x0: what all variants have in common, as of `simulate`.
+        options: the other arguments of `simulate`, such as ``dt`` and ``solver``.
+
+    Returns:
+        The trajectories, any variable of them by name.
+
+    Raises:
+        ModelError: for a model that is not compiled.
+        DataError: for an unknown name, values that are no numbers or outside of a parameter's range, and as `simulate`.
+
+    Warns:
+        UserWarning: if variants did not reach the end; their values are not finite.
+    """
+    need_compiled(system, "sweep")
+    if not isinstance(over, Mapping) or not over:
+        raise DataError(
+            f"over={shown(over)} are not values by name, such as {{'r.R': [1.0, 2.0]}}."
+        )
+    values = {name: _values(system, name, over[name]) for name in names_in(over, "over")}
+    columns = _variants(values, grid)
+    roles = {name: _role(system, name) for name in values}
+    common = {"params": params, "inputs": inputs, "x0": x0}
+    for role, argument in common.items():
+        if role in roles.values() and not (argument is None or isinstance(argument, Mapping)):
+            raise DataError(f"{role}: give a mapping by name, to which sweep adds what it varies.")
+    if "params" in roles.values() and params is None:
+        common["params"] = system.parameters()
+
+    def one(varied: dict[str, Array]) -> Solution:
+        given = dict(common)
+        for role in dict.fromkeys(roles.values()):
+            own = {name: value for name, value in varied.items() if roles[name] == role}
+            given[role] = {**(common[role] or {}), **own}
+        return simulate(system, t, **given, **options)
+
+    runs = jax.vmap(one)({name: jnp.asarray(column) for name, column in columns.items()})
+    _warn_of_broken(runs, columns)
+    return Sweep(runs, values, grid)
+
+
+def _role(system: System, name: str) -> str:
+    """The argument of `simulate` that takes the values of a name."""
+    for role, known in (
+        ("params", system.layout.names), ("inputs", system.inputs), ("x0", system.states),
+    ):  # fmt: skip
+        if name in known:
+            return role
+    reason = system.layout.why_not_free(name)
+    known = (*system.layout.names, *system.inputs, *system.states)
+    raise DataError(
+        f"over: {reason}." if reason
+        else f"over: '{name}' is no parameter, input or state; {nearest(name, known)}"
+    )  # fmt: skip
+
+
+def _values(system: System, name: str, given: ArrayLike) -> Float[np.ndarray, " n"]:
+    role = _role(system, name)
+    if not is_real(given):
+        raise DataError(f"over: '{name}' is {shown(given)}; give numbers.")
+    values = np.atleast_1d(np.asarray(given, float))
+    if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
+        raise DataError(f"over: '{name}' has shape {values.shape}; give a row of finite numbers.")
+    if role == "params":
+        low, high = system.layout.range_of(name)
+        outside = values[(values < low) | (values > high)]
+        if len(outside):
+            limit = f"at least {low:g}" if outside[0] < low else f"at most {high:g}"
+            unit = system.unit(name)
+            raise DataError(
+                f"over: '{name}' has {outside[0]:g}, but must be {limit} {unit}".rstrip() + "."
+            )
+    return values
+
+
+def _variants(
+    values: Mapping[str, Float[np.ndarray, " n"]], grid: bool
+) -> dict[str, Float[np.ndarray, " n_variants"]]:
+    """The value of every name in every variant."""
+    if grid:
+        meshes: Sequence[np.ndarray] = np.meshgrid(*values.values(), indexing="ij")
+        return {name: mesh.ravel() for name, mesh in zip(values, meshes, strict=True)}
+    lengths = {name: len(column) for name, column in values.items()}
+    if len(set(lengths.values())) > 1:
+        differ = ", ".join(f"'{name}' has {n}" for name, n in lengths.items())
+        raise DataError(f"over: values that vary together are equally many, but {differ}.")
+    return dict(values)
+
+
+def _warn_of_broken(runs: Solution, columns: Mapping[str, Float[np.ndarray, " n"]]) -> None:
+    finite = np.all(np.isfinite(np.asarray(runs.x)), axis=(1, 2))
+    if finite.all():
+        return
+    first = int(np.argmin(finite))
+    where = ", ".join(f"{name} = {column[first]:g}" for name, column in columns.items())
+    warnings.warn(
+        f"{np.sum(~finite)} of {finite.size} variants did not reach the end, the first with {where}: their values are "
+        "not finite. Simulate that one alone to see why.",
+        stacklevel=user_level(),
+    )
+
+
+def _label(name: str, unit: str) -> str:
+    return f"{name} in {unit or '1'}"

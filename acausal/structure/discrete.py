@@ -1,0 +1,75 @@
+"""Discrete variables of a flat model: each is given by one equation of events, and only states jump."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from acausal.errors import StructureError, listing
+from acausal.flattening import FlatModel, Integers, UpdateGroup
+from acausal.structure.aliases import AliasFree
+
+
+def discrete_nodes(model: FlatModel, aliases: AliasFree) -> Integers:
+    """The nodes of the discrete variables: first those of watched conditions.
+
+    Raises:
+        StructureError: for one that no equation gives, that two give, that is zero, an input, or differentiated.
+    """
+    if not len(model.discrete):
+        return model.discrete
+    given: dict[int, str] = {}
+    for targets, origins in _given(model):
+        for variable, origin in zip(targets.tolist(), origins, strict=True):
+            node, name = int(aliases.representative[variable]), model.layout.variable(variable)
+            if node == aliases.zero or node in set(aliases.representative[model.inputs].tolist()):
+                what = "zero" if node == aliases.zero else "an input of the model"
+                raise StructureError(
+                    f"the discrete variable '{name}' is connected to {what}, but given by {origin}; remove one"
+                )
+            if node in given:
+                raise StructureError(
+                    f"two equations give the discrete variable '{name}': {given[node]}, and {origin}"
+                )
+            given[node] = origin
+    nodes = aliases.representative[model.discrete]
+    missing = [v for v in model.discrete.tolist() if int(aliases.representative[v]) not in given]
+    if missing:
+        names = listing([model.layout.variable(v) for v in missing], 6)
+        raise StructureError(
+            f"no equation gives the discrete variables {names}; yield ac.Eq(variable, ...) or an ac.When(...) for each"
+        )
+    for node in nodes.tolist():
+        if aliases.derivative[node] >= 0:
+            raise StructureError(
+                f"'{model.layout.variable(node)}' is discrete, so it has no derivative; differentiate another variable"
+            )
+    _, first = np.unique(nodes, return_index=True)
+    return nodes[np.sort(first)]
+
+
+def check_jumps(model: FlatModel, aliases: AliasFree, states: set[int]) -> None:
+    """Refuse jumps of what is not a state, and two of one state."""
+    jumping: set[int] = set()
+    for group in model.events.jumps:
+        for variable in group.targets.tolist():
+            node, name = int(aliases.representative[variable]), model.layout.variable(variable)
+            if node not in states:
+                raise StructureError(
+                    f"Reinit of '{name}', which is not a state: only states can jump; give it state=\"always\", or let "
+                    "a state that it depends on jump"
+                )
+            if node in jumping:
+                raise StructureError(f"two Reinit of '{name}' in different When(...); join them")
+            jumping.add(node)
+
+
+def _given(model: FlatModel) -> list[tuple[Integers, list[str]]]:
+    """The variables that equations of events give, and these equations."""
+    groups = [*model.events.guards, *model.events.updates]
+    return [(g.targets, _origins(model, g)) for g in groups]  # pyright: ignore[reportArgumentType]
+
+
+def _origins(model: FlatModel, group: UpdateGroup) -> list[str]:
+    paths = (model.layout.paths[c] for c in group.group.components)
+    origin = group.group.template.origin
+    return [f"{path} ({origin})" if path else origin for path in paths]

@@ -1,0 +1,18 @@
+"""Digital circuits with nine-valued logic (`Modelica.Electrical.Digital`), without delays.
+
+```python
+from acausal.components import digital
+
+clock = digital.Clock(period=1e-3)
+```
+
+A signal is one of the numbers 1 ... 9, the values of `acausal.components.digital.logic.LOGIC` in order.
+"""
+
+from acausal.components.modelica import export
+
+from .converters import *
+from .gates import *
+from .sources import *
+
+export(__name__)

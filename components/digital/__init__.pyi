@@ -1,0 +1,333 @@
+"""Digital circuits with nine-valued logic (`Modelica.Electrical.Digital`), without delays.
+
+Made by docs/make_stubs.py from the declarations of the classes; do not edit it.
+"""
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex
+
+import acausal as ac
+
+__all__ = [
+    "And",
+    "BooleanToLogic",
+    "Clock",
+    "LogicToBoolean",
+    "LogicToReal",
+    "Nand",
+    "Nor",
+    "Not",
+    "Or",
+    "Pulse",
+    "Set",
+    "Step",
+    "Table",
+    "Xnor",
+    "Xor",
+]
+
+class BooleanToLogic(ac.Component):
+    """``'1'`` where ``x > 0.5``, else ``'0'``, element by element."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """truth values"""
+    y: ClassVar[ac.Output]
+    """digital signals"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Clock(ac.Component):
+    """1 during the first ``width`` percent of each period from ``startTime`` [s] on, else 0."""
+
+    startTime: ClassVar[ac.Parameter]
+    """time of the first pulse [s]"""
+    period: ClassVar[ac.Parameter]
+    """duration of a period [s]"""
+    width: ClassVar[ac.Parameter]
+    """width of a pulse in percent of the period"""
+    t_i: ClassVar[ac.Discrete]
+    """start of the present period [s]"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        startTime: SupportsFloat | ac.Start = ...,
+        period: SupportsFloat | ac.Start = ...,
+        width: SupportsFloat | ac.Start = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        t_i: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class LogicToBoolean(ac.Component):
+    """1 where ``x`` is ``'1'`` or ``'H'``, else 0, element by element."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """digital signals"""
+    y: ClassVar[ac.Output]
+    """truth values, 1 or 0"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class LogicToReal(ac.Component):
+    """``value_U``, ``value_X``, ``value_0`` ... for the values of ``x``, element by element."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """digital signals"""
+    y: ClassVar[ac.Output]
+    """numbers"""
+    value_U: ClassVar[ac.Parameter]
+    """for 'U'"""
+    value_X: ClassVar[ac.Parameter]
+    """for 'X'"""
+    value_0: ClassVar[ac.Parameter]
+    """for '0'"""
+    value_1: ClassVar[ac.Parameter]
+    """for '1'"""
+    value_Z: ClassVar[ac.Parameter]
+    """for 'Z'"""
+    value_W: ClassVar[ac.Parameter]
+    """for 'W'"""
+    value_L: ClassVar[ac.Parameter]
+    """for 'L'"""
+    value_H: ClassVar[ac.Parameter]
+    """for 'H'"""
+    value_m: ClassVar[ac.Parameter]
+    """for '-'"""
+    def __init__(
+        self,
+        *,
+        value_U: SupportsFloat | ac.Start = ...,
+        value_X: SupportsFloat | ac.Start = ...,
+        value_0: SupportsFloat | ac.Start = ...,
+        value_1: SupportsFloat | ac.Start = ...,
+        value_Z: SupportsFloat | ac.Start = ...,
+        value_W: SupportsFloat | ac.Start = ...,
+        value_L: SupportsFloat | ac.Start = ...,
+        value_H: SupportsFloat | ac.Start = ...,
+        value_m: SupportsFloat | ac.Start = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Not(ac.Component):
+    """1 for 0, 0 for 1, ``'U'`` for ``'U'``, else ``'X'``."""
+
+    x: ClassVar[ac.Input]
+    """input"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self, *, x: ac.Start | Mapping[str, Any] = ..., y: ac.Start | Mapping[str, Any] = ...
+    ) -> None: ...
+
+class Pulse(ac.Component):
+    """``pulse`` during the first ``width`` percent of each period from ``startTime`` [s] on, else ``quiet``."""
+
+    width: ClassVar[ac.Parameter]
+    """width of a pulse in percent of the period"""
+    period: ClassVar[ac.Parameter]
+    """duration of a period [s]"""
+    startTime: ClassVar[ac.Parameter]
+    """time of the first pulse [s]"""
+    pulse: ClassVar[ac.Option]
+    """value during a pulse"""
+    quiet: ClassVar[ac.Option]
+    """value between pulses"""
+    nperiod: ClassVar[ac.Parameter]
+    """number of periods; without limit if negative"""
+    T0: ClassVar[ac.Discrete]
+    """start of the present period [s]"""
+    np: ClassVar[ac.Discrete]
+    """number of periods begun, if they are limited"""
+    sampling: ClassVar[ac.Discrete]
+    """1 while there are pulses"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        width: SupportsFloat | ac.Start = ...,
+        period: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        nperiod: SupportsFloat | ac.Start = ...,
+        pulse: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        quiet: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        T0: ac.Start | Mapping[str, Any] = ...,
+        np: ac.Start | Mapping[str, Any] = ...,
+        sampling: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Set(ac.Component):
+    """``x`` at all times."""
+
+    x: ClassVar[ac.Option]
+    """value"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        x: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Step(ac.Component):
+    """``before`` until ``stepTime`` [s], then ``after``."""
+
+    before: ClassVar[ac.Option]
+    """value before the step"""
+    after: ClassVar[ac.Option]
+    """value after the step"""
+    stepTime: ClassVar[ac.Parameter]
+    """time of the step [s]"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        stepTime: SupportsFloat | ac.Start = ...,
+        before: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        after: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Table(ac.Component):
+    """``y0``, from each time [s] of ``t`` on the value of ``x`` beside it."""
+
+    x: ClassVar[ac.Option]
+    """values"""
+    t: ClassVar[ac.Option]
+    """times from which they hold, ascending"""
+    y0: ClassVar[ac.Option]
+    """value before the first time"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        x: Any = ...,
+        t: Any = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class And(ac.Component):
+    """1 if all inputs are 1; 0 if one is 0."""
+
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Nand(ac.Component):
+    """0 if all inputs are 1; 1 if one is 0."""
+
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Nor(ac.Component):
+    """0 if an input is 1; 1 if all are 0."""
+
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Or(ac.Component):
+    """1 if an input is 1; 0 if all are 0."""
+
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Xnor(ac.Component):
+    """1 if an even number of inputs is 1."""
+
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Xor(ac.Component):
+    """1 if an odd number of inputs is 1."""
+
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    y: ClassVar[ac.Output]
+    """output"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...

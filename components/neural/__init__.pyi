@@ -1,0 +1,381 @@
+"""Neural elements of any domain: two-ports whose law is a small network, with promises that it keeps.
+
+Made by docs/make_stubs.py from the declarations of the classes; do not edit it.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex
+
+import acausal as ac
+from acausal.components import (
+    rotational as _rotational,
+    thermal as _thermal,
+    translational as _translational,
+)
+
+__all__ = [
+    "BearingFriction",
+    "Characteristic",
+    "Compliance",
+    "CompliancePort",
+    "Hysteresis",
+    "Inductance",
+    "LossyTransformer",
+    "MultiportCompliance",
+    "PartialFrictionCurve",
+    "PartialLaw",
+    "PartialNetwork",
+    "PartialNeural",
+    "PartialTwoPort",
+    "Resistance",
+    "SupportFriction",
+]
+
+class PartialNetwork(ac.Component):
+    """An element with a network, and the options of it that all such elements have."""
+
+    width: ClassVar[ac.Option]
+    """neurons in each hidden layer"""
+    depth: ClassVar[ac.Option]
+    """hidden layers"""
+    activation: ClassVar[ac.Option]
+    """of the hidden layers, by name; None takes the default"""
+    input_scale: ClassVar[ac.Option]
+    """magnitude of the inputs, one number or one for each"""
+    output_scale: ClassVar[ac.Option]
+    """magnitude of the output"""
+    net: ClassVar[ac.Module]
+    """the law"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class PartialTwoPort(ac.Component):
+    """Two connectors and the variables between them, under the names of their domain."""
+    def __init__(self, connector: type[ac.Connector] = ..., **modifiers: Any) -> None: ...
+
+class CompliancePort(PartialTwoPort):
+    """A port of a `MultiportCompliance`: two connectors of one domain, and its displacement ``x``."""
+    def __init__(self, connector: type[ac.Connector] = ..., **modifiers: Any) -> None: ...
+
+class MultiportCompliance(PartialNetwork):
+    """A neural compliance of several ports: one energy, ``E = net(x_1, x_2, ...)``, and its gradient."""
+
+    odd: ClassVar[ac.Option]
+    """the same from both sides"""
+    passive: ClassVar[ac.Option]
+    """the energy is never negative, and zero at zero"""
+    convex: ClassVar[ac.Option]
+    """the energy is convex"""
+    floor: ClassVar[ac.Option]
+    """least curvature of a convex energy, relative to that of the scales"""
+    ports: list[CompliancePort]
+    def __init__(
+        self,
+        connectors: Sequence[type[ac.Connector]] = ...,
+        *,
+        secondary: Sequence[str] = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        passive: bool = ...,
+        convex: bool = ...,
+        floor: Any = ...,
+        net: Callable[..., Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class PartialFrictionCurve(PartialNetwork):
+    """Base of friction whose curve is a network ``net`` of the speed, positive for all weights."""
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class PartialLaw(PartialNetwork):
+    """Base of elements whose network is a law of one input, and of secondary inputs."""
+
+    odd: ClassVar[ac.Option]
+    """the law is odd: the same from both sides"""
+    extrapolation: ClassVar[ac.Option]
+    """how the law goes on beyond the limits"""
+    limits: ClassVar[ac.Option]
+    """of the first input, a pair or one number; by default three input scales"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class Characteristic(PartialLaw):
+    """A learned characteristic between signals: ``y = net(u)``."""
+
+    monotone: ClassVar[ac.Option]
+    """the characteristic never falls"""
+    zero_crossing: ClassVar[ac.Option]
+    """how it comes to vanish at 0"""
+    floor: ClassVar[ac.Option]
+    """least derivative of a monotone characteristic, relative to that of the scales"""
+    start: ClassVar[ac.Option]
+    """derivative that a new monotone characteristic has in addition, relative likewise; it is trained"""
+    u: ClassVar[ac.Input]
+    """input signal"""
+    y: ClassVar[ac.Output]
+    """output signal"""
+    def __init__(
+        self,
+        *,
+        secondary: int | Sequence[str] = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        extrapolation: Literal[None, "saturating", "linear", "cubic"] = ...,
+        limits: Any = ...,
+        monotone: bool = ...,
+        zero_crossing: Literal[None, "regularizer", "offset", "exact"] = ...,
+        floor: Any = ...,
+        start: Any = ...,
+        net: Callable[..., Any] = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class Hysteresis(PartialTwoPort, PartialNetwork):
+    """A neural hysteresis with an internal state ``z``, after Bouc and Wen; passive for all weights."""
+
+    odd: ClassVar[ac.Option]
+    """the same in both directions"""
+    memory: ClassVar[ac.Module]
+    """how fast the memory fades"""
+    z: ClassVar[ac.Variable]
+    """what the element remembers"""
+    def __init__(
+        self,
+        connector: type[ac.Connector] = ...,
+        *,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        net: Callable[..., Any] = ...,
+        memory: Callable[..., Any] = ...,
+        z: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class LossyTransformer(PartialNetwork, _thermal.PartialElementaryConditionalHeatPortWithoutT):
+    """A transformer with a learned efficiency map: a gear, a motor, a rack; what is lost leaves as heat."""
+
+    ratio: ClassVar[ac.Parameter]
+    """rate at a over rate at b"""
+    P_small: ClassVar[ac.Parameter]
+    """power around which the direction changes [W]"""
+    P_a: ClassVar[ac.Variable]
+    """power into port a [W]"""
+    def __init__(
+        self,
+        connector_a: type[ac.Connector] = ...,
+        connector_b: type[ac.Connector] = ...,
+        *,
+        secondary: Sequence[str] = ...,
+        ratio: SupportsFloat | ac.Start = ...,
+        P_small: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        net: Callable[..., Any] = ...,
+        heatPort: Mapping[str, Any] = ...,
+        lossPower: ac.Start | Mapping[str, Any] = ...,
+        P_a: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class PartialNeural(PartialTwoPort, PartialLaw):
+    """Base of neural two-ports: two connectors, the variables between them, and a network ``net``."""
+    def __init__(
+        self,
+        connector: type[ac.Connector] = ...,
+        *,
+        secondary: int | Sequence[str] = ...,
+        **modifiers: Any,
+    ) -> None: ...
+
+class Compliance(PartialNeural):
+    """A neural spring or capacitor."""
+
+    passive: ClassVar[ac.Option]
+    """it never gives back more energy than it took"""
+    monotone: ClassVar[ac.Option]
+    """the law never falls; of an energy say convex"""
+    convex: ClassVar[ac.Option]
+    """the energy is convex"""
+    zero_crossing: ClassVar[ac.Option]
+    """how the law comes to vanish at 0"""
+    floor: ClassVar[ac.Option]
+    """least derivative of the law, relative to that of the scales"""
+    def __init__(
+        self,
+        connector: type[ac.Connector] = ...,
+        *,
+        energy: bool = ...,
+        secondary: int | Sequence[str] = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        extrapolation: Literal[None, "saturating", "linear", "cubic"] = ...,
+        limits: Any = ...,
+        passive: bool = ...,
+        monotone: bool = ...,
+        convex: bool = ...,
+        zero_crossing: Literal[None, "regularizer", "offset", "exact"] = ...,
+        floor: Any = ...,
+        net: Callable[..., Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class Inductance(PartialNeural):
+    """A neural mass, inductor or fluid inertance: momentum as a function of flow."""
+
+    floor: ClassVar[ac.Option]
+    """least derivative of the momentum, relative to that of the scales"""
+    def __init__(
+        self,
+        connector: type[ac.Connector] = ...,
+        *,
+        secondary: int | Sequence[str] = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        extrapolation: Literal[None, "saturating", "linear", "cubic"] = ...,
+        limits: Any = ...,
+        floor: Any = ...,
+        net: Callable[..., Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class Resistance(PartialNeural):
+    """A neural damper or resistor."""
+
+    passive: ClassVar[ac.Option]
+    """the law has the sign of its first input"""
+    monotone: ClassVar[ac.Option]
+    """the law never falls"""
+    zero_crossing: ClassVar[ac.Option]
+    """how the law comes to vanish at 0"""
+    floor: ClassVar[ac.Option]
+    """least derivative of a monotone law, relative to that of the scales"""
+    useHeatPort: ClassVar[ac.Option]
+    """whether there is a heat port"""
+    heatPort: _thermal.HeatPort
+    lossPower: ClassVar[ac.Variable]
+    """power that leaves as heat [W]"""
+    def __init__(
+        self,
+        connector: type[ac.Connector] = ...,
+        *,
+        secondary: int | Sequence[str] = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        extrapolation: Literal[None, "saturating", "linear", "cubic"] = ...,
+        limits: Any = ...,
+        passive: bool = ...,
+        monotone: bool = ...,
+        zero_crossing: Literal[None, "regularizer", "offset", "exact"] = ...,
+        floor: Any = ...,
+        useHeatPort: bool = ...,
+        net: Callable[..., Any] = ...,
+        heatPort: Mapping[str, Any] = ...,
+        lossPower: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class SupportFriction(PartialFrictionCurve, _translational.PartialSupportFriction):
+    """Friction on the support with a learned curve: ``f = net(|v|)`` with the sign of ``v`` while it slides."""
+    def __init__(
+        self,
+        *,
+        v_small: SupportsFloat | ac.Start = ...,
+        peak: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        smooth: bool = ...,
+        useSupport: bool = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        net: Callable[..., Any] = ...,
+        heatPort: Mapping[str, Any] = ...,
+        flange_a: Mapping[str, Any] = ...,
+        flange_b: Mapping[str, Any] = ...,
+        support: Mapping[str, Any] = ...,
+        startForward: ac.Start | Mapping[str, Any] = ...,
+        locked: ac.Start | Mapping[str, Any] = ...,
+        startBackward: ac.Start | Mapping[str, Any] = ...,
+        mode: ac.Start | Mapping[str, Any] = ...,
+        free: ac.Start | Mapping[str, Any] = ...,
+        lossPower: ac.Start | Mapping[str, Any] = ...,
+        sa: ac.Start | Mapping[str, Any] = ...,
+        v_relfric: ac.Start | Mapping[str, Any] = ...,
+        a_relfric: ac.Start | Mapping[str, Any] = ...,
+        f0: ac.Start | Mapping[str, Any] = ...,
+        f0_max: ac.Start | Mapping[str, Any] = ...,
+        s_a: ac.Start | Mapping[str, Any] = ...,
+        s_b: ac.Start | Mapping[str, Any] = ...,
+        s: ac.Start | Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
+        a: ac.Start | Mapping[str, Any] = ...,
+        f: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class BearingFriction(PartialFrictionCurve, _rotational.PartialBearingFriction):
+    """Friction in the support with a learned curve: ``tau = net(|w|)`` with the sign of ``w`` while it slides."""
+    def __init__(
+        self,
+        *,
+        peak: SupportsFloat | ac.Start = ...,
+        w_small: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        smooth: bool = ...,
+        useSupport: bool = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        net: Callable[..., Any] = ...,
+        heatPort: Mapping[str, Any] = ...,
+        flange_a: Mapping[str, Any] = ...,
+        flange_b: Mapping[str, Any] = ...,
+        support: Mapping[str, Any] = ...,
+        startForward: ac.Start | Mapping[str, Any] = ...,
+        locked: ac.Start | Mapping[str, Any] = ...,
+        startBackward: ac.Start | Mapping[str, Any] = ...,
+        mode: ac.Start | Mapping[str, Any] = ...,
+        free: ac.Start | Mapping[str, Any] = ...,
+        lossPower: ac.Start | Mapping[str, Any] = ...,
+        sa: ac.Start | Mapping[str, Any] = ...,
+        w_relfric: ac.Start | Mapping[str, Any] = ...,
+        a_relfric: ac.Start | Mapping[str, Any] = ...,
+        tau0: ac.Start | Mapping[str, Any] = ...,
+        tau0_max: ac.Start | Mapping[str, Any] = ...,
+        phi_a: ac.Start | Mapping[str, Any] = ...,
+        phi_b: ac.Start | Mapping[str, Any] = ...,
+        phi: ac.Start | Mapping[str, Any] = ...,
+        w: ac.Start | Mapping[str, Any] = ...,
+        a: ac.Start | Mapping[str, Any] = ...,
+        tau: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...

@@ -1,0 +1,75 @@
+"""Operating points: where a model rests."""
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import electrical as el, rotational as rot
+
+
+class Motor(ac.Component):
+    """A motor with friction and a load."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.source, self.ground = el.SignalVoltage(), el.Ground()
+        self.r, self.l = el.Resistor(R=2.0), el.Inductor(L=1e-3)
+        self.emf = el.RotationalEMF(k=0.5)
+        self.rotor, self.friction = rot.Inertia(J=1e-2), rot.Damper(d=0.1)
+        self.housing, self.load = rot.Fixed(), rot.Torque()
+        self.connect(self.source.p, self.r.p)
+        self.connect(self.r.n, self.l.p)
+        self.connect(self.l.n, self.emf.p)
+        self.connect(self.emf.n, self.source.n, self.ground.p)
+        self.connect(self.emf.flange, self.rotor.flange_a, self.friction.flange_a)
+        self.connect(self.friction.flange_b, self.housing.flange)
+        self.connect(self.rotor.flange_b, self.load.flange)
+
+
+@pytest.fixture(scope="module")
+def system() -> ac.System:
+    return ac.compile(Motor())
+
+
+RUNNING = ("l.i", "rotor.w")
+
+
+def test_a_motor_turns_while_its_current_and_speed_rest(system: ac.System) -> None:
+    inputs = {"source.v": 12.0, "load.tau": lambda t: -0.1 * t}
+    point = ac.operating_point(system, inputs=inputs, steady=RUNNING, t=1.0)
+    w = (0.5 * 12.0 / 2.0 - 0.1) / (0.1 + 0.5**2 / 2.0)
+    assert float(point["rotor.w"]) == pytest.approx(w)
+    assert float(point["l.i"]) == pytest.approx((12.0 - 0.5 * w) / 2.0)
+    assert point.to_dict(["r.v"]) == {"r.v": pytest.approx(12.0 - 0.5 * w)}
+    np.testing.assert_allclose(point[["source.v", "load.tau"]], [12.0, -0.1])
+    assert point.unit("rotor.w") == "rad/s"
+    assert "rotor.w" in point
+    assert "12 V" in repr(point)
+
+
+def test_without_inputs_it_stands_still(system: ac.System) -> None:
+    point = ac.operating_point(system)
+    np.testing.assert_allclose(point.x, 0.0, atol=1e-12)
+
+
+def test_other_parameters_have_another_point(system: ac.System) -> None:
+    params = {**system.parameters(), "r.R": 1.0}
+    inputs = {"source.v": 12.0}
+    point = ac.operating_point(system, inputs=inputs, params=params, steady=RUNNING)
+    assert float(point["rotor.w"]) == pytest.approx(6.0 / (0.1 + 0.25))
+    linear = ac.linearize(system, point, outputs=["rotor.w"])
+    assert float(linear.A[system.states.index("l.i"), system.states.index("l.i")]) == -1000.0
+
+
+def test_a_point_that_does_not_exist_is_told(system: ac.System) -> None:
+    with pytest.raises(ac.InitializationError):
+        ac.operating_point(system, inputs={"source.v": 12.0})
+    with pytest.raises(ac.DataError, match=r"inputs: 'source\.w' is not an input; did you mean"):
+        ac.operating_point(system, inputs={"source.w": 12.0})
+    with pytest.raises(ac.DataError, match=r"The model has no variable 'rotor\.q'"):
+        _ = ac.operating_point(system)["rotor.q"]
+
+
+def test_a_simulation_can_start_at_rest(system: ac.System) -> None:
+    run = ac.simulate(system, 0.1, dt=0.01, inputs={"source.v": 0.0, "load.tau": 0.0}, x0="steady")
+    np.testing.assert_allclose(run["rotor.w"], 0.0, atol=1e-12)

@@ -1,0 +1,360 @@
+"""The command line, as it is typed."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import acausal as ac
+from acausal.command import EXIT_CODES, main
+from tests.support.paths import ROOT
+
+MODEL = {
+    "model": "Oscillator",
+    "components": {
+        "fixed": {"class": "Modelica.Mechanics.Translational.Components.Fixed"},
+        "spring": {
+            "class": "Modelica.Mechanics.Translational.Components.SpringDamper",
+            "with": {"c": 50.0, "d": 1.0},
+        },
+        "mass": {
+            "class": "Modelica.Mechanics.Translational.Components.Mass",
+            "with": {"m": 2.0, "s": {"start": 0.1, "fixed": True}, "v": {"fixed": True}},
+        },
+        "push": {"class": "Modelica.Mechanics.Translational.Sources.Force"},
+    },
+    "connections": [
+        ["fixed.flange", "spring.flange_a"],
+        ["spring.flange_b", "mass.flange_a"],
+        ["push.flange", "mass.flange_b"],
+    ],
+    "stop_time": 2.0,
+}
+
+PYTHON = """
+import acausal as ac
+
+model = ac.load("oscillator.json")
+
+def make():
+    return ac.compile(ac.load("oscillator.json"))
+
+def wrong():
+    return 1 / 0
+
+def number():
+    return 3
+
+class Needs(ac.Component):
+    def __init__(self, count):
+        super().__init__()
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a model, in which commands run."""
+    (tmp_path / "oscillator.json").write_text(json.dumps(MODEL))
+    (tmp_path / "own_models.py").write_text(PYTHON)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    monkeypatch.delitem(sys.modules, "own_models", raising=False)
+    return tmp_path
+
+
+@pytest.fixture
+def typed(capsys: pytest.CaptureFixture[str]):
+    """Type a command: its exit code, what it prints, and what it complains about."""
+
+    def run(*words: str) -> tuple[int, str, str]:
+        code = main(words)
+        return code, *capsys.readouterr()
+
+    return run
+
+
+PUSH = ("--input", "push.f=1")
+
+
+# -- in a shell ---------------------------------------------------------------------------------------
+
+
+def shell(*words: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """`python -m acausal` in a process of its own."""
+    command = [sys.executable, "-m", "acausal", *words]
+    env = {"PATH": "/usr/bin:/bin", "PYTHONPATH": str(ROOT), "JAX_PLATFORMS": "cpu"}
+    return subprocess.run(command, cwd=cwd, env=env, capture_output=True, text=True, check=False)
+
+
+def test_in_a_shell(folder: Path) -> None:
+    done = shell("check", "oscillator.jsn", cwd=folder)
+    assert done.returncode == 3
+    assert done.stdout == ""
+    assert done.stderr == "error: oscillator.jsn: cannot be read (No such file or directory)\n"
+    assert shell("--version", cwd=folder).stdout == f"acausal {ac.__version__}\n"
+
+
+def test_help_imports_neither_jax_nor_rich(folder: Path) -> None:
+    code = (
+        "import sys; from acausal.command import main; main(['simulate', '--help']);"
+        "print([m for m in ('jax', 'numpy', 'rich', 'sympy') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.endswith("\n[]\n")
+
+
+def test_help_lists_commands_and_exit_codes(typed) -> None:
+    code, out, _ = typed("--help")
+    assert code == 0
+    for word in ("check", "show", "simulate", "fit", "export", "page", "new"):
+        assert f"\n    {word} " in out
+        code, own, _ = typed(word, "--help")
+        assert code == 0
+        assert "\nexamples:\n  acausal " in own
+        assert all(len(line) <= 120 for line in own.splitlines())
+    for number, meaning in EXIT_CODES.items():
+        assert f"{number:>3}  {meaning}" in out
+
+
+def test_no_command_and_wrong_words_are_usage(typed) -> None:
+    assert typed()[0] == 2
+    assert typed("chek", "oscillator.json")[0] == 2
+    assert typed("simulate", "oscillator.json", "--set", "mass.m")[0] == 2
+    assert typed("export", "oscillator.json", "model.xyz")[0] == 2
+    code, out, err = typed("export", "oscillator.json", "model.mo", "--fmi", "2.0")
+    assert (code, out) == (2, "")
+    assert err == "error: --fmi does not go with the form modelica.\n"
+
+
+# -- models -------------------------------------------------------------------------------------------
+
+
+def test_check(typed) -> None:
+    code, out, err = typed("check", "oscillator.json")
+    assert (code, err) == (0, "")
+    assert out.startswith("Oscillator is right: ")
+    assert "2 states, 1 input, 3 parameters, 0 networks" in out
+
+
+def test_check_for_programs(typed) -> None:
+    code, out, _ = typed("check", "oscillator.json", "--json")
+    found = json.loads(out)
+    assert code == 0
+    assert found["ok"] is True
+    assert found["states"] == ["mass.s", "mass.v"]
+    assert found["inputs"] == ["push.f"]
+    assert found["open_starts"] == []
+    assert found["warnings"] == []
+
+
+def test_check_many(typed, folder: Path) -> None:
+    """All are checked; the first that is wrong gives the exit code."""
+    still = {"components": {"mass": {"class": "acausal.components.translational.Mass"}}}
+    (folder / "no_mass.json").write_text(json.dumps(still))
+    models = ("no_mass.json", "nowhere.json", "oscillator.json")
+    code, out, err = typed("check", *models)
+    assert code == 3
+    assert out.startswith("Oscillator is right: ")
+    first, second = err.splitlines()
+    assert first.startswith("error: no_mass.json: ")
+    assert second.startswith("error: nowhere.json: cannot be read")
+    code, out, _ = typed("check", *models, "--json")
+    kinds = [json.loads(line).get("error", {}).get("kind") for line in out.splitlines()]
+    assert (code, kinds) == (3, ["model", "model", None])
+
+
+@pytest.mark.parametrize("model", ["own_models:model", "own_models:make", "own_models.py:make"])
+def test_models_of_python(typed, model: str) -> None:
+    code, out, _ = typed("show", model, "--only", "states", "--json")
+    assert code == 0
+    assert [row["name"] for row in json.loads(out)["states"]] == ["mass.s", "mass.v"]
+
+
+@pytest.mark.parametrize(
+    ("model", "sentence"),
+    [
+        ("own_models:modl", "own_models:modl: own_models has no 'modl': did you mean 'model'?"),
+        ("own_models:number", "own_models:number is 3, not a model; name a class of components."),
+        ("own_models:wrong", "wrong() fails (own_models.py, line 10): ZeroDivisionError: division"),
+        ("own_models:Needs", "Needs() fails: TypeError: Needs.__init__() missing 1 required"),
+        ("nowhere:Model", "there is no module 'nowhere'; start acausal in the folder that has it"),
+        ("nowhere.py:Model", "there is no file 'nowhere.py'."),
+        ("own_models.py", "name the class in it, too: own_models.py:Class"),
+    ],
+)
+def test_wrong_models(typed, model: str, sentence: str) -> None:
+    code, _, err = typed("check", model)
+    assert code == 3
+    assert err.startswith("error: ")
+    assert sentence in err
+    assert err.count("\n") == 1
+
+
+def test_errors_for_programs(typed) -> None:
+    code, out, err = typed("check", "nowhere.json", "--json")
+    assert code == 3
+    assert json.loads(out)["error"] == {
+        "kind": "model",
+        "message": err.removeprefix("error: ").strip(),
+        "exit_code": 3,
+    }
+
+
+def test_show(typed) -> None:
+    code, out, _ = typed("show", "oscillator.json", "--set", "mass.m=4")
+    assert code == 0
+    assert out.splitlines() == [
+        "Oscillator",
+        "states (2)",
+        "  name    start  unit  how",
+        "  mass.s  0.1    m     fixed",
+        "  mass.v  0      m/s   fixed",
+        "inputs (1)",
+        "  name    unit",
+        "  push.f  N",
+        "parameters (3)",
+        "  name      value  unit",
+        "  spring.c  50     N/m",
+        "  spring.d  1      N.s/m",
+        "  mass.m    4      kg",
+        "equations (2)",
+        "  der(mass.s) = mass.v",
+        "  der(mass.v) = (-mass.s*spring.c - mass.v*spring.d + push.f)/mass.m",
+    ]
+
+
+# -- simulation ---------------------------------------------------------------------------------------
+
+
+def test_simulate(typed, folder: Path) -> None:
+    code, out, _ = typed(
+        "simulate",
+        "oscillator.json",
+        *PUSH,
+        "--points",
+        "5",
+        "--names",
+        "mass.*",
+        "--out",
+        "run.csv",
+    )
+    assert code == 0
+    assert out.startswith("Oscillator: 5 points from 0 to 2 s\n")
+    assert out.endswith("wrote run.csv\n")
+    with (folder / "run.csv").open(newline="") as file:
+        rows = list(csv.reader(file))
+    assert rows[0][0] == "time [s]"
+    assert "mass.a [m/s2]" in rows[0]
+    assert [row[0] for row in rows[1:]] == ["0.0", "0.5", "1.0", "1.5", "2.0"]
+
+
+def test_simulate_for_programs(typed, folder: Path) -> None:
+    pytest.importorskip("matplotlib")
+    (folder / "push.csv").write_text("time,push.f\n0,0\n1,1\n2,0\n")
+    words = ("--inputs", "push.csv", "--x0", "mass.s=0.2", "--points", "3", "--plot", "run.svg")
+    code, out, _ = typed("simulate", "oscillator.json", *words, "--json")
+    found = json.loads(out)
+    assert code == 0
+    assert found["time"] == [0.0, 1.0, 2.0]
+    assert found["variables"]["mass.s"]["values"][0] == 0.2
+    assert found["variables"]["push.f"] == {"unit": "N", "values": [0.0, 1.0, 0.0]}
+    assert found["files"] == ["run.svg"]
+    assert (folder / "run.svg").read_text().startswith("<?xml")
+
+
+def test_simulate_into_a_pipe(typed) -> None:
+    code, out, _ = typed("simulate", "oscillator.json", *PUSH, "--points", "2", "--out", "-")
+    assert code == 0
+    assert out.splitlines()[0] == "time [s],mass.s [m],mass.v [m/s],push.f [N]"
+    assert len(out.splitlines()) == 3
+    assert typed("simulate", "oscillator.json", *PUSH, "--out", "-", "--json")[0] == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "sentence"),
+    [
+        ((), 4, "No value for the model's input 'push.f'"),
+        ((*PUSH, "--set", "mas.m=1"), 4, "mas.m"),
+        ((*PUSH, "--names", "mass.z*"), 4, "The model has no variable 'mass.z*'"),
+        ((*PUSH, "--inputs", "push.xyz"), 4, "'.xyz' is no known ending"),
+        ((*PUSH, "--params", "nowhere.safetensors"), 4, "nowhere.safetensors"),
+        ((*PUSH, "--set", "spring.c=1e99", "--dt", "0.1"), 5, "s"),
+    ],
+)
+def test_simulations_that_cannot_be(typed, words, code: int, sentence: str) -> None:
+    found, out, err = typed("simulate", "oscillator.json", *words)
+    assert (found, out) == (code, "")
+    assert sentence in err
+    assert err.startswith("error: ")
+
+
+# -- training -----------------------------------------------------------------------------------------
+
+
+def test_fit(typed, folder: Path) -> None:
+    """What a stiffer spring does; the training finds its stiffness, and the simulation takes it."""
+    stiffer = ("--set", "spring.c=60", "--points", "101", "--out", "run.csv")
+    assert typed("simulate", "oscillator.json", *PUSH, *stiffer)[0] == 0
+    (folder / "options.toml").write_text(
+        'strategy = "gauss_newton"\nepochs = 9\n'
+        "[modifiers]\n'spring.c' = { Bounded = { low = 40.0, high = 90.0 } }\n"
+    )
+    fit = ("fit", "oscillator.json", "run.csv", "--targets", "mass.s", "--options", "options.toml")
+    code, out, err = typed(*fit, "-o", "epochs=10", "--json")
+    found = json.loads(out)
+    assert (code, err) == (0, "")
+    assert found["parameters"]["spring.c"] == pytest.approx(60.0, rel=0.01)
+    assert found["loss"] < 0.1 * found["loss_before"]
+    assert found["files"] == ["Oscillator-trained.safetensors"]
+
+    again = ("show", "oscillator.json", "--only", "parameters", "--json")
+    _, out, _ = typed(*again, "--params", "Oscillator-trained.safetensors")
+    assert json.loads(out)["parameters"][0]["value"] == found["parameters"]["spring.c"]
+
+    code, _, err = typed(*fit)
+    assert code == 4
+    assert "give another file by --out, or --overwrite" in err
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("-o", "epoch=3"), "There is no option 'epoch': did you mean 'epochs'?"),
+        (("-o", "optimizer=adam"), "The option 'optimizer' can be given in Python only."),
+        (("-o", "strategy=magic"), "No strategy 'magic'"),
+        (("-o", 'loss={"Eval": {}}'), "loss: there is no 'Eval'; known are 'Bounded'"),
+        (("-o", 'loss={"Huber": {"x": 1}}'), "loss: Huber cannot be made"),
+        (("--options", "nowhere.json"), "'nowhere.json' cannot be read: No such file"),
+        (("--options", "own_models.py"), "'own_models.py' cannot be read"),
+    ],
+)
+def test_options_that_are_wrong(typed, words, sentence: str) -> None:
+    code, _, err = typed("fit", "oscillator.json", "run.csv", "--targets", "mass.s", *words)
+    assert code == 6
+    assert sentence in err
+
+
+# -- export, page -------------------------------------------------------------------------------------
+
+
+def test_export(typed, folder: Path) -> None:
+    code, out, _ = typed("export", "oscillator.json", "model.mo")
+    assert (code, out) == (0, "wrote model.mo\n")
+    assert "model Oscillator" in (folder / "model.mo").read_text()
+    code, out, _ = typed("export", "oscillator.json", "c/plant.c", "--solver", "euler", "--json")
+    assert code == 0
+    assert json.loads(out)["files"] == ["c/plant.h", "c/plant.c"]
+    code, _, err = typed("export", "oscillator.json", "model.mo")
+    assert code == 4
+    assert "exists" in err
+
+
+def test_page(typed, folder: Path) -> None:
+    code, out, _ = typed("page", "oscillator.json", "out")
+    assert (code, out) == (0, "wrote out/index.html\n")
+    assert "Oscillator" in (folder / "out" / "index.html").read_text()

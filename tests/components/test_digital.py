@@ -1,0 +1,175 @@
+"""Digital signals: gates by IEEE 1164's tables, sources that change at exact times, converters."""
+
+import inspect
+import json
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import digital as dg, electrical as el
+from acausal.components.digital.logic import LOGIC, signal
+
+VALUES = "UX01ZWLH-"
+GATES = (dg.And, dg.Nand, dg.Or, dg.Nor, dg.Xor, dg.Xnor)
+
+
+def strong(value: str) -> str:
+    """What a gate sees of a value."""
+    return {"L": "0", "H": "1", "U": "U", "0": "0", "1": "1"}.get(value, "X")
+
+
+def expected(gate: type, a: str, b: str) -> str:
+    """The table of a gate."""
+    inverts = {"0": "1", "1": "0"} if gate in (dg.Nand, dg.Nor, dg.Xnor) else {}
+    pair = {strong(a), strong(b)}
+    decides = {dg.And: "0", dg.Nand: "0", dg.Or: "1", dg.Nor: "1"}.get(gate)
+    if decides in pair:
+        value = decides
+    elif pair & {"U", "X"}:
+        value = "U" if "U" in pair else "X"
+    elif decides:
+        value = pair.pop()
+    else:
+        value = "0" if len(pair) == 1 else "1"
+    return inverts.get(value or "", value or "")
+
+
+class Gates(ac.Component):
+    """All gates at the same two inputs."""
+
+    a, b = ac.Input(), ac.Input()
+
+    def __init__(self) -> None:
+        super().__init__()
+        for gate in GATES:
+            made: Any = gate()
+            setattr(self, gate.__name__, made)
+            self.connect(self.a, made.x[0])
+            self.connect(self.b, made.x[1])
+        self.inverse = dg.Not()
+        self.connect(self.a, self.inverse.x)
+
+
+def test_gates_follow_their_tables() -> None:
+    system = ac.compile(Gates())
+    pairs = list(product(range(9), repeat=2))
+    names = [*(f"{gate.__name__}.y" for gate in GATES), "inverse.y"]
+    params = system.pack()
+    for a, b in pairs:
+        given = np.asarray([{"a": a, "b": b}[name] + 1.0 for name in system.inputs])
+        found = np.asarray(system.observe(names, 0.0, np.zeros(0), given, params))
+        wanted = [expected(gate, VALUES[a], VALUES[b]) for gate in GATES]
+        wanted.append({"0": "1", "1": "0"}.get(strong(VALUES[a]), strong(VALUES[a])))
+        assert [VALUES[int(v) - 1] for v in found] == wanted
+
+
+class Sources(ac.Component):
+    """All sources, and what converters make of a clock."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.set = dg.Set(x="'H'")
+        self.step = dg.Step(stepTime=0.7)
+        self.table = dg.Table(t=(0.3, 0.9), x=("'1'", "'L'"), y0="'U'")
+        self.pulse = dg.Pulse(
+            startTime=0.5, width=20, period=1, pulse="'1'", quiet="'0'", nperiod=1
+        )
+        self.clock = dg.Clock(startTime=0.5, period=1, width=50)
+        self.boolean = dg.LogicToBoolean()
+        self.back = dg.BooleanToLogic()
+        self.number = dg.LogicToReal(value_1=5)
+        self.connect(self.clock.y, self.boolean.x[0])
+        self.connect(self.boolean.y[0], self.back.x[0])
+        self.connect(self.back.y[0], self.number.x[0])
+
+
+def test_sources_change_at_their_times() -> None:
+    ts = np.arange(0.05, 3, 0.1)
+    found = ac.simulate(ac.compile(Sources()), (0.0, 3.0), saveat=ts)
+
+    def of(name: str) -> list[str]:
+        return [VALUES[int(v) - 1] for v in np.asarray(found[f"{name}.y"])]
+
+    assert set(of("set")) == {"H"}
+    assert of("step") == ["0" if t < 0.7 else "1" for t in ts]
+    assert of("table") == ["U" if t < 0.3 else "1" if t < 0.9 else "L" for t in ts]
+    on = (ts > 0.5) & ((ts - 0.5) % 1 < 0.5)
+    assert of("clock") == ["1" if v else "0" for v in on]
+    assert np.asarray(found["number.y[1]"]) == pytest.approx(np.where(on, 5, 0))
+    assert of("pulse") == ["1" if 0.5 < t < 0.7 else "0" for t in ts]
+    assert np.asarray(found["pulse.T0"])[[4, 14, -1]] == pytest.approx([0.5, 0.5, 1.5])
+    assert np.asarray(found["pulse.np"])[[4, 14, -1]].tolist() == [0, 1, 2]
+
+
+class Converters(ac.Component):
+    """A sine through four bits and back."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ground = el.Ground()
+        self.source = el.SineVoltage(V=5, f=1, offset=5)
+        self.clock = dg.Clock(startTime=0.05, period=0.1)
+        self.there = el.AD_Converter(N=4, VRefHigh=10, VRefLow=0, Rin=1e6)
+        self.back = el.DA_Converter(N=4, Vref=10)
+        self.load = el.Resistor(R=1)
+        self.connect(self.source.p, self.there.p)
+        self.connect(self.source.n, self.there.n, self.ground.p, self.back.n, self.load.n)
+        self.connect(self.back.p, self.load.p)
+        self.connect(self.clock.y, self.there.trig)
+        self.connect(self.clock.y, self.back.trig)
+        for bit, to in zip(self.there.y, self.back.x, strict=True):
+            self.connect(bit, to)
+
+
+def test_a_voltage_goes_through_bits_and_back() -> None:
+    ts = np.arange(0.1, 1, 0.1)
+    found = ac.simulate(ac.compile(Converters()), (0.0, 1.0), saveat=[0.04, *ts])
+    code = np.floor((0.5 + 0.5 * np.sin(2 * np.pi * (ts - 0.05))) * 15 + 0.5)
+    assert np.asarray(found["load.v"])[1:] == pytest.approx(code * 10 / 15)
+    assert float(found["load.v"][0]) == 0
+    bits = np.stack([np.asarray(found[f"there.y[{k}]"]) for k in range(1, 5)])
+    assert (bits[:, 0] == signal("'X'")).all()
+    assert ((bits[:, 1:] == signal("'1'")).T @ [1, 2, 4, 8]).tolist() == code.tolist()
+    assert set(np.asarray(found["there.z"])) == {0}
+
+
+def test_every_class_says_what_it_is() -> None:
+    for name in dg.__all__:
+        assert inspect.getdoc(getattr(dg, name)), name
+
+
+def test_an_unknown_value_is_refused() -> None:
+    with pytest.raises(ac.DeclarationError, match="not one of"):
+        signal("1")
+    with pytest.raises(ac.DeclarationError, match="pulse"):
+        dg.Pulse(pulse="1")
+    assert [signal(v) for v in LOGIC] == list(range(1, 10))
+
+
+def test_a_file_names_values_as_modelica_does(tmp_path: Path) -> None:
+    logic = "Modelica.Electrical.Digital.Interfaces.Logic"
+    document = {
+        "model": "Values",
+        "components": {
+            "set": {
+                "class": "Modelica.Electrical.Digital.Sources.Set",
+                "with": {"x": f"{logic}.'-'"},
+            },
+            "table": {
+                "class": "Modelica.Electrical.Digital.Sources.Table",
+                "with": {"x": f"{{{logic}.'1',{logic}.'0'}}", "t": "{1,2}", "y0": f"{logic}.'U'"},
+            },
+        },
+        "connections": [],
+    }
+    path = tmp_path / "values.json"
+    path.write_text(json.dumps(document), encoding="utf-8")
+    for _ in range(2):
+        model: Any = ac.load(path)
+        assert model.set.x == "'-'"
+        assert list(model.table.x) == ["'1'", "'0'"]
+        ac.save(model, path)

@@ -1,0 +1,78 @@
+"""Icons: what a class may state, and that the library's classes have pictures that can be drawn."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import re
+from collections.abc import Iterator
+
+import pytest
+
+import acausal as ac
+from acausal.components import electrical as el, icons, neural, translational as tl
+
+DOMAINS = (
+    *("battery", "blocks", "digital", "electrical", "fluid", "hydraulic", "magnetic", "neural"),
+    *("rotational", "thermal", "translational"),
+)
+
+
+def classes() -> Iterator[type[ac.Component]]:
+    for domain in DOMAINS:
+        package = importlib.import_module(f"acausal.components.{domain}")
+        for name in package.__all__:
+            value = getattr(package, name)
+            if inspect.isclass(value) and issubclass(value, ac.Component):
+                yield value
+
+
+def test_most_classes_have_a_picture_and_share_few() -> None:
+    with_picture = [c for c in classes() if c.ICON is not None]
+    assert len(with_picture) >= 250
+    assert len({id(c.ICON) for c in with_picture}) < 150
+
+
+def test_subclasses_inherit_pictures() -> None:
+    class Rusty(tl.Spring):
+        pass
+
+    assert Rusty.ICON is tl.Spring.ICON is icons.SPRING
+    assert el.SineVoltage.ICON is icons.VOLTAGE
+    assert neural.Compliance.ICON is neural.Resistance.ICON is icons.NEURAL
+
+
+@pytest.mark.parametrize("name", [n for n, v in vars(icons).items() if isinstance(v, ac.Icon)])
+def test_a_picture_stays_in_its_box(name: str) -> None:
+    icon: ac.Icon = getattr(icons, name)
+    width, height = icon.size
+    numbers = [
+        (float(x), float(y)) for x, y in re.findall(r"[ML](-?[\d.]+) (-?[\d.]+)", icon.strokes)
+    ]
+    for x, y in numbers:
+        assert abs(x) <= width / 2 + 0.1
+        assert abs(y) <= height / 2 + 4.1
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"strokes": '"/><script>alert(1)</script>'},
+        {"fills": "url(#x)"},
+        {"sides": {"p": "up"}},
+    ],
+)
+def test_a_wrong_picture_is_refused(wrong: dict[str, object]) -> None:
+    with pytest.raises(ac.DeclarationError, match="an icon's"):
+        ac.Icon(**wrong)
+
+
+def test_a_picture_is_no_declaration() -> None:
+    model = ac.Component()
+    model.mass = tl.Mass(m=1)
+    assert "ICON" not in ac.compile(model).variables
+
+
+def test_connectors_have_colours() -> None:
+    assert el.Resistor.p.COLOR != tl.Mass.flange_a.COLOR
+    assert re.fullmatch(r"#[0-9a-f]{6}", ac.Connector.COLOR)

@@ -1,0 +1,184 @@
+"""Modelica text, compiled and simulated by rumoca."""
+
+import json
+import re
+
+import jax
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import electrical as el, neural, translational as tl
+from examples.qvm import model as qvm
+from tests.support.hybrid import Ball, Sampled, Thermostat
+
+POINTS = 41
+
+
+@pytest.fixture
+def rumoca():
+    return pytest.importorskip("rumoca", reason="rumoca, which runs the text, is not installed")
+
+
+class RC(ac.Component):
+    def __init__(self):
+        super().__init__()
+        self.source = el.ConstantVoltage(V=5.0)
+        self.r = el.Resistor(R=100.0)
+        self.c = el.Capacitor(C=1e-3, v=ac.Start(1.0, fixed=True))
+        self.ground = el.Ground()
+        self.connect(self.source.p, self.r.p)
+        self.connect(self.r.n, self.c.p)
+        self.connect(self.c.n, self.source.n, self.ground.p)
+
+
+class Oscillator(ac.Component):
+    def __init__(self):
+        super().__init__()
+        self.wall = tl.Fixed()
+        self.mass = tl.Mass(m=2.0, s=ac.Start(0.1, fixed=True), v=ac.Start(0.0, fixed=True))
+        self.damper = tl.SpringDamper(c=50.0, d=3.0)
+        self.spring_nn = neural.Compliance(
+            input_scale=0.1, output_scale=5.0, odd=True, activation="tanh"
+        )
+        for element in (self.damper, self.spring_nn):
+            self.connect(self.wall.flange, element.flange_a)
+            self.connect(element.flange_b, self.mass.flange_a)
+
+
+class Decays(ac.Component):
+    k = ac.Parameter([1.0, 2.0, 3.0], shape=3)
+    x = ac.Variable(shape=3, start=1.0, fixed=True)
+
+    def equations(self):
+        for i in range(3):
+            yield ac.Eq(ac.der(self.x[i]), -self.k[i] * self.x[i])
+
+
+class Vectors(ac.Component):
+    def __init__(self):
+        super().__init__()
+        self.several = Decays(k=[0.5, 0.5, 1.5], x=ac.Start([3.0, 2.0, 1.0]))
+        self.same = Decays(k=2.0, x=ac.Start(2.0))
+
+
+NETLIST = {
+    "parameters": {"k": 30.0},
+    "variables": {"slow": {"start": 1.0, "fixed": True}},
+    "equations": ["der(slow) = if slow > 0.5 then -slow else -0.5*cos(slow)"],
+    "components": {
+        "fixed": {"class": "Modelica.Mechanics.Translational.Components.Fixed"},
+        "spring": {
+            "class": "Modelica.Mechanics.Translational.Components.SpringDamper",
+            "with": {"c": "2*k", "d": 0.7},
+        },
+        "mass": {
+            "class": "Modelica.Mechanics.Translational.Components.Mass",
+            "with": {
+                "m": 1.0,
+                "s": {"start": 0.6, "fixed": True},
+                "v": {"start": 0.0, "fixed": True},
+            },
+        },
+    },
+    "connections": [
+        ["fixed.flange", "spring.flange_a"],
+        ["spring.flange_b", "mass.flange_a"],
+    ],
+}
+
+CASES = {
+    "rc": (RC, ("c.v", "r.i"), 0.3, ""),
+    "oscillator": (Oscillator, ("mass.s", "spring_nn.f"), 2.0, ""),
+    "vehicle": (qvm.with_networks, ("body.s", "wheel.v"), 0.5, "road_v_ref"),
+    "ball": (Ball, ("h", "v", "n"), 1.5, ""),
+    "thermostat": (Thermostat, ("T",), 20.0, ""),
+    "sampled": (Sampled, ("x", "u"), 1.05, ""),
+}
+
+
+def agree(rumoca, system, names, end, folder, params=None, driven=""):
+    """Compare what rumoca computes from the text with acausal, at times between the events."""
+    path = ac.export.modelica(system, folder / "shipped.mo", params, selfcontained=True)
+    text = path.read_text()
+    title = re.findall(r"^  model (\w+)", text, re.MULTILINE)[-1]
+    feed = f"equation m.{driven} = 0.1;" if driven else ""
+    text += f"model Run\n  shipped.{title} m;\n{feed}\nend Run;\n"
+    config = rumoca.SimConfig(rtol=1e-11, atol=1e-13)
+    theirs = rumoca.Session().loads(text, model="Run").simulate(end, dt=end / 40, config=config)
+    times = np.linspace(0, end, POINTS)
+    inputs = {"road.v_ref": 0.1} if driven else None
+    tolerances = {"rtol": 1e-10, "atol": 1e-12}
+    ours = ac.simulate(system, (0, end), saveat=times, inputs=inputs, params=params, **tolerances)
+    found = np.asarray(theirs.time)
+    rows = np.abs(found[:, None] - times).argmin(axis=0)  # rumoca adds rows at events
+    np.testing.assert_allclose(found[rows], times, atol=1e-9)
+    instants = np.array([event.t for event in ours.events])
+    between = np.abs(times[:, None] - instants).min(axis=1, initial=1.0) > 1e-6
+    for name in names:
+        scale = np.max(np.abs(ours[name]))
+        computed = np.asarray(theirs[f"m.{name}"])[rows]
+        np.testing.assert_allclose(
+            computed[between], ours[name][between], rtol=0, atol=1e-6 * scale, err_msg=name
+        )
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_rumoca_simulates_the_text_as_acausal_does(case, rumoca, tmp_path):
+    make, names, end, driven = CASES[case]
+    system = ac.compile(make())
+    agree(rumoca, system, names, end, tmp_path, system.parameters(1), driven)
+
+
+def test_trained_numbers_are_in_the_text(rumoca, tmp_path):
+    system = ac.compile(Oscillator())
+    params = {**system.parameters(1), "damper.c": 61.5, "mass.m": 1.25}
+    agree(rumoca, system, ("mass.s",), 1.0, tmp_path, params)
+    assert system.parameters()["damper.c"] == 50.0
+    text = ac.export.modelica(system, tmp_path / "standard.mo", params).read_text()
+    assert "Components.SpringDamper damper(c=61.5, d=3)" in text
+
+
+def test_numbers_set_in_the_whole_model_are_in_the_text(rumoca, tmp_path):
+    system = ac.compile(Ball(h=ac.Start(2.0)))
+    agree(rumoca, system, ("h", "v"), 1.5, tmp_path, {"e": 0.6})
+
+
+def test_vectors(rumoca, tmp_path):
+    system = ac.compile(Vectors())
+    agree(rumoca, system, system.states, 1.0, tmp_path, {"several.k[2]": 4.0})
+    whole = ac.compile(Decays(x=ac.Start([3.0, 2.0, 1.0])))
+    (tmp_path / "shipped.mo").unlink()
+    agree(rumoca, whole, whole.states, 1.0, tmp_path, {"k[3]": 0.5})
+
+
+def test_a_loaded_netlist(rumoca, tmp_path):
+    file = tmp_path / "loaded.json"
+    file.write_text(json.dumps(NETLIST))
+    system = ac.compile(ac.load(file))
+    agree(rumoca, system, ("mass.s", "slow"), 2.0, tmp_path)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_names_of_the_standard_library_parse(case, rumoca, tmp_path):
+    path = ac.export.modelica(CASES[case][0](), tmp_path / f"{case}.mo")
+    text = path.read_text()
+    assert ("Modelica." in text) == (case in ("rc", "oscillator", "vehicle"))
+    assert not [d for d in rumoca.validate_source(text) if d.level == "error"]
+
+
+def test_a_path_that_exists_is_refused(tmp_path):
+    path = tmp_path / "a.mo"
+    path.write_text("")
+    with pytest.raises(ac.DataError, match=r"exists; give another path, or overwrite=True"):
+        ac.export.modelica(RC(), path)
+
+
+def test_a_host_callback_is_named(tmp_path):
+    def law(x):
+        return jax.pure_callback(np.sin, jax.ShapeDtypeStruct((), float), x)
+
+    system = ac.compile(Oscillator())
+    params = {**system.parameters(), "spring_nn.net": law}
+    with pytest.raises(ac.DataError, match="'pure_callback' has no counterpart in Modelica"):
+        ac.export.modelica(system, tmp_path / "a.mo", params)

@@ -1,0 +1,132 @@
+"""Parameters that act through conditions alone, unseen by derivatives: which, and the warning of them."""
+
+import warnings
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import jax
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import blocks
+from acausal.flattening import flatten
+
+Case = Callable[[Any], Any]
+
+
+class Load(ac.Component):
+    """A state whose rate a case distinction gives."""
+
+    limit = ac.Parameter(0.5)
+    k = ac.Parameter(2.0)
+    x = ac.Variable(start=1.0, fixed=True)
+
+    def __init__(self, case: Case, *, discrete: bool = False) -> None:
+        super().__init__()
+        self.case, self.discrete = case, discrete
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), self.case(self) - self.x)
+
+
+class Within(ac.Component):
+    """Two loads."""
+
+    def __init__(self, case: Case) -> None:
+        super().__init__()
+        self.first, self.second = Load(case), Load(case)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        lambda s: ac.where(s.x > s.limit, s.k, 0),
+        lambda s: ac.where((s.x < s.limit) & (ac.time > 1), 1, s.k),
+        lambda s: ac.where(s.x > 3, 0, ac.where(s.x > 2 * s.limit, s.k * s.x, 1)),
+    ],
+)
+def test_a_parameter_without_gradient_is_named(case: Case) -> None:
+    with pytest.warns(UserWarning, match="The gradient by 'first.limit' is zero") as caught:
+        ac.compile(Within(case))
+    (warning,) = caught
+    assert "write ac.where(..., events=True)." in str(warning.message)
+    assert warning.filename == __file__
+    assert set(flatten(Within(case)).silent) == {"first.limit", "second.limit"}
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        lambda s: ac.where(s.x > s.limit, s.k, 0, events=True),
+        lambda s: ac.where(s.x > s.limit, s.k * (s.x - s.limit), 0),
+        lambda s: ac.where(s.x > s.limit, s.k, 0) + s.limit,
+        lambda s: ac.where(s.x > 0, s.x, 0),
+        lambda s: ac.where(s.x > s.limit, s.x, ac.maximum(s.x, s.limit)),
+        lambda s: ac.where(s.limit > s.k, 1, 0),
+        lambda s: ac.where(s.x**2 + ac.sin(s.limit * s.x) > 0, 1, 0),
+    ],
+)
+def test_what_is_continuous_or_acts_elsewhere_is_not_warned_of(case: Case) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        flat = flatten(Load(case))
+    assert not flat.silent
+
+
+def test_equations_of_discrete_variables_are_watched() -> None:
+    class Relay(ac.Component):
+        limit = ac.Parameter(0.5)
+        x = ac.Variable(start=0.0, fixed=True)
+        on = ac.Discrete(0, kind="bool")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), 1)
+            yield ac.Eq(self.on, ac.where(self.x > self.limit, 1, 0))
+
+    assert not flatten(Relay()).silent
+
+
+class Stepped(ac.Component):
+    """A lag behind a step."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.step = blocks.Step(startTime=0.5)
+        self.lag = blocks.FirstOrder(T=0.3, y=ac.Start(0.0, fixed=True))
+        self.connect(self.step.y, self.lag.u)
+
+
+def test_the_librarys_conditions_are_events_on_request() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        plain, watched = ac.compile(Stepped()), ac.compile(Stepped(), events=True)
+    assert plain.events is None
+    assert set(plain.flat.silent) == {"step.startTime"}
+    assert not watched.flat.silent
+
+    def end(start: float) -> Any:
+        params = {**watched.parameters(), "step.startTime": start}
+        found = ac.simulate(watched, (0.0, 1.0), params=params, saveat=[1.0], rtol=1e-9, atol=1e-12)
+        return found["lag.y"][-1]
+
+    assert float(jax.grad(end)(0.5)) == pytest.approx(-np.exp(-0.5 / 0.3) / 0.3, rel=1e-8)
+
+
+@pytest.mark.slow
+def test_a_training_finds_the_time_of_a_step() -> None:
+    system = ac.compile(Stepped())
+    watched = ac.compile(Stepped(), events=True)
+    record = ac.simulate(watched, (0.0, 1.0), dt=0.1, solver="rk4")
+    data = ac.Data(record.t, {"lag.y": record["lag.y"]})
+    fit = ac.fit(
+        system,
+        data,
+        targets=["lag.y"],
+        params={"step.startTime": 0.43},
+        modifiers=["step.startTime"],
+        strategy="gauss_newton",
+        solver="rk4",
+        epochs=15,
+    )
+    assert fit.params["step.startTime"] == pytest.approx(0.5, abs=1e-2)

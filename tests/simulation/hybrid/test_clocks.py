@@ -1,0 +1,61 @@
+"""Clocks: `ac.sample`."""
+
+import numpy as np
+
+import acausal as ac
+
+
+class Clock(ac.Component):
+    """Counts its ticks."""
+
+    period = ac.Parameter(0.1, unit="s")
+    n = ac.Discrete(0, kind="int")
+
+    def equations(self):
+        yield ac.When(ac.sample(0.0, self.period), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+class Counter(Clock):
+    """Another class with the same parameter."""
+
+
+class Clocks(ac.Component):
+    """Two clocks of different classes."""
+
+    def __init__(self):
+        super().__init__()
+        self.slow, self.fast = Clock(period=0.3), Counter()
+
+
+def test_clocks_of_several_components_keep_their_periods():
+    sol = ac.simulate(ac.compile(Clocks()), (0.0, 0.65), saveat=[0.0, 0.25, 0.65])
+    np.testing.assert_array_equal(sol["slow.n"], [1, 1, 3])
+    np.testing.assert_array_equal(sol["fast.n"], [1, 3, 7])
+
+
+def test_a_clock_ticks_at_the_start_but_for_rounding():
+    sol = ac.simulate(ac.compile(Clock()), (0.3, 0.75), saveat=[0.3, 0.35, 0.75])
+    np.testing.assert_array_equal(sol["n"], [1, 1, 5])
+
+
+EARLY = 1e-13
+
+
+class Relayed(ac.Component):
+    """A clock beside a relay whose events come just before its instants, by no more than rounding may."""
+
+    x = ac.Variable(start=0.0, fixed=True)
+    on = ac.Discrete(1, kind="bool")
+    n = ac.Discrete(0, kind="int")
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), ac.where(self.on > 0.5, 1, -1, events=True))
+        high = (ac.pre(self.on) > 0.5) & (self.x < 0.8 - EARLY)
+        yield ac.Eq(self.on, (self.x < 0.2 + EARLY) | high)
+        yield ac.When(ac.sample(0, 0.1), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+def test_a_clock_does_not_stop_where_another_event_comes_first_by_rounding():
+    run = ac.simulate(ac.compile(Relayed()), (0.0, 6.05), saveat=[6.05], rtol=1e-9, atol=1e-11)
+    assert float(run["n"][0]) == 61
+    assert any(e.after and {"on", "n"} <= e.after.keys() for e in run.events)

@@ -1,0 +1,278 @@
+"""What happens at events: order, initial values, results, and errors in one sentence."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import acausal as ac
+from tests.support.hybrid import Ball, Sampled, Thermostat
+
+
+@pytest.fixture(scope="module")
+def thermostat() -> ac.System:
+    return ac.compile(Thermostat())
+
+
+def test_a_thermostat_switches_where_it_should(thermostat: ac.System) -> None:
+    sol = ac.simulate(thermostat, (0.0, 9.0), rtol=1e-9, atol=1e-11)
+    assert [e.condition for e in sol.events] == ["T < low", "T < high"] * 3
+    # T = 40 - 25 exp(-t/10) until 21, then 10 + 11 exp(-t/10) until 19, and again from 19 to 21
+    up, down, again = 10 * np.log(25 / 19), 10 * np.log(11 / 9), 10 * np.log(21 / 19)
+    expected = [10 * np.log(25 / 21), up, up + down, up + down + again]
+    np.testing.assert_allclose([e.t for e in sol.events[:4]], expected, rtol=1e-8)
+    on = np.asarray(sol["on"])
+    assert set(on) == {0.0, 1.0}
+    assert sol.d.shape == (500, 3)
+    assert "_event" not in " ".join(sol.names)
+
+
+def test_fixed_steps_end_at_events_too(thermostat: ac.System) -> None:
+    fine = ac.simulate(thermostat, (0.0, 9.0), saveat=[9.0], rtol=1e-10, atol=1e-12)
+    coarse = ac.simulate(thermostat, (0.0, 9.0), dt=0.25, solver="rk4")
+    assert len(coarse.t) == 37
+    assert coarse["T"][-1] == pytest.approx(float(fine["T"][-1]), abs=1e-7)
+    assert [e.condition for e in coarse.events] == ["T < low", "T < high"] * 3
+
+
+def test_a_solution_is_read_and_written_as_any_other(thermostat: ac.System, tmp_path: Any) -> None:
+    sol = ac.simulate(thermostat, (0.0, 3.0), saveat=[0.0, 1.0, 3.0])
+    assert sol.to_dataframe(["T", "on"]).shape == (3, 2)
+    sol.to_csv(tmp_path / "run.csv")
+    assert "on []" in (tmp_path / "run.csv").read_text(encoding="utf-8")
+
+
+def test_initial_conditions_and_events_at_the_start() -> None:
+    class Starts(ac.Component):
+        x = ac.Variable(start=2.0, fixed=True)
+        above = ac.Discrete(0, kind="bool")
+        first = ac.Discrete(-1.0)
+        counted = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), -self.x)
+            yield ac.Eq(self.above, self.x > 1)
+            yield ac.When(ac.initial(), ac.Eq(self.first, self.x))
+            yield ac.When(ac.sample(0, 0.5), ac.Eq(self.counted, ac.pre(self.counted) + 1))
+
+    sol = ac.simulate(ac.compile(Starts()), (0.0, 1.2), saveat=[0.0, 0.5, 1.0, 1.2])
+    np.testing.assert_allclose(sol["above"], [1, 1, 0, 0])
+    np.testing.assert_allclose(sol["first"], 2.0)
+    np.testing.assert_allclose(sol["counted"], [1, 2, 3, 3])
+
+
+def test_samplers_with_periods_that_floats_do_not_divide_meet() -> None:
+    class Two(ac.Component):
+        a = ac.Discrete(0, kind="int")
+        b = ac.Discrete(0, kind="int")
+        together = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            fast, slow = ac.sample(0, 0.1), ac.sample(0, 0.3)
+            yield ac.When(fast, ac.Eq(self.a, ac.pre(self.a) + 1))
+            yield ac.When(slow, ac.Eq(self.b, ac.pre(self.b) + 1))
+            both = (self.a > ac.pre(self.a)) & (self.b > ac.pre(self.b))
+            yield ac.Eq(
+                self.together, ac.where(both, ac.pre(self.together) + 1, ac.pre(self.together))
+            )
+
+    sol = ac.simulate(ac.compile(Two()), (0.0, 3.05), saveat=[3.05])
+    assert [float(sol[n][0]) for n in ("a", "b", "together")] == [31, 11, 11]
+
+
+def test_otherwise_and_several_conditions() -> None:
+    class Order(ac.Component):
+        x = ac.Variable(start=0.0, fixed=True)
+        mode = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), 1)
+            second = ac.When(self.x > 1, ac.Eq(self.mode, 2))
+            yield ac.When((self.x > 1) & (self.x < 3), ac.Eq(self.mode, 1), otherwise=second)
+
+    sol = ac.simulate(ac.compile(Order()), (0.0, 2.0), saveat=[0.5, 1.5])
+    np.testing.assert_allclose(sol["mode"], [0, 1])
+
+
+def test_one_of_several_conditions_comes_true_while_another_holds() -> None:
+    class Both(ac.Component):
+        x = ac.Variable(start=0.0, fixed=True)
+        each = ac.Discrete(0, kind="int")
+        joined = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            low, high = self.x > 0.5, self.x > 1
+            yield ac.Eq(ac.der(self.x), 1)
+            yield ac.When((low, high), ac.Eq(self.each, ac.pre(self.each) + 1))
+            yield ac.When(low | high, ac.Eq(self.joined, ac.pre(self.joined) + 1))
+
+    sol = ac.simulate(ac.compile(Both()), (0.0, 2.0), saveat=[2.0])
+    assert [float(sol[n][0]) for n in ("each", "joined")] == [2, 1]
+
+
+def test_ideal_diodes_in_a_loop_find_their_branch() -> None:
+    class Rectifier(ac.Component):
+        """Two branches of a diode and a resistance from one source: ``off`` and the current depend on each other."""
+
+        s = ac.Variable(shape=2)
+        v = ac.Variable(shape=2)
+        i = ac.Variable(shape=2)
+        off = ac.Discrete(0, kind="bool", shape=2)
+        q = ac.Variable(start=0.0, fixed=True)
+
+        def equations(self) -> Iterator[Any]:
+            source = ac.sin(2 * ac.pi * ac.time)
+            for k, sign in enumerate((1, -1)):
+                s, v, i, off = self.s[k], self.v[k], self.i[k], self.off[k]
+                yield ac.Eq(off, s < 0)
+                yield ac.Eq(v, s * ac.where(off, 1, 1e-5))
+                yield ac.Eq(i, s * ac.where(off, 1e-5, 1))
+                yield ac.Eq(sign * source, v + 10 * i)
+            yield ac.Eq(ac.der(self.q), self.i[0] + self.i[1])
+
+    sol = ac.simulate(ac.compile(Rectifier()), (0.0, 2.0), rtol=1e-9, atol=1e-12)
+    # the mean of |sin| is 2/pi; a diode that conducts has 1e-5 ohm, one that blocks leaks 1e-5 S
+    current = 1 / (10 + 1e-5) - 1e-5 / (1 + 1e-4)
+    assert float(sol["q"][-1]) == pytest.approx(2 * 2 / np.pi * current, rel=1e-7)
+    assert len(sol.events) >= 3
+
+
+# -- errors --------------------------------------------------------------------------------------
+
+
+class Broken(ac.Component):
+    x = ac.Variable(start=1.0, fixed=True)
+    y = ac.Variable()
+    n = ac.Discrete(0, kind="int")
+
+    def __init__(self, kind: str) -> None:
+        super().__init__()
+        self.kind = kind
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.x), -1)
+        yield ac.Eq(self.y, 2 * self.x)
+        count = ac.Eq(self.n, ac.pre(self.n) + 1)
+        match self.kind:
+            case "twice":
+                yield ac.When(self.x < 0, count)
+                yield ac.When(self.x < 0.5, count)
+            case "nothing":
+                pass
+            case "no state":
+                yield ac.When(self.x < 0, count, ac.Reinit(self.y, 1))
+            case "two jumps":
+                yield ac.When(self.x < 0, count, ac.Reinit(self.x, 1))
+                yield ac.When(self.x < 0.5, ac.Reinit(self.x, 2))
+            case "not discrete":
+                yield ac.When(self.x < 0, ac.Eq(self.y, 1))
+            case "equal":
+                yield ac.When(ac.sin(self.x) >= 0, count)
+                yield ac.Eq(self.y, ac.where(self.x > 0, 1, 2, events="x"))
+            case "circle":
+                yield ac.Eq(self.n, ac.where(self.n > 0.5, 0, 1))
+            case "slides":
+                yield ac.Eq(self.n, ac.where(self.x < 0.5, 1, -1))
+            case _:
+                yield count
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("twice", "two equations give the discrete variable 'n'"),
+        ("nothing", "no equation gives the discrete variables 'n'"),
+        ("no state", "Reinit of 'y', which is not a state"),
+        ("two jumps", "two When(...) make 'x' jump"),
+        ("not discrete", "neither side is a discrete variable"),
+    ],
+)
+def test_wrong_events_are_refused_in_a_sentence(kind: str, words: str) -> None:
+    with pytest.raises(ac.ModelError) as caught:
+        ac.compile(Broken(kind))
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_period_of_zero_is_refused() -> None:
+    with pytest.raises(ac.DeclarationError, match="period above zero"):
+        ac.sample(0, 0)
+
+
+@pytest.mark.parametrize("period", [0.0, -0.1])
+def test_a_parameter_that_is_no_period_is_refused(period: float) -> None:
+    with pytest.raises(ac.SimulationError, match=r"'sample\(0, period\)' is .*not above zero"):
+        ac.simulate(ac.compile(Sampled(period=period)), (0.0, 1.0))
+
+
+def test_a_condition_on_an_undefined_name_is_refused() -> None:
+    class Unknown(ac.Component):
+        x = ac.Variable(start=1.0, fixed=True)
+        n = ac.Discrete(0)
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), -1)
+            yield ac.When(sp.Symbol("q") > 0, ac.Eq(self.n, 1))
+
+    with pytest.raises(ac.DeclarationError, match=r"^Unknown: q > 0: 'q' is not declared$"):
+        ac.compile(Unknown())
+
+
+def test_a_model_that_slides_along_a_condition_is_stopped_and_named() -> None:
+    class Slides(ac.Component):
+        x = ac.Variable(start=1.0, fixed=True)
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), ac.where(self.x > 0.5, -1, 1, events=True))
+
+    with pytest.raises(ac.SimulationError, match=r"without end \(x > 0\.5\)\. The model slides"):
+        ac.simulate(ac.compile(Slides()), (0.0, 1.0))
+
+
+def test_a_circle_of_discrete_variables_is_named() -> None:
+    with pytest.raises(
+        ac.AcausalError, match=r"At the start .*: 'n' change each other without end"
+    ):
+        ac.simulate(ac.compile(Broken("circle")), (0.0, 1.0))
+
+
+def test_a_circle_that_closes_later_is_named() -> None:
+    class Later(ac.Component):
+        x = ac.Variable(start=1.0, fixed=True)
+        a = ac.Discrete(0, kind="bool")
+        b = ac.Discrete(0, kind="bool")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), -1)
+            yield ac.Eq(self.a, (self.x < 0.5) & (self.b < 0.5))
+            yield ac.Eq(self.b, self.a > 0.5)
+
+    with pytest.raises(ac.SimulationError) as caught:
+        ac.simulate(ac.compile(Later()), (0.0, 1.0))
+    assert "at an event 'a', 'b' change each other without end (x < 0.5)" in str(caught.value)
+
+
+@pytest.mark.parametrize("steps", [{}, {"dt": 0.01}, {"dt": 0.5}], ids=str)
+def test_a_ball_that_bounces_for_ever_is_stopped_and_named(steps: Any) -> None:
+    with pytest.raises(ac.SimulationError, match="h < 0"):
+        ac.simulate(ac.compile(Ball()), (0.0, 10.0), **steps)
+
+
+def test_a_solver_that_looks_back_is_refused() -> None:
+    with pytest.raises(ac.SimulationError, match="kvaerno5"):
+        ac.simulate(ac.compile(Ball()), (0.0, 1.0), solver="bdf")
+
+
+def test_a_discrete_variable_may_be_a_derivative() -> None:
+    class Counted(ac.Component):
+        x = ac.Variable(fixed=True)
+        n = ac.Discrete(0, kind="int")
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), self.n)
+            yield ac.When(ac.time > 0.25, ac.Eq(self.n, 1))
+
+    sol = ac.simulate(ac.compile(Counted()), (0.0, 1.0), saveat=[1.0])
+    assert sol["x"][-1] == pytest.approx(0.75)

@@ -1,0 +1,135 @@
+"""What a run tells of its events: who caused each, what it changed, and all variables on both sides."""
+
+import copy
+from collections.abc import Iterator
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.simulation.log import LOG, Log
+from tests.support.hybrid import GRAVITY, Ball, Thermostat
+
+FALL = (2 / GRAVITY) ** 0.5
+"""When the ball first meets the ground."""
+
+
+class Both(ac.Component):
+    """A ball beside a zone that an input heats."""
+
+    u = ac.Input()
+    y = ac.Variable()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ball = Ball()
+        self.zone = Thermostat()
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(self.y, self.u + 10 * self.ball.v)
+
+
+@pytest.fixture(scope="module")
+def system() -> ac.System:
+    return ac.compile(Both())
+
+
+@pytest.fixture(scope="module")
+def run(system: ac.System) -> Any:
+    steps = ac.Signal([0.0, 1.0, 3.0], [1.0, 2.0, 2.0], interpolation="previous")
+    return ac.simulate(system, (0.0, 3.0), inputs={"u": steps}, saveat=np.linspace(0, 3, 7))
+
+
+def test_events_name_the_component_and_what_has_changed(run: Any) -> None:
+    first, jump, *_ = run.events
+    assert (first.component, first.condition) == ("ball", "ball: h < 0")
+    assert first.before == pytest.approx({"ball.v": -GRAVITY * FALL, "ball.n": 0})
+    assert first.after == pytest.approx({"ball.v": 0.8 * GRAVITY * FALL, "ball.n": 1})
+    assert (jump.t, jump.component, jump.condition) == (1.0, "", "an input jumps")
+    assert jump.before == jump.after == {}
+    switched = [e for e in run.events if e.component == "zone"][-1]
+    assert (switched.before, switched.after) == ({"zone.on": 1.0}, {"zone.on": 0.0})
+
+
+def test_any_variable_on_both_sides_of_an_instant(run: Any) -> None:
+    times = [e.t for e in run.events]
+    np.testing.assert_allclose(run.before.t, times)
+    speed = GRAVITY * FALL
+    assert float(run.before["y"][0]) == pytest.approx(1 - 10 * speed)
+    assert float(run.after["y"][0]) == pytest.approx(1 + 8 * speed)
+    i = times.index(1.0)
+    assert float(run.after["y"][i] - run.before["y"][i]) == pytest.approx(1.0)
+    np.testing.assert_allclose(run.after["ball.h"], run.before["ball.h"])
+
+
+def test_a_model_without_events_has_no_sides() -> None:
+    class Decay(ac.Component):
+        x = ac.Variable(start=1.0, fixed=True)
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), -self.x)
+
+    sol = ac.simulate(ac.compile(Decay()), (0.0, 1.0), dt=0.1)
+    assert sol.events == ()
+    assert sol.before["x"].shape == sol.after["x"].shape == (0,)
+    assert not sol.system.is_discrete("x")
+
+
+def test_a_plot_has_steps_at_the_instants(run: Any) -> None:
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    figure = run.plot("ball.v", "ball.n")
+    speed, count = (ax.lines[0] for ax in figure.axes)
+    assert (speed.get_drawstyle(), count.get_drawstyle()) == ("default", "steps-post")
+    t, v = speed.get_data()
+    assert len(t) == 7 + 2 * len(run.events)
+    at = np.flatnonzero(np.isclose(t, FALL))
+    np.testing.assert_allclose(v[at], [-GRAVITY * FALL, 0.8 * GRAVITY * FALL])
+    assert (np.diff(t) >= 0).all()
+    pyplot.close(figure)
+
+
+def test_a_copy_keeps_its_events_and_asks_for_inputs(run: Any) -> None:
+    assert copy.deepcopy(run).events == run.events
+    copied = jax.tree.map(lambda a: a, run)
+    with pytest.raises(ac.DataError, match="inputs at events are not known"):
+        _ = copied.before
+    pytest.importorskip("matplotlib.pyplot").close(copied.plot("ball.n"))
+
+
+def test_events_where_jax_traces_and_of_runs_side_by_side() -> None:
+    ball = ac.compile(Ball())
+
+    def fall(h: Any) -> ac.Solution:
+        return ac.simulate(ball, (0.0, 0.8), x0={"h": h}, saveat=[0.8])
+
+    def asks(h: Any) -> Any:
+        return fall(h).events
+
+    with pytest.raises(ac.DataError, match="not known while JAX traces"):
+        jax.jit(asks)(1.0)
+    many = jax.jit(jax.vmap(fall))(jnp.asarray([1.0, 4.0]))
+    with pytest.raises(ac.DataError, match="side by side"):
+        _ = many.events
+    first, second = (jax.tree.map(lambda a, i=i: a[i], many) for i in (0, 1))
+    assert [e.after["n"] for e in first.events] == [1.0]
+    assert second.events == ()
+    assert float(first.after["v"][0]) == pytest.approx(0.8 * GRAVITY * FALL)
+
+
+def test_many_columns_leave_values_of_few_events() -> None:
+    log = Log.empty(3, np.float64, values=6)
+    one = jnp.ones(2), jnp.zeros(1)
+    for t in (1.0, 2.0):
+        log = log.with_event(
+            jnp.array(True), jnp.asarray(t), jnp.asarray(0), one, one, jnp.array(False)
+        )
+    log = log.with_event(
+        jnp.array(False), jnp.asarray(9.0), jnp.asarray(0), one, one, jnp.array(False)
+    )
+    kept = log.kept()
+    assert kept.t.tolist() == [1.0, 2.0]
+    assert kept.before.tolist() == [[1.0, 1.0, 0.0]]
+    assert len(log.t) == LOG

@@ -1,0 +1,80 @@
+"""Sliders simulate again without compiling again, and refuse what is neither a parameter nor a range."""
+
+import logging
+from typing import Any
+
+import jax
+import pytest
+
+import acausal as ac
+from acausal.components import translational as tl
+from acausal.simulation.sliders import Moved, ranges_of
+
+
+class Oscillator(ac.Component):
+    def __init__(self) -> None:
+        super().__init__()
+        self.wall, self.spring, self.mass, self.push = (
+            *(tl.Fixed(), tl.Spring(c=50.0)),
+            *(tl.Mass(m=1.0), tl.Force()),
+        )
+        self.connect(self.wall.flange, self.spring.flange_a)
+        self.connect(self.spring.flange_b, self.mass.flange_a)
+        self.connect(self.mass.flange_b, self.push.flange)
+
+
+@pytest.fixture(scope="module")
+def system() -> ac.System:
+    return ac.compile(Oscillator())
+
+
+def moved(system: ac.System, **options: Any) -> Moved:
+    ranges = ranges_of(system, {"spring.c": (1.0, 100.0), "push.f": (0.0, 4.0)})
+    return Moved(system, ranges, (0.0, 1.0), "mass.s", {}, {}, {"dt": 0.01, **options})
+
+
+def test_a_slider_starts_at_the_model_s_value(system: ac.System) -> None:
+    spring, push = moved(system).ranges
+    assert (spring.value, spring.unit, spring.logarithmic) == (50.0, "N/m", True)
+    assert (push.value, push.unit, push.logarithmic) == (2.0, "N", False)
+
+
+def test_moving_compiles_nothing(system: ac.System, caplog: pytest.LogCaptureFixture) -> None:
+    """Neither for a parameter, nor for an input, nor to read what is plotted."""
+    model = moved(system)
+    first = model.picture({"spring.c": 50.0, "push.f": 1.0})
+    caplog.clear()
+    with jax.log_compiles(), caplog.at_level(logging.DEBUG):
+        second = model.picture({"spring.c": 20.0, "push.f": 3.0})
+    assert [r.getMessage() for r in caplog.records if "Compiling" in r.getMessage()] == []
+    assert first.startswith("<svg")
+    assert first != second
+
+
+def test_what_fails_is_told_instead_of_a_picture(system: ac.System) -> None:
+    model = moved(system, x0={"mass.z": 1.0})
+    assert "mass.z" in model.picture({"spring.c": 50.0, "push.f": 1.0})
+
+
+@pytest.mark.parametrize(
+    ("ranges", "message"),
+    [
+        ({"spring.k": (0, 1)}, "'spring.k' is neither a parameter nor an input"),
+        ({"spring.c": (1, 0)}, "give the least and the largest value"),
+        ({"spring.c": 3}, "give the least and the largest value"),
+    ],
+)
+def test_what_cannot_be_moved_is_refused(system: ac.System, ranges: Any, message: str) -> None:
+    with pytest.raises(ac.DataError, match=message):
+        ranges_of(system, ranges)
+
+
+def test_widgets_follow(system: ac.System) -> None:
+    pytest.importorskip("ipywidgets")
+    box = ac.sliders(
+        system, {"spring.c": (1.0, 100.0)}, (0.0, 1.0), dt=0.01, inputs={"push.f": 1.0}
+    )
+    knob, picture = box.children
+    before = picture.value
+    knob.value = 80.0
+    assert picture.value != before

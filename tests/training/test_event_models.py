@@ -1,0 +1,111 @@
+"""Laws learned in models with events, against the truth that made the data."""
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+import numpy as np
+import optax
+import pytest
+
+import acausal as ac
+from acausal.components import electrical as el
+from acausal.networks import law_of
+from tests.support.hybrid import Ball
+from tests.support.hybrid_training import (
+    Convection,
+    Converter,
+    Motor,
+    Stribeck,
+    Zone,
+    learned_friction,
+    learned_inductor,
+    learned_losses,
+)
+
+Law = Callable[[Any], Any]
+
+
+def trained(
+    learner: ac.Component,
+    truth: ac.Component,
+    target: str,
+    end: float,
+    n: int,
+    epochs: int,
+    **options: Any,
+) -> tuple[ac.Fit, ac.Solution]:
+    """A training on what the truth shows at n times after the start, and the truth's run."""
+    times = np.linspace(0.0, end, n + 1)
+    chosen: dict[str, Any] = {"strategy": "gauss_newton", **options}
+    true = ac.simulate(ac.compile(truth), (0.0, end), saveat=times, rtol=1e-9, atol=1e-9)
+    fit = ac.fit(
+        ac.compile(learner),
+        ac.Data(times, {target: np.asarray(true[target])}),
+        targets=[target],
+        x0="model",
+        solver="rk4",
+        epochs=epochs,
+        **chosen,
+    )
+    return fit, true
+
+
+def error(law: Any, truth: Law, low: float, high: float) -> float:
+    """The largest error of a law between two arguments, relative to the truth."""
+    x = np.linspace(low, high, 50)
+    return float(np.max(np.abs(jax.vmap(law)(x) / truth(x) - 1)))
+
+
+@pytest.mark.slow
+def test_a_thermostats_zone_learns_its_losses() -> None:
+    fit, true = trained(Zone(learned_losses()), Zone(Convection()), "zone.T", 12.0, 120, 40)
+    assert len(true.events) >= 5
+    assert fit.loss < 2e-3
+    assert error(fit.params["losses.net"], lambda x: 0.5 * x**1.25, 4.0, 11.0) < 0.03
+
+
+def test_a_ball_learns_its_restitution_from_noisy_heights() -> None:
+    ball, times = ac.compile(Ball()), np.linspace(0.0, 3.0, 151)
+    true = ac.simulate(ball, (0.0, 3.0), saveat=times, rtol=1e-10, atol=1e-10)
+    noise = np.random.default_rng(0).normal(0.0, 2e-3, len(times))
+    fit = ac.fit(
+        ball,
+        ac.Data(times, {"h": np.asarray(true["h"]) + noise}),
+        targets=["h"],
+        x0="model",
+        params={"e": 0.78},
+        modifiers=["e"],
+        strategy="gauss_newton",
+        solver="rk4",
+        epochs=30,
+    )
+    assert int(true["n"][-1]) >= 4
+    assert fit.params["e"] == pytest.approx(0.8, abs=5e-4)
+
+
+@pytest.mark.slow
+def test_a_motor_learns_its_stribeck_curve() -> None:
+    fit, true = trained(Motor(learned_friction()), Motor(Stribeck()), "rotor.w", 4.0, 200, 20)
+    assert {-1, 0, 1} <= set(np.asarray(true["friction.mode"]).astype(int).tolist())
+
+    def stribeck(w: Any) -> Any:
+        return 0.5 + 0.4 * np.exp(-(w**2)) + 0.05 * w
+
+    assert fit.loss < 1e-4
+    assert error(fit.params["friction.net"], stribeck, 0.0, 2.8) < 1e-3
+
+
+@pytest.mark.slow
+def test_a_converter_learns_how_its_inductor_saturates() -> None:
+    values: dict[str, Any] = {"Inom": 5.0, "Lnom": 0.8e-3, "Lzer": 1.5e-3, "Linf": 0.3e-3}
+    inductor = el.SaturatingInductor(**values, i=ac.Start(0.0, fixed=True))
+    learner = Converter(learned_inductor())
+    adam: dict[str, Any] = {"strategy": "sequences", "optimizer": optax.adam(2e-2)}
+    fit, true = trained(learner, Converter(inductor), "inductor.i", 4e-3, 200, 400, **adam)
+    assert len(true.events) >= 38
+    i, flux = np.asarray(true["inductor.i"]), np.asarray(true["inductor.Psi"])
+    learned = jax.vmap(law_of(fit.params["inductor.net"]))(i)
+    inside = i > 3
+    assert fit.loss < 0.01
+    assert np.max(np.abs(learned[inside] / flux[inside] - 1)) < 0.02
