@@ -30,6 +30,7 @@ from .side_by_side import (
     while_any as while_any,
 )
 from .tracing import (
+    INLINED as INLINED,
     array as array,
     known as known,
     traced as traced,

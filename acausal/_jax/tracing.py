@@ -1,8 +1,8 @@
-"""Whether JAX is tracing: values are then unknown, and their checks are skipped."""
+"""Whether JAX is tracing: values are then unknown, and their checks are skipped. What it traces within a trace."""
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
@@ -13,6 +13,11 @@ from jax.typing import ArrayLike as JaxArrayLike
 from numpy.typing import ArrayLike
 
 Tree = TypeVar("Tree")
+
+# `jax.jit(f, inline=INLINED)` puts the equations of f into what is being traced, not a call. JAX 0.12 does so only for
+# a name that earlier versions lack: there, `inline=True` waits until the whole is lowered.
+_inline: Any = getattr(jax, "Inline", None)
+INLINED: Any = True if _inline is None else _inline.JAX_EARLY
 
 
 def traced(*trees: object) -> bool:

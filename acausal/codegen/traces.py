@@ -14,7 +14,7 @@ import equinox as eqx
 import jax
 from jax import Array
 
-from acausal._jax import known
+from acausal._jax import INLINED, known
 from acausal.codegen.program import Program
 from acausal.codegen.values import Values
 
@@ -73,7 +73,7 @@ def with_kept_traces(function: Function) -> Function:
 def _jitted(
     function: Function, program: Callable[[], Program | None], wanted: tuple[int, ...]
 ) -> Callable[[Values, Fixed], list[Any]]:
-    @partial(jax.jit, static_argnums=1, inline=True)
+    @partial(jax.jit, static_argnums=1, inline=INLINED)
     def evaluate(arrays: Values, fixed: Fixed) -> list[Array | None]:
         own = program()
         assert own is not None, "it is traced while it is used"
