@@ -205,15 +205,23 @@ def cost() -> dict[str, float]:
 
 
 def diodes() -> dict[str, float]:
-    """How the program of many diodes grows, and how long it takes to compile the model."""
+    """How the programs of many diodes grow: of rates, and of a simulation by one of the parameters."""
     found: dict[str, float] = {}
     for n in (10, 1000, 10_000):
         begin = time.perf_counter()
         system = ac.compile(Diodes(n))
         found[f"diodes_{n}_compile_seconds"] = time.perf_counter() - begin
         x, params = jnp.zeros(len(system.states)), system.pack()
-        text = jax.jit(lambda x, s=system, p=params: s.vector_field(0.0, x, None, p)).lower(x)
-        found[f"diodes_{n}_lines"] = len(text.as_text().splitlines())
+
+        def end(voltage: Any, system: ac.System = system) -> Any:
+            return ac.simulate(
+                system, (0.0, 0.04), dt=1e-4, solver="rk4", params={"source.V": voltage}
+            ).x[-1]
+
+        rates = jax.jit(lambda x, s=system, p=params: s.vector_field(0.0, x, None, p)).lower(x)
+        run = jax.jit(end).lower(1.0)
+        found[f"diodes_{n}_lines"] = len(rates.as_text().splitlines())
+        found[f"diodes_{n}_simulation_lines"] = len(run.as_text().splitlines())
     return found
 
 

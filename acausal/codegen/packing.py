@@ -6,7 +6,8 @@ components lie side by side and bound parameters are computed.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
 import equinox as eqx
@@ -15,6 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import Array
 from jax.core import Tracer
+from jaxtyping import Float
 
 from acausal.codegen.lower import evaluate
 from acausal.codegen.parameters import ParameterLayout
@@ -66,15 +68,10 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     wrong = [n for n, v in zip(layout.names, given, strict=True) if not _is_number(v)]
     if wrong:
         raise DataError(f"params: {listing(wrong)} must be numbers, got {shown(params[wrong[0]])}")
-    if any(isinstance(v, jax.Array) for v in given):
-        known = np.asarray([np.nan if isinstance(v, Tracer) else v for v in given], dtype=float)
-        free = jnp.stack([jnp.asarray(given[i], dtype=float) for i in layout.order])
-    else:
-        known = np.asarray(given, dtype=float)
-        free = jnp.asarray(known[layout.order])
+    known = np.asarray([np.nan if isinstance(v, Tracer) else v for v in given], dtype=float)
     if clause := layout.out_of_range(known):
         raise DataError(f"params: {clause}.")
-    values = bind(layout, free)
+    values = bind(layout, _as_array([given[i] for i in layout.order], known[layout.order]))
     laws = [n for n in layout.module_names if not callable(params[n])]
     if laws:
         raise DataError(f"params: {listing(laws)} must be networks, got {shown(params[laws[0]])}")
@@ -83,6 +80,20 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     }
     # one that many components share stands once, at its own place
     return Packed(values, tuple(modules.get(i) for i in range(len(layout.module_of))))
+
+
+def _as_array(given: Sequence[Any], known: Float[np.ndarray, " n_free"]) -> Float[Array, " n_free"]:
+    """Numbers as an array, in which neighbours that are known are one constant, however many they are."""
+    if not any(isinstance(value, Tracer) for value in given):
+        return jnp.asarray(known)
+    runs = groupby(range(len(given)), lambda i: isinstance(given[i], Tracer))
+    pieces = [
+        jnp.stack([jnp.asarray(given[i], dtype=float) for i in run])
+        if traced
+        else jnp.asarray(known[list(run)])
+        for traced, run in runs
+    ]
+    return jnp.concatenate(pieces)
 
 
 def bind(layout: ParameterLayout, free: Array) -> Array:

@@ -99,6 +99,22 @@ def test_missing_numbers_keep_the_models_values():
     assert system.pack({}).values.tolist() == system.pack().values.tolist()
 
 
+@pytest.mark.parametrize("traced", [(1,), (0, 2, 3), (4,), (0, 1, 2, 3, 4)])
+def test_traced_numbers_take_their_places_among_known_ones(traced):
+    system = ac.compile(model(**{f"m{k}": Mass(m=float(k + 1)) for k in range(5)}))
+    values = {f"m{k}.m": 10.0 * k + 1 for k in traced}
+    packed = jax.jit(lambda v: system.pack(v).values)(values)
+    assert packed.tolist() == system.pack(values).values.tolist()
+
+
+def test_known_numbers_are_one_constant_however_many_they_are():
+    def equations_of(n):
+        system = ac.compile(model(**{f"m{k}": Mass(m=float(k + 1)) for k in range(n)}))
+        return len(jax.make_jaxpr(lambda m: system.pack({"m1.m": m}).values)(1.0).eqns)
+
+    assert equations_of(4) == equations_of(40)
+
+
 def test_packing_twice_is_packing_once():
     system = ac.compile(model(a=Mass(m=1.5)))
     packed = system.pack(system.parameters())
