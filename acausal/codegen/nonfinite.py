@@ -73,8 +73,8 @@ def _formula(name: str, formula: str, value: float) -> str:
 
 def _singular(names: list[str]) -> str:
     return (
-        f"the linear equations for {listing(names)} are singular there; "
-        "does a parameter make two of them the same, or one of them void?"
+        f"the linear equations for {listing(names)} are singular; "
+        "does a parameter make two of them the same, or one of them void, or do two parts lock the same motion?"
     )
 
 

@@ -133,7 +133,8 @@ class _Sorting:
     def sorted(self, stated: Sequence[Any]) -> Stated:
         """All of it, each where it belongs."""
         equations: list[Eq] = []
-        for one in stated:
+        whens = [one for one in stated if isinstance(one, When)]
+        for one in (*(o for o in stated if not isinstance(o, When)), *whens):
             if isinstance(one, When):
                 self._when(one)
             elif not isinstance(one, Eq):
@@ -194,7 +195,7 @@ class _Sorting:
             earlier.append(happens)
             for statement in link.statements:
                 if isinstance(statement, Reinit):
-                    value = self._ticking(literal(statement.value))
+                    value = self._at_event(statement.value)
                     jumps.setdefault(statement.state, []).append((value, happens))
                     continue
                 target = _discrete_side(statement)
@@ -204,7 +205,7 @@ class _Sorting:
                         "discrete variable; declare it as ac.Discrete"
                     )
                 value = statement.rhs if target is statement.lhs else statement.lhs
-                value = self._ticking(literal(number_or_truth(value)))
+                value = self._at_event(number_or_truth(value))
                 cases.setdefault(target, []).append((value, happens))
         for target, some in cases.items():
             self._update(target, sp.Piecewise(*some, (Previous(target), True)), str(when))
@@ -249,6 +250,19 @@ class _Sorting:
     def _cases(self, expression: Any) -> Any:
         """The value of an equation that holds at all times, its watched conditions frozen."""
         return expression.replace(Floored, self._floor).replace(Watched, self._frozen)
+
+    def _at_event(self, expression: Any) -> Any:
+        """The value of a statement: a comparison that is watched has just changed, whatever rounding makes of it."""
+        pieces = literal(expression)
+        replaced: dict[Any, Any] = {}
+        for relation in pieces.atoms(Relational):
+            for same in (relation, relation.reversed):
+                opposite = same.negated
+                if same in self.known:
+                    replaced[relation] = sp.Gt(self.known[same], HALF)
+                elif opposite in self.known:
+                    replaced[relation] = sp.Le(self.known[opposite], HALF)
+        return self._ticking(pieces.xreplace(replaced))
 
     def _frozen(self, condition: Any, value: Any, otherwise: Any, _: Any) -> Any:
         return sp.Piecewise((value, self._truth(condition)), (otherwise, True))

@@ -97,7 +97,8 @@ def _reason(system: System, values: Values, name: str, k: int) -> str:
 
 def _at(values: Values, k: int) -> Values:
     """One point of a trajectory."""
-    return values._replace(t=np.asarray(values.t)[k], x=values.x[k], u=values.u[k])
+    d = None if values.d is None else values.d[k]
+    return values._replace(t=np.asarray(values.t)[k], x=values.x[k], u=values.u[k], d=d)
 
 
 def _first_nonfinite(names: tuple[str, ...], row: Float[Array, " n"]) -> str:

@@ -1,4 +1,7 @@
-"""Gates without delay, by the tables of IEEE 1164: a weak value counts as a strong one."""
+"""Gates by the tables of IEEE 1164: a weak value counts as a strong one.
+
+The output follows at the same instant, one round of the event later, as in Modelica: so gates in a loop remember.
+"""
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
@@ -21,26 +24,38 @@ def _all(conditions: Sequence[Any]) -> Any:
     return reduce(and_, conditions)
 
 
-class Not(ac.Component):
+class _Remembering(ac.Component):
+    """What all gates share."""
+
+    y = DigitalOutput(doc="output")
+    auxiliary = ac.Discrete(U, kind="int", doc="what the output becomes")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.auxiliary, self._value())
+        yield ac.Eq(self.y, ac.pre(self.auxiliary))
+
+    def _value(self) -> Any:
+        raise NotImplementedError
+
+
+class Not(_Remembering):
     """1 for 0, 0 for 1, ``'U'`` for ``'U'``, else ``'X'``."""
 
     ICON = icons.block("not")
 
     x = DigitalInput(doc="input")
-    y = DigitalOutput(doc="output")
 
-    def equations(self) -> Iterator[ac.Eq]:
+    def _value(self) -> Any:
         other = ac.where(is_uninitialized(self.x), U, X)
         known = ac.where(is_one(self.x), ZERO, other)
-        yield ac.Eq(self.y, ac.where(is_zero(self.x), ONE, known))
+        return ac.where(is_zero(self.x), ONE, known)
 
 
-class _Gate(ac.Component):
+class _Gate(_Remembering):
     """A gate with ``n`` inputs."""
 
     n = ac.Option(2, doc="number of inputs")
     x = DigitalInput(shape="n", doc="inputs")
-    y = DigitalOutput(doc="output")
 
     def _dominated(self, decides: Any, decided: int, otherwise: int) -> Any:
         """``decided`` if an input decides that; else ``otherwise``, unless an input is neither 0 nor 1."""
@@ -65,8 +80,8 @@ class And(_Gate):
 
     ICON = icons.block("and")
 
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self._dominated(is_zero, ZERO, ONE))
+    def _value(self) -> Any:
+        return self._dominated(is_zero, ZERO, ONE)
 
 
 class Nand(_Gate):
@@ -74,8 +89,8 @@ class Nand(_Gate):
 
     ICON = icons.block("nand")
 
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self._dominated(is_zero, ONE, ZERO))
+    def _value(self) -> Any:
+        return self._dominated(is_zero, ONE, ZERO)
 
 
 class Or(_Gate):
@@ -83,8 +98,8 @@ class Or(_Gate):
 
     ICON = icons.block("or")
 
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self._dominated(is_one, ONE, ZERO))
+    def _value(self) -> Any:
+        return self._dominated(is_one, ONE, ZERO)
 
 
 class Nor(_Gate):
@@ -92,8 +107,8 @@ class Nor(_Gate):
 
     ICON = icons.block("nor")
 
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self._dominated(is_one, ZERO, ONE))
+    def _value(self) -> Any:
+        return self._dominated(is_one, ZERO, ONE)
 
 
 class Xor(_Gate):
@@ -101,8 +116,8 @@ class Xor(_Gate):
 
     ICON = icons.block("xor")
 
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self._parity(ZERO, ONE))
+    def _value(self) -> Any:
+        return self._parity(ZERO, ONE)
 
 
 class Xnor(_Gate):
@@ -110,5 +125,5 @@ class Xnor(_Gate):
 
     ICON = icons.block("xnor")
 
-    def equations(self) -> Iterator[ac.Eq]:
-        yield ac.Eq(self.y, self._parity(ONE, ZERO))
+    def _value(self) -> Any:
+        return self._parity(ONE, ZERO)

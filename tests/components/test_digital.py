@@ -39,32 +39,67 @@ def expected(gate: type, a: str, b: str) -> str:
 
 
 class Gates(ac.Component):
-    """All gates at the same two inputs."""
+    """Gates of a class, one for every pair of values."""
 
-    a, b = ac.Input(), ac.Input()
+    def __init__(self, gate: type) -> None:
+        super().__init__()
+        self.values = [dg.Set(x=value) for value in LOGIC]
+        self.gates = [gate() for _ in range(81)]
+        for made, pair in zip(self.gates, product(self.values, repeat=2), strict=True):
+            for i, value in enumerate(pair):
+                self.connect(value.y, made.x[i])
+
+
+@pytest.mark.parametrize("gate", GATES)
+def test_gates_follow_their_tables(gate: type) -> None:
+    end = ac.simulate(ac.compile(Gates(gate)), 1.0, saveat=[1.0])
+    pairs = list(product(VALUES, repeat=2))
+    found = [VALUES[int(end[f"gates[{k + 1}].y"][0]) - 1] for k in range(len(pairs))]
+    assert found == [expected(gate, a, b) for a, b in pairs]
+
+
+class Inverters(ac.Component):
+    """An inverter for every value."""
 
     def __init__(self) -> None:
         super().__init__()
-        for gate in GATES:
-            made: Any = gate()
-            setattr(self, gate.__name__, made)
-            self.connect(self.a, made.x[0])
-            self.connect(self.b, made.x[1])
-        self.inverse = dg.Not()
-        self.connect(self.a, self.inverse.x)
+        self.values = [dg.Set(x=value) for value in LOGIC]
+        self.inverse = [dg.Not() for _ in LOGIC]
+        for value, made in zip(self.values, self.inverse, strict=True):
+            self.connect(value.y, made.x)
 
 
-def test_gates_follow_their_tables() -> None:
-    system = ac.compile(Gates())
-    pairs = list(product(range(9), repeat=2))
-    names = [*(f"{gate.__name__}.y" for gate in GATES), "inverse.y"]
-    params = system.pack()
-    for a, b in pairs:
-        given = np.asarray([{"a": a, "b": b}[name] + 1.0 for name in system.inputs])
-        found = np.asarray(system.observe(names, 0.0, np.zeros(0), given, params))
-        wanted = [expected(gate, VALUES[a], VALUES[b]) for gate in GATES]
-        wanted.append({"0": "1", "1": "0"}.get(strong(VALUES[a]), strong(VALUES[a])))
-        assert [VALUES[int(v) - 1] for v in found] == wanted
+def test_an_inverter_follows_its_table() -> None:
+    end = ac.simulate(ac.compile(Inverters()), 1.0, saveat=[1.0])
+    found = [VALUES[int(end[f"inverse[{k + 1}].y"][0]) - 1] for k in range(9)]
+    assert found == [{"0": "1", "1": "0"}.get(strong(a), strong(a)) for a in VALUES]
+
+
+class Latch(ac.Component):
+    """Two gates, each at the other's output: they remember which input was active last."""
+
+    def __init__(self, gate: type, active: str, quiet: str) -> None:
+        super().__init__()
+        pulse = (active, quiet)
+        self.set = dg.Table(t=(1, 2, 5, 6), x=pulse * 2, y0=quiet)
+        self.reset = dg.Table(t=(3, 4), x=pulse, y0=quiet)
+        self.first, self.second = gate(n=2), gate(n=2)
+        self.connect(self.set.y, self.first.x[0])
+        self.connect(self.reset.y, self.second.x[0])
+        self.connect(self.second.y, self.first.x[1])
+        self.connect(self.first.y, self.second.x[1])
+
+
+@pytest.mark.parametrize(
+    ("gate", "active", "quiet"), [(dg.Nand, "'0'", "'1'"), (dg.Nor, "'1'", "'0'")]
+)
+def test_gates_in_a_loop_remember(gate: type, active: str, quiet: str) -> None:
+    system = ac.compile(Latch(gate, active, quiet))
+    found = ac.simulate(system, 7.0, saveat=np.arange(7) + 0.5)
+    one, other = signal(quiet), signal(active)
+    held = [signal("'U'"), other, other, one, one, other, other]
+    assert found["second.y"].tolist() == held
+    assert found["first.y"].tolist() == [v if v == 1 else one + other - v for v in held]
 
 
 class Sources(ac.Component):

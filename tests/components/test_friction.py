@@ -212,3 +212,34 @@ def test_a_mass_stays_at_its_stop(bench):
     np.testing.assert_allclose(s, np.where(t < hit, 1.2 * t - t**2 / 4, 0.9), atol=1e-8)
     assert set(bench["slider.stopped"][t > hit].tolist()) == {1}
     assert np.all(bench["slider.v"][t > hit] == 0)
+
+
+class Redundant(ac.Component):
+    """Two friction elements beside each other, of which one would be enough to hold the shaft."""
+
+    def __init__(self, kind: str) -> None:
+        super().__init__()
+        self.fast = rot.Inertia(J=1.0, phi=REST, w=at(10.0))
+        self.slow = rot.Inertia(J=1.0, phi=REST, w=REST)
+        self.first, self.second = (getattr(rot, kind)(fn_max=f) for f in (10.0, 6.0))
+        for element in (self.first, self.second):
+            self.connect(self.fast.flange_b, element.flange_a)
+            if kind == "Clutch":
+                self.connect(element.flange_b, self.slow.flange_a)
+
+
+FULL = {"first.f_normalized": 1.0, "second.f_normalized": 1.0}
+
+
+@pytest.mark.slow
+def test_brakes_that_share_a_load_hold_it_and_their_torques_are_told_to_be_open():
+    sol = ac.simulate(ac.compile(Redundant("Brake")), 4.0, inputs=FULL, saveat=[1.0, 4.0])
+    np.testing.assert_allclose(sol["fast.w"], [2.0, 0.0], atol=1e-8)
+    with pytest.warns(UserWarning, match="'first.tau'.*singular.*lock the same motion"):
+        assert np.isnan(sol["first.tau"][-1])
+
+
+@pytest.mark.slow
+def test_clutches_that_lock_the_same_motion_are_named():
+    with pytest.raises(ac.SimulationError, match=r"0\.625.*'first.tau'.*lock the same motion"):
+        ac.simulate(ac.compile(Redundant("Clutch")), 4.0, inputs=FULL)

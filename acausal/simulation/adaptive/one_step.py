@@ -134,7 +134,8 @@ class OneStep(eqx.Module):
     def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step from t of length h."""
         one = jnp.ones_like(h)
-        return self.solver.interpolation_cls(t0=0 * one, t1=one, **dense).evaluate((at - t) / h)
+        whole = self.solver.interpolation_cls(t0=0 * one, t1=one, **dense)
+        return whole.evaluate(part_of_step(t, h, at))
 
     def adjoint(self, to_last: State) -> State:
         """The adjoint behind the last step."""
@@ -216,6 +217,12 @@ class Foreign(OneStep):
     def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step."""
         return self.solver.interpolation_cls(t0=t, t1=t + h, **dense).evaluate(at)
+
+
+def part_of_step(t: Array, h: Array, at: Array) -> Array:
+    """Where in a step a time lies, 0 to 1; a step without length, as events leave behind, is at its end."""
+    none = h == 0
+    return jnp.where(none, 1.0, (at - t) / jnp.where(none, 1.0, h))
 
 
 def first_length(problem: Problem, t: Array, x: State, f: State, order: float) -> Array:

@@ -8,7 +8,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from acausal.simulation.adaptive.one_step import Made, Memory, OneStep
+from acausal.simulation.adaptive.one_step import Made, Memory, OneStep, part_of_step
 from acausal.simulation.adaptive.problem import Attempt, Counts, Problem, RightHandSide
 from acausal.simulation.adaptive.runge_kutta import Explicit
 
@@ -45,7 +45,7 @@ class Paced(eqx.Module):
 
     def between(self, dense: Any, t: Array, h: Array, at: Array) -> Array:
         """The state at a time within a step: on the cubic through its ends."""
-        (x0, x1), (f0, f1), s = dense["ends"], dense["rates"], (at - t) / h
+        (x0, x1), (f0, f1), s = dense["ends"], dense["rates"], part_of_step(t, h, at)
         bend = (1 - 2 * s) * (x1 - x0) + (s - 1) * h * f0 + s * h * f1
         return (1 - s) * x0 + s * x1 + s * (s - 1) * bend
 
@@ -59,7 +59,8 @@ class Paced(eqx.Module):
         """Make a step of length h from t."""
         made = self.make(problem.field, t, h, memory.x, memory.first)
         done = made.done & jnp.all(jnp.isfinite(made.x))
-        after = memory._replace(x=made.x, first=made.first)
+        again = jnp.where(done, jnp.inf, 0.0)  # it would be the same step
+        after = memory._replace(h=again.astype(h.dtype), x=made.x, first=made.first)
         never = jnp.array(False)
         return Attempt(done, made.x, after, made.dense, (), never, made.counts)
 

@@ -85,7 +85,7 @@ def simulate_hybrid(
     solved = solve(problem, events, d, method, jacobian, forward=forward, log=log)
     found, c = solved.found, solved.found.counts
     if (why := known(found.why)) is not None and not traced(found.saved):
-        _check(run, saved, found, int(why), max_steps, solved.method)
+        _check(run, saved, found, int(why), max_steps, solved.method, isinstance(method, Paced))
     statistics = Statistics(
         solved.method, c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
     )
@@ -101,6 +101,7 @@ def _check(
     why: int,
     max_steps: int,
     name: str,
+    has_dt: bool,
 ) -> None:
     if why == REACHED:
         if (broken := run.broken(found.saved)) is None:
@@ -113,8 +114,8 @@ def _check(
     reached = float(found.t)
     where = f"The simulation with {name} stopped at t = {reached:g} s, before {run.end:g} s"
     last = _last(run, found)
+    at = run.at(found.t, found.x)._replace(d=found.d)
     if why == UNSETTLED:
-        at = run.at(found.t, found.x)._replace(d=found.d)
         assert run.system.events is not None
         places = restless(run.system.events, at)
         circle = listing(map(run.system.describe_discrete, places), 6) or "conditions"
@@ -126,10 +127,17 @@ def _check(
             f"{where}: events follow each other without end{last}. The model slides along this condition, or bounces "
             "for ever: give it a state of rest, or a hysteresis."
         )
+    if reason := run.system.explain_nonfinite(at):
+        raise SimulationError(f"{where}{last}: {reason}")
     if why == TOO_SHORT:
+        problem = "its values are not finite" if has_dt else "its steps became too small"
+        mend = (
+            "take a shorter dt, or leave dt out for adaptive steps"
+            if has_dt
+            else "check its parameters"
+        )
         raise SimulationError(
-            f"{where}: its steps became too small, or its values not finite{last}. "
-            "The model may diverge there: check its parameters, initial values and inputs."
+            f"{where}: {problem}{last}. The model diverges there, or is too fast for these steps: {mend}."
         )
     hint = f"It has had {int(found.log.total)} events{last}"
     assert why == EXHAUSTED

@@ -276,3 +276,41 @@ def test_a_discrete_variable_may_be_a_derivative() -> None:
 
     sol = ac.simulate(ac.compile(Counted()), (0.0, 1.0), saveat=[1.0])
     assert sol["x"][-1] == pytest.approx(0.75)
+
+
+class BetweenWalls(ac.Component):
+    """Something that flies between two walls and is put exactly onto the one that it has met."""
+
+    x = ac.Variable(start=0.3, fixed=True)
+    v = ac.Variable(start=1.7, fixed=True, state="always")
+
+    def equations(self) -> Iterator[Any]:
+        above, below = self.x > -0.4, self.x < 0.7
+        yield ac.Eq(ac.der(self.x), self.v)
+        yield ac.Eq(ac.der(self.v), -0.02 * self.v)
+        wall = ac.where(above, 0.7, -0.4)
+        yield ac.When(~(above & below), ac.Reinit(self.x, wall), ac.Reinit(self.v, -ac.pre(self.v)))
+
+
+@pytest.mark.parametrize("steps", [{}, {"dt": 0.01, "solver": "rk4"}])
+def test_a_comparison_in_a_when_is_what_its_condition_has_become(steps: dict[str, Any]) -> None:
+    sol = ac.simulate(ac.compile(BetweenWalls()), 30.0, **steps)
+    assert len(sol.events) > 20
+    for event in sol.events:
+        assert event.before is not None
+        assert event.after is not None
+        assert event.after.get("x", 0.0) == pytest.approx(event.before.get("x", 0.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("dt", [1e-3, 5e-4])
+def test_an_event_may_fall_on_the_end_of_a_fixed_step(dt: float) -> None:
+    class HalfWaves(ac.Component):
+        q = ac.Variable(start=0.0, fixed=True)
+
+        def equations(self) -> Iterator[Any]:
+            wave = ac.sin(100 * np.pi * ac.time)
+            yield ac.Eq(ac.der(self.q), ac.where(wave < 0, 0.0, 1.0, events=True))
+
+    sol = ac.simulate(ac.compile(HalfWaves()), 0.06, dt=dt, solver="rk4")
+    assert sol["q"][-1] == pytest.approx(0.03, abs=1e-12)
+    np.testing.assert_allclose([e.t for e in sol.events], [0.01, 0.02, 0.03, 0.04, 0.05])
