@@ -3314,6 +3314,8 @@ class TimeTable(SO):
     """the output is the offset before [s]"""
     shiftTime: ClassVar[ac.Parameter]
     """time of the table's zero [s]"""
+    passed: ClassVar[ac.Variable]
+    """number of jumps and corners that lie behind"""
     offset: ClassVar[ac.Parameter]
     """offset of the output"""
     column: ClassVar[ac.Module]
@@ -3327,6 +3329,7 @@ class TimeTable(SO):
         table: Any = ...,
         column: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class To_bar(PartialConversionBlock):
@@ -3502,8 +3505,10 @@ class CombiTimeTable(PartialColumns, MO):
     """the output is the offset before [s]"""
     shiftTime: ClassVar[ac.Parameter]
     """time of the table's zero [s]"""
+    passed: ClassVar[ac.Variable]
+    """number of jumps and corners that lie behind"""
     timeEvents: ClassVar[ac.Option]
-    """without effect"""
+    """where steps end in models with events"""
     offset: ClassVar[ac.Parameter]
     """offsets of the outputs, or one for all"""
     def __init__(
@@ -3522,8 +3527,9 @@ class CombiTimeTable(PartialColumns, MO):
         tableOnFile: Literal[False] = ...,
         verboseRead: bool = ...,
         verboseExtrapolation: bool = ...,
-        timeEvents: Any = ...,
+        timeEvents: Literal["Always", "AtDiscontinuities", "NoTimeEvents"] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
     ) -> None: ...
 

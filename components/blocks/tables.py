@@ -10,15 +10,22 @@ import acausal as ac
 from acausal.components import icons
 
 from .interfaces import MO, SO
-from .interpolation import EXTRAPOLATION, SMOOTHNESS, interpolant, rows
+from .interpolation import EXTRAPOLATION, SMOOTHNESS, corners, interpolant, jumps, rows
 
 __modelica__ = "Modelica.Blocks.Sources"
+
+
+TIME_EVENTS = ("Always", "AtDiscontinuities", "NoTimeEvents")
+
+CORNERS = 30
+"""A table with more corners than these ends no steps there: each of them is a condition of its own."""
 
 
 class _TimeTable(ac.Component):
     """What time tables share: ``y = offset`` before ``startTime``, then ``offset`` plus the table.
 
-    The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s].
+    The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s]. In models with
+    events, steps end at jumps and corners, if there are no more than 30; at those of the first period, if it has one.
     """
 
     ICON = icons.TABLE
@@ -27,9 +34,28 @@ class _TimeTable(ac.Component):
     timeScale = ac.Parameter(1.0, unit="s", min=0, doc="unit of the table's times")
     startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
     shiftTime = ac.Parameter(lambda self: self.startTime, unit="s", doc="time of the table's zero")
+    passed = ac.Variable(when="_has_events", doc="number of jumps and corners that lie behind")
 
     def _rows(self) -> np.ndarray:
         return rows(self)
+
+    @property
+    def _corners(self) -> Sequence[float]:
+        """Times of jumps and corners, in units of the table."""
+        return ()
+
+    @property
+    def _has_events(self) -> bool:
+        return 0 < len(self._corners) <= CORNERS
+
+    def equations(self) -> Iterator[ac.Eq]:
+        if self._has_events:
+            since = ac.time - self.shiftTime
+            behind = [
+                ac.where(since >= corner * self.timeScale, 1, 0, events=None)
+                for corner in self._corners
+            ]
+            yield ac.Eq(self.passed, sum(behind))
 
     def _equation(self, y: Any, offset: Any, column: Any) -> ac.Eq:
         value = column((ac.time - self.shiftTime) / self.timeScale)
@@ -49,7 +75,12 @@ class TimeTable(SO, _TimeTable):
     def _column(self, key: Any) -> ac.Signal:
         return interpolant(self._rows(), "LinearSegments", "LastTwoPoints", "table", key)
 
+    @property
+    def _corners(self) -> Sequence[float]:
+        return corners(self._rows(), "LinearSegments", "LastTwoPoints")
+
     def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
         yield self._equation(self.y, self.offset, self.column)
 
 
@@ -106,7 +137,9 @@ class CombiTimeTable(PartialColumns, MO, _TimeTable):
     See `PartialColumns` for the kinds of interpolation and extrapolation.
     """
 
-    timeEvents = ac.Option("Always", doc="without effect")
+    timeEvents = ac.Option(
+        "Always", choices=TIME_EVENTS, doc="where steps end in models with events"
+    )
     offset = ac.Parameter([0.0], shape=":", doc="offsets of the outputs, or one for all")
 
     @property
@@ -114,7 +147,17 @@ class CombiTimeTable(PartialColumns, MO, _TimeTable):
         """Number of outputs."""
         return len(self._columns)
 
+    @property
+    def _corners(self) -> Sequence[float]:
+        if self.timeEvents == "NoTimeEvents":
+            return ()
+        chosen = self._rows()[:, [0, *(c - 1 for c in self._columns)]]
+        if self.timeEvents == "AtDiscontinuities":
+            return jumps(chosen)
+        return corners(chosen, self.smoothness, self.extrapolation)
+
     def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
         offsets = self.offset if len(self.offset) > 1 else self.offset * self.nout
         for y, offset, column in zip(self.y, offsets, self.column, strict=True):
             yield self._equation(y, offset, column)

@@ -127,17 +127,6 @@ class LogicToReal(ac.Component):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class Not(ac.Component):
-    """1 for 0, 0 for 1, ``'U'`` for ``'U'``, else ``'X'``."""
-
-    x: ClassVar[ac.Input]
-    """input"""
-    y: ClassVar[ac.Output]
-    """output"""
-    def __init__(
-        self, *, x: ac.Start | Mapping[str, Any] = ..., y: ac.Start | Mapping[str, Any] = ...
-    ) -> None: ...
-
 class Pulse(ac.Component):
     """``pulse`` during the first ``width`` percent of each period from ``startTime`` [s] on, else ``quiet``."""
 
@@ -230,104 +219,139 @@ class Table(ac.Component):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class Not(ac.Component):
+    """1 for 0, 0 for 1, ``'U'`` for ``'U'``, else ``'X'``."""
+
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
+    x: ClassVar[ac.Input]
+    """input"""
+    def __init__(
+        self,
+        *,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class And(ac.Component):
     """1 if all inputs are 1; 0 if one is 0."""
 
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
     n: ClassVar[ac.Option]
     """number of inputs"""
     x: ClassVar[ac.Input]
     """inputs"""
-    y: ClassVar[ac.Output]
-    """output"""
     def __init__(
         self,
         *,
         n: SupportsIndex = ...,
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Nand(ac.Component):
     """0 if all inputs are 1; 1 if one is 0."""
 
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
     n: ClassVar[ac.Option]
     """number of inputs"""
     x: ClassVar[ac.Input]
     """inputs"""
-    y: ClassVar[ac.Output]
-    """output"""
     def __init__(
         self,
         *,
         n: SupportsIndex = ...,
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Nor(ac.Component):
     """0 if an input is 1; 1 if all are 0."""
 
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
     n: ClassVar[ac.Option]
     """number of inputs"""
     x: ClassVar[ac.Input]
     """inputs"""
-    y: ClassVar[ac.Output]
-    """output"""
     def __init__(
         self,
         *,
         n: SupportsIndex = ...,
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Or(ac.Component):
     """1 if an input is 1; 0 if all are 0."""
 
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
     n: ClassVar[ac.Option]
     """number of inputs"""
     x: ClassVar[ac.Input]
     """inputs"""
-    y: ClassVar[ac.Output]
-    """output"""
     def __init__(
         self,
         *,
         n: SupportsIndex = ...,
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Xnor(ac.Component):
     """1 if an even number of inputs is 1."""
 
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
     n: ClassVar[ac.Option]
     """number of inputs"""
     x: ClassVar[ac.Input]
     """inputs"""
-    y: ClassVar[ac.Output]
-    """output"""
     def __init__(
         self,
         *,
         n: SupportsIndex = ...,
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Xor(ac.Component):
     """1 if an odd number of inputs is 1."""
 
+    y: ClassVar[ac.Output]
+    """output"""
+    auxiliary: ClassVar[ac.Discrete]
+    """what the output becomes"""
     n: ClassVar[ac.Option]
     """number of inputs"""
     x: ClassVar[ac.Input]
     """inputs"""
-    y: ClassVar[ac.Output]
-    """output"""
     def __init__(
         self,
         *,
         n: SupportsIndex = ...,
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
+        auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...

@@ -116,6 +116,48 @@ def test_times_of_jumps_have_gradients():
     assert float(pulse["pulse.period"]) == pytest.approx(n_pulses * 0.2, abs=1e-9)
 
 
+class Tables(ac.Component):
+    """Tables over time, their integrals, and a clock."""
+
+    n = ac.Discrete(0, kind="int")
+
+    def __init__(self) -> None:
+        super().__init__()
+        ramp = [[0, 1], [1, 1], [1.23, 0], [9, 0]]
+        steps = [[0, 1], [0.7, 1], [0.7, 3], [1.1, 2], [2, 2]]
+        self.bent = blocks.TimeTable(table=ramp, shiftTime=0.5, startTime=0.1)
+        self.held = blocks.CombiTimeTable(
+            table=[[0.5, 1], [1.5, 2]], extrapolation="HoldLastPoint", timeScale=0.5
+        )
+        self.some = blocks.CombiTimeTable(table=steps, timeEvents="AtDiscontinuities")
+        self.none = blocks.CombiTimeTable(table=steps, timeEvents="NoTimeEvents")
+        self.constant = blocks.CombiTimeTable(
+            table=[[0, 1, 4], [0.31, 1, 4], [0.62, 1, 5]], smoothness="ConstantSegments"
+        )
+        self.integral = blocks.Integrator()
+        self.connect(self.bent.y, self.integral.u)
+
+    def equations(self):
+        yield ac.When(ac.sample(5, 5), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+def test_steps_end_at_jumps_and_corners_of_tables():
+    run = ac.simulate(ac.compile(Tables()), 2.0, saveat=[2.0])
+    times = {
+        name: [round(e.t, 12) for e in run.events if e.component == name]
+        for name in ("bent", "held", "some", "none", "constant")
+    }
+    assert times == {
+        "bent": [0.1, 1.5, 1.73],
+        "held": [0.25, 0.75],
+        "some": [0.7],
+        "none": [],
+        "constant": [0.62],
+    }
+    assert run["integral.y"][0] == pytest.approx(1.4 + 0.23 / 2, abs=1e-12)
+    assert "none.passed" not in run.names
+
+
 def test_without_other_events_sources_have_none():
     class Plain(ac.Component):
         def __init__(self):
