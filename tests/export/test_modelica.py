@@ -62,6 +62,28 @@ class Vectors(ac.Component):
         self.same = Decays(k=2.0, x=ac.Start(2.0))
 
 
+class Alike(ac.Component):
+    """Names that would be one in Modelica, or would hide a type, a function or a package."""
+
+    Modelica = ac.Parameter(0.2)
+    Real = ac.Parameter(3.0)
+    sin = ac.Parameter(0.5)
+    exp = ac.Variable()
+    y = ac.Variable(start=1.0, fixed=True)
+
+    def __init__(self):
+        super().__init__()
+        x = {"x": ac.Start([1.0, 2.0, 3.0])}
+        self.a = [Decays(k=[1.0, 2.0, 3.0], **x), Decays(k=[4.0, 5.0, 6.0], **x)]
+        self.a_1 = Decays(k=[7.0, 8.0, 9.0], **x)
+
+    def equations(self):
+        wave = self.sin * ac.exp(-self.exp) * ac.sin(ac.time) * self.Real
+        parts = self.a[0].x[0] - self.a_1.x[0]
+        yield ac.Eq(self.exp, self.y)
+        yield ac.Eq(ac.der(self.y), self.Modelica + parts - wave)
+
+
 NETLIST = {
     "parameters": {"k": 30.0},
     "variables": {"slow": {"start": 1.0, "fixed": True}},
@@ -157,6 +179,15 @@ def test_a_loaded_netlist(rumoca, tmp_path):
     file.write_text(json.dumps(NETLIST))
     system = ac.compile(ac.load(file))
     agree(rumoca, system, ("mass.s", "slow"), 2.0, tmp_path)
+
+
+def test_names_stay_apart(rumoca, tmp_path):
+    system = ac.compile(Alike())
+    agree(rumoca, system, ("y",), 1.0, tmp_path)
+    text = (tmp_path / "shipped.mo").read_text()
+    assert not [d for d in rumoca.validate_source(text) if d.level == "error"]
+    declared = re.findall(r"^    (?:parameter )?\w+ ('?\w+'?)[ (;]", text, re.MULTILINE)
+    assert {"'Modelica'", "'Real'", "'sin'", "'exp'", "a_1", "a_1_2", "a_2"} <= set(declared)
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -29,9 +30,28 @@ def lies_within(value: Any, component: Component) -> bool:
     return True
 
 
-def plain(name: str) -> str:
-    """The name of a part; an element of a list ``m[2]`` is ``m_2``."""
-    return re.sub(r"\W+", "_", name).rstrip("_") if ELEMENT.fullmatch(name) else name
+def unused(wanted: str, taken: set[str]) -> str:
+    """A name that is not taken, and is from now on: ``m_2``, or else ``m_2_2``, ``m_2_3``."""
+    names = (wanted if n == 1 else f"{wanted}_{n}" for n in count(1))
+    name = next(name for name in names if name not in taken)
+    taken.add(name)
+    return name
+
+
+def names_in_class(node: Any) -> tuple[dict[str, str], set[str]]:
+    """Names of a component's parts in its class, and all names that are taken there.
+
+    An element of a list ``m[2]`` is ``m_2``.
+    """
+    taken = {name for name, _ in node.declarations()}
+    taken |= {name for name in node.children if not ELEMENT.fullmatch(name)}
+    parts = {
+        name: unused(re.sub(r"\W+", "_", name).rstrip("_"), taken)
+        if ELEMENT.fullmatch(name)
+        else name
+        for name in node.children
+    }
+    return parts, taken
 
 
 def connector_class(name: str, kind: type[Connector]) -> str:

@@ -10,7 +10,13 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import ModelError
-from acausal.export.modelica_text.declared import Flat, connector_class, lies_within, plain
+from acausal.export.modelica_text.declared import (
+    Flat,
+    connector_class,
+    lies_within,
+    names_in_class,
+    unused,
+)
 from acausal.export.modelica_text.expressions import Printer, equation
 from acausal.export.modelica_text.network import block_of
 from acausal.export.modelica_text.spelling import (
@@ -44,6 +50,7 @@ class Package:
     Attributes:
         networks: by dotted name. standard: Modelica's name and modifiers of a part that the standard library has, or
             None. connector: its name of a connector, by class and name, or None. texts: of the classes, by name.
+        parts: names of a component's parts in its class, by the identity of its node.
     """
 
     networks: Mapping[str, Any]
@@ -51,6 +58,17 @@ class Package:
     connector: Callable[[type, str], str | None]
     texts: dict[str, str] = field(default_factory=dict)
     blocks: dict[tuple[int, tuple[int, ...]], str] = field(default_factory=dict)
+    parts: dict[int, dict[str, str]] = field(default_factory=dict)
+
+    def way(self, node: Any, route: Sequence[str]) -> list[str]:
+        """The names on the way from a component down to a part of it."""
+        found: list[str] = []
+        for name in route:
+            if id(node) not in self.parts:
+                self.parts[id(node)] = names_in_class(node)[0]
+            found.append(self.parts[id(node)][name])
+            node = node.children[name]._node
+        return found
 
     def add(self, wanted: str, write: Callable[[str], str]) -> str:
         """The name of a class; classes of equal text are one."""
@@ -98,6 +116,7 @@ class Model:
     ) -> None:
         self.package, self.component, self.inputs = package, component, inputs or ()
         self.node = component._node
+        self.taken = names_in_class(self.node)[1]
         self.calls: dict[tuple[str, str], str] = {}
         self.feeds: list[str] = []
         self.printer = Printer(self.path, self._call)
@@ -121,10 +140,10 @@ class Model:
         ]
         pairs = [f"connect({self._end(a)}, {self._end(b)});" for a, b in self.node.connections]
         for given in self.inputs:
-            own = class_name(given)
+            own = unused(class_name(given), self.taken)
             role = self.package.signal(Input())
             declared.append(f"{role} {own};")
-            target = dotted(given.split("."))
+            target = self._input(given.split("."))
             pairs.append(
                 f"connect({own}, {target});" if given.count(".") == 1 else f"{target} = {own};"
             )
@@ -148,7 +167,7 @@ class Model:
                 f"export.modelica: {self.node.label} refers to '{reference.path}' of another component; "
                 "give it by a parameter or a connector"
             )
-        return dotted([*map(plain, route), *reference.path.split(".")])
+        return dotted([*self.package.way(self.node, route), *reference.path.split(".")])
 
     def _end(self, end: Any) -> str:
         owner, local = owner_and_name(end)
@@ -157,7 +176,15 @@ class Model:
             raise ModelError(
                 f"export.modelica: {self.node.label} connects '{local}', which is not part of it"
             )
-        return dotted([*map(plain, route), *local.split(".")])
+        return dotted([*self.package.way(self.node, route), *local.split(".")])
+
+    def _input(self, path: Sequence[str]) -> str:
+        """An input's name by its path."""
+        parts, node = 0, self.node
+        while path[parts] in node.children:
+            node = node.children[path[parts]]._node
+            parts += 1
+        return dotted([*self.package.way(self.node, path[:parts]), *path[parts:]])
 
     def value(self, given: Any, shape: tuple[int, ...] | None = None) -> str:
         """The text of a value; one number for a whole array of a shape fills it."""
@@ -178,7 +205,7 @@ class Model:
         texts = list(map(written, arguments))
         key = (kind, "; ".join(texts))
         if key not in self.calls:
-            own = self.calls[key] = f"net_{len(self.calls) + 1}"
+            own = self.calls[key] = unused(f"net_{len(self.calls) + 1}", self.taken)
             names = ["x"] if len(texts) == 1 else [f"x{i + 1}" for i in range(len(texts))]
             self.feeds += [f"{own}.{n} = {t};" for n, t in zip(names, texts, strict=True)]
         return f"{self.calls[key]}.y"
@@ -266,7 +293,7 @@ class Model:
         else:
             kind = self.package.model(part, part._node.title or type(part).__name__)
             flat = self._own(part, ())
-        return f"{kind} {identifier(plain(name))}{modifiers(flat)};"
+        return f"{kind} {identifier(self.package.way(self.node, [name])[0])}{modifiers(flat)};"
 
     def _own(self, part: Component, path: tuple[str, ...]) -> Flat:
         """Modifiers of a part, and those of parts within it whose values refer to this class."""
@@ -275,7 +302,7 @@ class Model:
         for name, value in part._node.modifiers.items():
             if not lies_within(value, self.component) or (path and lies_within(value, top)):
                 continue
-            place = (*map(plain, path[1:]), *name.split("."))
+            place = (*self.package.way(top._node, path[1:]), *name.split("."))
             found |= self._modifier(part, name, value, place)
         own = path or (part._node.name,)
         for name, child in part._node.children.items():

@@ -18,6 +18,14 @@ KEYWORDS = frozenset([
 ])  # fmt: skip
 """Words that no element may have as its name; they are quoted."""
 
+TAKEN = frozenset([
+    "Boolean", "Clock", "ExternalObject", "Integer", "Modelica", "Real", "StateSelect", "String", "abs", "acos", "asin",
+    "atan", "atan2", "ceil", "cos", "cosh", "delay", "div", "exp", "fill", "floor", "homotopy", "integer", "log",
+    "log10", "mod", "noEvent", "pre", "edge", "change", "product", "reinit", "rem", "sample", "scalar", "sign", "sin",
+    "sinh", "size", "smooth", "sqrt", "sum", "tan", "tanh", "terminal", "time", "transpose",
+])  # fmt: skip
+"""Names of types, functions and packages, which an element of that name would hide; quoted, they are others."""
+
 PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 UNIT = re.compile(r"[A-Za-zΩµ%.0-9/()\-]*")
 
@@ -25,7 +33,7 @@ UNIT = re.compile(r"[A-Za-zΩµ%.0-9/()\-]*")
 def identifier(name: str) -> str:
     """A name, quoted where Modelica needs that; an index stays behind it."""
     word, bracket, index = name.partition("[")
-    if not PLAIN.fullmatch(word) or word in KEYWORDS:
+    if not PLAIN.fullmatch(word) or word in KEYWORDS | TAKEN:
         escaped = word.replace("\\", "\\\\").replace("'", "\\'")
         word = f"'{escaped}'"
     return word + bracket + index
