@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from acausal.errors import DataError, nearest, need_path, reason
+from acausal.errors import DataError, nearest, need_path, reason, user_level
 from acausal.reporting import write_json
 from acausal.training.model_card import facts, markdown
 from acausal.training.trained_model import TrainedModel
@@ -37,6 +38,13 @@ def export_with_card(
     for card in cards:
         if card.exists() and not overwrite:
             raise DataError(f"fit.export: '{card}' exists; give another path, or overwrite=True.")
+    if late := {**fit.delays, **fit.lags}:
+        told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late.items())
+        warnings.warn(
+            f"fit.export: delays and lags lie outside the model, so '{target.name}' does not have them; where it is "
+            f"used, delay {told}.",
+            stacklevel=user_level(),
+        )
     function, write = _WRITERS[target.suffix]
     files = write(fit, target, {**options, "overwrite": overwrite})
     found = facts(fit, files, function, {**options}, confidence, notes or {})

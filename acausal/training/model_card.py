@@ -18,6 +18,7 @@ import numpy as np
 from acausal.analysis import labels
 from acausal.errors import shown
 from acausal.networks import promises_of
+from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.record_fit import RecordFit
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
@@ -74,6 +75,8 @@ def facts(
             "errors": {n: {"rms": e, "unit": system.unit(n)} for n, e in fit.rms.items()},
             "networks": {n: _network(fit, n, confidence) for n in fit.seen},
             "parameters": {n: _parameter(fit, n, confidence) for n in fit.modifiers},
+            "beside the model": {"delays": fit.delays, "lags": fit.lags},
+            "by record": {n: r.parameters for n, r in fit.records.items() if r.parameters},
             "confidence": None if confidence is None else confidence.summary(),
             "versions": {"python": platform.python_version(), **dict(_versions())},
         }
@@ -139,9 +142,12 @@ def _network(fit: TrainedModel, name: str, confidence: Confidence | None) -> dic
 
 def _parameter(fit: TrainedModel, name: str, confidence: Confidence | None) -> dict[str, Any]:
     own = name in fit.params
+    late = {delay_of(n): v for n, v in fit.delays.items()} | {
+        lag_of(n): v for n, v in fit.lags.items()
+    }
     return {
-        "value": float(fit.params[name]) if own else None,
-        "unit": fit.system.unit(name) if own else "",
+        "value": float(fit.params[name]) if own else late.get(name),
+        "unit": fit.system.unit(name) if own else "s" * (name in late),
         "change": fit.modifiers[name],
         "one sigma": None if confidence is None else confidence.parameters.get(name),
     }
@@ -250,6 +256,21 @@ def _inside(card: Mapping[str, Any]) -> Iterator[str]:
             for n, p in card["parameters"].items()
         )
         yield _table(("parameter", "value", "change", "one sigma"), rows)
+
+    late = [
+        (kind[:-1], n, v) for kind, of in card["beside the model"].items() for n, v in of.items()
+    ]
+    if late:
+        yield "## Delays and lags"
+        yield "They lie between the model and its measurements: the file does not have them."
+        yield _table(("", "of", "seconds"), late)
+    if card["by record"]:
+        yield "## Parameters that differ between records"
+        names = list(next(iter(card["by record"].values())))
+        shared = ", ".join(f"`{n}`" for n in names)
+        yield f"The file has common values of {shared}; those of the records are:"
+        rows = ((record, *(own[n] for n in names)) for record, own in card["by record"].items())
+        yield _table(("record", *names), rows)
 
 
 def _laws(name: str, net: Mapping[str, Any]) -> Iterator[tuple[Any, ...]]:

@@ -34,6 +34,10 @@ class TrainedModel(Protocol):
     @property
     def modifiers(self) -> dict[str, float]: ...  # noqa: D102
     @property
+    def delays(self) -> dict[str, float]: ...  # noqa: D102
+    @property
+    def lags(self) -> dict[str, float]: ...  # noqa: D102
+    @property
     def ranges(self) -> dict[str, tuple[tuple[float, float], ...]]: ...  # noqa: D102
     @property
     def seen(self) -> Mapping[str, Any]: ...  # noqa: D102

@@ -93,6 +93,24 @@ def test_the_card_tells_how_sure_it_is(fit, tmp_path):
     assert f"- {sure.summary()[0]}" in path.with_name("a.mlir.md").read_text()
 
 
+def test_what_lies_beside_the_model_is_told(tmp_path):
+    found = ac.fit(
+        learned(), {"a": record(), "b": record()}, "mass.a", sequence_length=0.5, batch_size=2, epochs=2,
+        per_record={"mass.m": None}, delays={"push.f": ac.Delay(start=0.01, max=0.02)}, progress=False,
+    )  # fmt: skip
+    delay = found.delays["push.f"]
+    with pytest.warns(UserWarning, match=rf"does not have them.*'push.f' by {delay:.4g} s"):
+        path = found.export(tmp_path / "late.mlir")
+    card = read(path)
+    assert card["beside the model"] == {"delays": {"push.f": delay}, "lags": {}}
+    assert card["parameters"]["delay(push.f)"]["value"] == delay
+    assert card["parameters"]["delay(push.f)"]["unit"] == "s"
+    assert card["by record"] == {n: r.parameters for n, r in found.records.items()}
+    text = path.with_name("late.mlir.md").read_text()
+    assert f"| delay | push.f | {delay:.5g} |" in text
+    assert "| record | mass.m |" in text
+
+
 def test_wrong_calls_are_refused(fit, tmp_path):
     with pytest.raises(ac.DataError, match=r"no form '\.onx'; did you mean '\.onnx'"):
         fit.export(tmp_path / "a.onx")
