@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -31,7 +32,7 @@ from acausal.simulation import Solution
 from acausal.system import System
 
 MOST_CARDS = 120
-"""The first so many components have a card."""
+"""So many components have a card: those on top, of lists their first elements, before what they consist of."""
 
 MOST_EQUATIONS, MOST_VARIABLES, MOST_STATES = 40, 8, 12
 """Of a card: equations, variables with a plot, and states whose explicit equations are shown."""
@@ -73,7 +74,13 @@ class Known:
 def component_cards(system: System, known: Known) -> tuple[Card, ...]:
     """Cards of the model and of its components, parents before their parts."""
     book = _Book(system, known)
-    return tuple(book.card(i) for i in range(book.count))
+    return tuple(book.card(i) for i in book.chosen)
+
+
+def _depth(path: str) -> tuple[int, int]:
+    """How deep in the model a component lies, and the greatest place in a list on the way to it."""
+    places = [max(map(int, found.split(","))) for found in re.findall(r"\[([0-9,]+)\]", path)]
+    return len(path.split(".")) if path else 0, max(places, default=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,9 +90,12 @@ class _Book:
     system: System
     known: Known
 
-    @property
-    def count(self) -> int:
-        return min(MOST_CARDS, len(self.system.flat.layout.components))
+    @cached_property
+    def chosen(self) -> list[int]:
+        """Numbers of the components that have a card."""
+        paths = self.system.flat.layout.paths
+        ranks = sorted(range(len(paths)), key=lambda i: (*_depth(paths[i]), i))
+        return sorted(ranks[:MOST_CARDS])
 
     @cached_property
     def parameter_values(self) -> Numbers:
@@ -93,9 +103,9 @@ class _Book:
         return np.asarray(read_parameters(self.system.layout, numbers, self.known.packed))
 
     @cached_property
-    def variables(self) -> list[dict[str, str]]:
-        """By card, local and dotted names of the variables that are drawn; what equals another is left out."""
-        return [self._variables_of(i) for i in range(self.count)]
+    def variables(self) -> dict[int, dict[str, str]]:
+        """By component, local and dotted names of the variables that are drawn; what equals another is left out."""
+        return {i: self._variables_of(i) for i in self.chosen}
 
     def _variables_of(self, number: int) -> dict[str, str]:
         layout, reduced = self.system.flat.layout, self.system.reduced
@@ -114,8 +124,8 @@ class _Book:
     @cached_property
     def columns(self) -> dict[str, dict[str, Numbers]]:
         """By run, all variables that cards show; read at once, which compiles one program."""
-        drawn = [n for card in self.variables for n in card.values()]
-        flows = [n for i in range(self.count) for n in power_names(self.system, i)]
+        drawn = [n for card in self.variables.values() for n in card.values()]
+        flows = [n for i in self.chosen for n in power_names(self.system, i)]
         names = list(dict.fromkeys((*drawn, *flows)))
         return {label: run.to_dict(names) for label, run in self.known.runs.items()}
 

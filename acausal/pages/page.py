@@ -104,7 +104,8 @@ def summary(system: System) -> str:
         "input": len(system.inputs),
     }
     sentence = ", ".join(f"{n} {what}{'' if n == 1 else 's'}" for what, n in counts.items()) + "."
-    more = f" The first {MOST_CARDS} components are shown." if components > MOST_CARDS else ""
+    some = f" {MOST_CARDS} components are shown: of long lists and within parts the first ones."
+    more = some if components > MOST_CARDS else ""
     return sentence + more
 
 

@@ -199,7 +199,8 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
     unmoved = _unmoved(start, trained.last)
     exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
     if unmoved and len(diverged) < epochs and not exact:
-        yield from _reasons(unmoved, in_switches(problem.system))
+        has_events = problem.system.events is not None
+        yield from _reasons(unmoved, in_switches(problem.system), has_events)
     if clause := _out_of_range(problem, trained.best.trainable):
         yield (
             f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
@@ -217,7 +218,7 @@ def _long_steps(problem: Problem, best: Best) -> str | None:
     return long_steps(problem.system, values, problem.longest_step)
 
 
-def _reasons(unmoved: Sequence[str], in_switches: Set[str]) -> Iterator[str]:
+def _reasons(unmoved: Sequence[str], in_switches: Set[str], has_events: bool) -> Iterator[str]:
     """Why training did not move some networks and parameters."""
     switching = [n for n in unmoved if n in in_switches]
     others = [n for n in unmoved if n not in in_switches]
@@ -227,7 +228,13 @@ def _reasons(unmoved: Sequence[str], in_switches: Set[str]) -> Iterator[str]:
             "no gradient. Smooth it (tanh in the place of sign), make it an event (ac.where(..., events=True), or for "
             "the library's ac.compile(model, events=True)), or leave it out (train=..., modifiers=...)."
         )
-    if others:
+    if others and has_events:
+        yield (
+            f"Training did not move {listing(others)}: no target depends on it with the events that happen at the "
+            "values where training began. Begin where the model switches as the data do (params=..., starts=...), fit "
+            "a target that depends on it, or leave it out (train=..., modifiers=...)."
+        )
+    elif others:
         yield (
             f"Training did not move {listing(others)}: no target depends on it. "
             "Fit a target that does, or leave it out (train=..., modifiers=...)."

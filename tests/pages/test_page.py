@@ -13,6 +13,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks, electrical as el, neural, thermal as th, translational as tl
 from acausal.pages import Known, component_cards, parallel_law
+from acausal.pages.components import MOST_CARDS
 from acausal.pages.energy import integrated, powers
 from acausal.pages.own_law import own_law
 from acausal.reporting import Card, Plot, Table, Text
@@ -84,6 +85,29 @@ def test_every_component_has_a_card():
     drawn = {c.label for b in section(spring, "Trajectories") for c in b.curves}
     assert {"s_rel", "f"} <= drawn
     assert "flange_b.f" not in drawn, "what equals another variable is drawn once"
+
+
+class Wagon(ac.Component):
+    def __init__(self) -> None:
+        super().__init__()
+        self.body, self.drag = tl.Mass(m=1.0), tl.Damper(d=1.0)
+        self.connect(self.body.flange_b, self.drag.flange_a)
+
+
+class Train(ac.Component):
+    def __init__(self) -> None:
+        super().__init__()
+        self.wagons = [Wagon() for _ in range(150)]
+        self.rails = tl.Fixed()
+        for wagon in self.wagons:
+            self.connect(wagon.drag.flange_b, self.rails.flange)
+
+
+def test_of_many_components_those_that_the_schematic_shows_have_a_card():
+    system = ac.compile(Train())
+    paths = [card.path for card in component_cards(system, Known(system.pack()))]
+    assert len(paths) == MOST_CARDS
+    assert {"", "rails", "wagons[1]", "wagons[100]"} <= set(paths)
 
 
 def test_the_model_shows_its_differential_equations():
