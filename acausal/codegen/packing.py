@@ -69,6 +69,9 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     if wrong:
         raise DataError(f"params: {listing(wrong)} must be numbers, got {shown(params[wrong[0]])}")
     known = np.asarray([np.nan if isinstance(v, Tracer) else v for v in given], dtype=float)
+    unknown = np.flatnonzero(np.isnan(known)).tolist()
+    if nan := [layout.names[i] for i in unknown if not isinstance(given[i], Tracer)]:
+        raise DataError(f"params: {listing(nan)} must be numbers, got nan.")
     if clause := layout.out_of_range(known):
         raise DataError(f"params: {clause}.")
     values = bind(layout, _as_array([given[i] for i in layout.order], known[layout.order]))

@@ -8,7 +8,7 @@ from argparse import Namespace
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 import acausal as ac
@@ -60,7 +60,7 @@ def _made(text: str, module: ModuleType, name: str) -> ac.Component | ac.System:
     """The model that a class or a function makes, or that a module has."""
     found = getattr(module, name, None)
     if found is None:
-        known = [n for n, thing in vars(module).items() if _makes(thing)]
+        known = [n for n, thing in vars(module).items() if _makes(thing, module)]
         raise ac.ModelError(f"{text}: {module.__name__} has no '{name}': {nearest(name, known)}")
     is_model = isinstance(found, ac.Component | ac.System)
     model = _run(text, f"{name}()", found) if callable(found) and not is_model else found
@@ -71,8 +71,10 @@ def _made(text: str, module: ModuleType, name: str) -> ac.Component | ac.System:
     return model
 
 
-def _makes(thing: object) -> bool:
+def _makes(thing: object, module: ModuleType) -> bool:
     """Whether a thing in a module may be meant as a model."""
+    if isinstance(thing, FunctionType):
+        return thing.__module__ == module.__name__ and not thing.__name__.startswith("_")
     return isinstance(thing, ac.Component) or (
         isinstance(thing, type) and issubclass(thing, ac.Component)
     )

@@ -71,9 +71,11 @@ def run(args: Namespace, out: Output) -> None:
 
 def _check_name(name: str) -> None:
     """Refuse what cannot be imported, and names that are taken."""
-    if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
+    if keyword.iskeyword(name):
+        raise UsageError(f"'{name}' is a word of Python's own; choose another name.")
+    if not name.isidentifier() or not name.isascii():
         raise UsageError(
-            f"'{name}' is no name of a package; use small letters, digits and underscores."
+            f"'{name}' is not a name of a package; use small letters, digits and underscores."
         )
     if name in sys.stdlib_module_names or name in ("acausal", "tests"):
         raise UsageError(f"'{name}' is the name of another package; choose your own.")

@@ -72,7 +72,10 @@ def need_axes(given: Any, argument: str = "ax") -> Axes:
         DataError: for it; it names the argument.
     """
     if isinstance(given, type) or not hasattr(given, "plot"):
-        raise DataError(f"{argument}={shown(given)} is no axes; give one of matplotlib's.")
+        file = (
+            " (to write a file: .save(path) of what is returned)" if isinstance(given, str) else ""
+        )
+        raise DataError(f"{argument}={shown(given)} is not axes; give one of matplotlib's{file}.")
     return given
 
 

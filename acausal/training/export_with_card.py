@@ -35,7 +35,7 @@ def export_with_card(
             f"fit.export: there is no form '{target.suffix}'; {nearest(target.suffix, _WRITERS)}"
         )
     cards = [target.with_name(target.name + ending) for ending in (".md", ".json")]
-    for card in cards:
+    for card in (target, *cards):
         if card.exists() and not overwrite:
             raise DataError(f"fit.export: '{card}' exists; give another path, or overwrite=True.")
     if late := {**fit.delays, **fit.lags}:

@@ -144,6 +144,7 @@ def test_equal_parameters_of_equal_components_lie_side_by_side():
         ({"a.m": [1.0, 2.0]}, "'a.m' must be numbers"),
         ({"a.m": jnp.ones(2)}, "'a.m' must be numbers"),
         ({"a.m": None}, "'a.m' must be numbers, got None"),
+        ({"a.m": np.nan}, "'a.m' must be numbers, got nan"),
     ],
 )
 def test_wrong_parameters_are_told(params, told):

@@ -49,7 +49,7 @@ def test_an_empty_model_and_one_without_connections_can_be_drawn() -> None:
 
 
 def test_axes_must_be_axes() -> None:
-    with pytest.raises(ac.DataError, match="is no axes"):
+    with pytest.raises(ac.DataError, match="is not axes"):
         ac.diagram(ac.Component(), "axes")
     with pytest.raises(ac.ModelError, match="diagram needs a Component"):
         ac.diagram(3, plt.figure().add_subplot())

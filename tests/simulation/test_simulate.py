@@ -201,7 +201,7 @@ def test_saving_less():
             lambda sol, folder: sol.to_csv(folder / "none" / "x.csv", ["mass.s"]),
             r"'.*x\.csv' cannot be written: No such file or directory\.",
         ),
-        (lambda sol, folder: sol.plot("mass.s", axes=["a"]), "axes='a' is no axes; give one of mat"),
+        (lambda sol, folder: sol.plot("mass.s", axes=["a"]), "axes='a' is not axes; give one of mat"),
         (lambda sol, folder: sol.plot("mass.s", axes=[]), "axes: there are 0; give one for each unit: 'm'"),
     ],
 )  # fmt: skip

@@ -194,6 +194,7 @@ def test_a_signal_can_be_delayed() -> None:
         ({"lags": {"mass.a": -1.0}}, "'mass.a' is -1 s; a time constant is not negative."),
         ({"delays": {"push.f": ac.Delay(3, max=1)}}, "starts at 3 s, which is not between its bo"),
         ({"delays": {"push.f": ac.Delay(np.nan)}}, "give finite numbers"),
+        ({"delays": {"push.f": ac.Delay(min=0.1, max=0.05)}}, "0.1 to 0.05 s; the lower one comes"),
         ({"delays": {"push.f": ac.Delay()}}, "jumps from sample to sample, .* interpolation='lin"),
     ],
 )

@@ -204,3 +204,9 @@ def test_a_parameter_that_is_not_free_is_explained():
     for name, told in {"a.L": "default of zero and is folded", "b.m": "bound to an expr"}.items():
         with pytest.raises(ac.TrainingError, match=rf"no parameter '{name}' to train: .*{told}"):
             ac.fit(system, data, "a.s", modifiers=[name], progress=False)
+
+
+@pytest.mark.parametrize(("low", "high"), [(5, 1), (np.nan, 1), (2, 2)])
+def test_bounds_in_the_wrong_order_are_refused_where_they_are_given(low, high):
+    with pytest.raises(ac.TrainingError, match=r"^Bounded\(.*: the lower bound comes first"):
+        ac.Bounded(low, high)

@@ -164,6 +164,13 @@ class Bounded(_Absolute):
     low: float
     high: float
 
+    def __post_init__(self) -> None:
+        if not self.low < self.high:
+            raise TrainingError(
+                f"{type(self).__name__}({shown(self.low)}, {shown(self.high)}): the lower bound comes first, and "
+                "is less than the upper one."
+            )
+
     def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``p̃ − p``."""
         below, above = value - self.low, self.high - value

@@ -182,6 +182,10 @@ def _time(
         raise TrainingError(
             f"{what} is {shown(start)} s, from {shown(low)} to {shown(high)} s; give finite numbers."
         )
+    if low > high:
+        raise TrainingError(
+            f"{what} has bounds from {low:g} to {high:g} s; the lower one comes first."
+        )
     if not train:
         if start < 0 and what.startswith("The lag"):
             raise TrainingError(f"{what} is {start:g} s; a time constant is not negative.")
