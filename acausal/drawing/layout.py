@@ -75,13 +75,13 @@ def _improved(
 ) -> Placed:
     """A drawing whose boxes are turned, one after the other, while that makes crossings fewer."""
     best = Question(scheme, faced, gates, trunks=trunks).placed()
-    if best.crossings + best.shared:
+    if best.flaws:
         best = min(
             best, Question(scheme, faced, gates, trunks=trunks, stub=LONGER).placed(), key=_cost
         )
     trials = EFFORT // max(len(scheme.boxes), 1)
     for turn in islice(turns(scheme, faced), trials):
-        if not best.crossings + best.shared:
+        if not best.flaws:
             break
         trial = Question(scheme, turned(faced, turn), gates, trunks=trunks).placed()
         if _cost(trial) < _cost(best):
@@ -90,7 +90,7 @@ def _improved(
 
 
 def _cost(placed: Placed) -> tuple[int, int, float]:
-    return placed.crossings + placed.shared, placed.bends, placed.length
+    return placed.flaws, placed.bends, placed.length
 
 
 # -- opened boxes ----------------------------------------------------------------------------------

@@ -135,6 +135,16 @@ class Placed:
         return sum(shared([net.lines for net in level.nets]) for level in self.levels())
 
     @property
+    def touched(self) -> int:
+        """How often wires run along or through pictures that they do not belong to."""
+        return sum(_touched(level) for level in self.levels())
+
+    @property
+    def flaws(self) -> int:
+        """How often wires can be taken for what they are not."""
+        return self.crossings + self.shared + self.touched
+
+    @property
     def bends(self) -> int:
         """How often wires turn."""
         return sum(max(len(line) - 2, 0) for net in self.nets for line in net.lines)
@@ -155,3 +165,26 @@ class Placed:
             for a, b in combinations(level.boxes, 2):
                 if a.rect.overlaps(b.rect):
                     yield a.box.path, b.box.path
+
+
+BESIDE = 6.0
+"""A wire that is so near to a picture looks as if it belonged to it, in pixels."""
+
+
+def _touched(level: Placed) -> int:
+    count = 0
+    for net in level.nets:
+        own = {end.box for end in net.net.ends}
+        pieces = [piece for line in net.lines for piece in pairwise(line)]
+        others = [box.icon for i, box in enumerate(level.boxes) if i not in own]
+        count += sum(_meets(icon, a, b) for a, b in pieces for icon in others)
+    return count
+
+
+def _meets(icon: Rect, a: Point, b: Point) -> bool:
+    return (
+        min(a[0], b[0]) < icon.right + BESIDE
+        and max(a[0], b[0]) > icon.left - BESIDE
+        and min(a[1], b[1]) < icon.bottom + BESIDE
+        and max(a[1], b[1]) > icon.top - BESIDE
+    )

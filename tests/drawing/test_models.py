@@ -15,7 +15,7 @@ from examples.emps.model import Controlled, network
 from examples.qvm.model import with_networks
 from examples.silverbox.model import Silverbox
 from tests.support import dot
-from tests.support.drawn import Bridge, Drive
+from tests.support.drawn import Bridge, Cascade, Drive
 from tests.support.paths import SHARED
 
 pytest.importorskip("graphlay")
@@ -49,6 +49,10 @@ def test_a_gallery_model_is_drawn_well(name: str) -> None:
     placed = drawn(name).placed
     assert not list(placed.overlaps())
     assert placed.crossings <= GALLERY[name][1]
+
+
+def test_wires_keep_clear_of_what_they_do_not_belong_to() -> None:
+    assert ac.diagram(Cascade()).placed.touched == 0
 
 
 def test_published_examples_are_there() -> None:

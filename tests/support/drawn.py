@@ -83,3 +83,28 @@ class Tree(ac.Component):
             setattr(self, f"spring_{i}", spring)
             self.connect(getattr(self, f"mass_{i * 7919 % i // 2}").flange_b, spring.flange_a)
             self.connect(spring.flange_b, mass.flange_a)
+
+
+class Cascade(ac.Component):
+    """Speed control of a drive in two loops, one around the other."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ref = blocks.Step()
+        self.outer, self.inner = blocks.Feedback(), blocks.Feedback()
+        self.pi, self.gain = blocks.PI(k=2.0, T=0.5), blocks.Gain(k=5.0)
+        self.torque = rot.Torque()
+        self.motor, self.load = rot.Inertia(J=0.3), rot.Inertia(J=0.6)
+        self.shaft = rot.SpringDamper(c=40.0, d=0.4)
+        self.near, self.far = rot.SpeedSensor(), rot.SpeedSensor()
+        self.connect(self.ref.y, self.outer.u1)
+        self.connect(self.far.w, self.outer.u2)
+        self.connect(self.outer.y, self.pi.u)
+        self.connect(self.pi.y, self.inner.u1)
+        self.connect(self.near.w, self.inner.u2)
+        self.connect(self.inner.y, self.gain.u)
+        self.connect(self.gain.y, self.torque.tau)
+        self.connect(self.torque.flange, self.motor.flange_a, self.near.flange)
+        self.connect(self.motor.flange_b, self.shaft.flange_a)
+        self.connect(self.shaft.flange_b, self.load.flange_a)
+        self.connect(self.load.flange_b, self.far.flange)
