@@ -32,13 +32,7 @@ NOT_COVERED: dict[str, str] = {
     "Modelica.Electrical.Analog.Interfaces": (
         "PartialConditionalHeatPort AbsoluteSensor RelativeSensor"
     ),
-    "Modelica.Electrical.Digital.Delay": (
-        "TransportDelay InertialDelay InertialDelaySensitive InertialDelaySensitiveVector"
-    ),
-    "Modelica.Electrical.Digital.Gates": (
-        "InvGate AndGate NandGate OrGate NorGate XorGate XnorGate BufGate"
-    ),
-    "Modelica.Electrical.Digital.Converters": ("LogicToX01 LogicToX01Z LogicToUX01 RealToLogic"),
+    "Modelica.Electrical.Digital.Delay": "TransportDelay InertialDelaySensitiveVector",
     "Modelica.Magnetic.FluxTubes.Shapes.HysteresisAndMagnets": (
         "GenericHystTellinenSoft GenericHystTellinenHard GenericHystTellinenPermanentMagnet "
         "GenericHystTellinenTable GenericHystTellinenEverett GenericHystPreisachEverett"

@@ -1,4 +1,4 @@
-"""Digital circuits with nine-valued logic (`Modelica.Electrical.Digital`), without delays.
+"""Digital circuits with nine-valued logic (`Modelica.Electrical.Digital`).
 
 ```python
 from acausal.components import digital
@@ -12,6 +12,8 @@ A signal is one of the numbers 1 ... 9, the values of `acausal.components.digita
 from acausal.components.modelica import export
 
 from .converters import *
+from .delayed_gates import *
+from .delays import *
 from .gates import *
 from .sources import *
 

@@ -1,4 +1,4 @@
-"""Digital circuits with nine-valued logic (`Modelica.Electrical.Digital`), without delays.
+"""Digital circuits with nine-valued logic (`Modelica.Electrical.Digital`).
 
 Made by docs/make_stubs.py from the declarations of the classes; do not edit it.
 """
@@ -10,20 +10,34 @@ import acausal as ac
 
 __all__ = [
     "And",
+    "AndGate",
     "BooleanToLogic",
+    "BufGate",
     "Clock",
+    "InertialDelay",
+    "InertialDelaySensitive",
+    "InvGate",
     "LogicToBoolean",
     "LogicToReal",
+    "LogicToUX01",
+    "LogicToX01",
+    "LogicToX01Z",
     "Nand",
+    "NandGate",
     "Nor",
+    "NorGate",
     "Not",
     "Or",
+    "OrGate",
     "Pulse",
+    "RealToLogic",
     "Set",
     "Step",
     "Table",
     "Xnor",
+    "XnorGate",
     "Xor",
+    "XorGate",
 ]
 
 class BooleanToLogic(ac.Component):
@@ -165,6 +179,38 @@ class Pulse(ac.Component):
         sampling: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class RealToLogic(ac.Component):
+    """``upper_value`` above ``upper_limit``, ``lower_value`` below ``lower_limit``, else ``middle_value``."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """numbers"""
+    y: ClassVar[ac.Output]
+    """digital signals"""
+    upper_limit: ClassVar[ac.Parameter]
+    """above it: upper_value"""
+    lower_limit: ClassVar[ac.Parameter]
+    """below it: lower_value"""
+    upper_value: ClassVar[ac.Option]
+    """above upper_limit"""
+    lower_value: ClassVar[ac.Option]
+    """below lower_limit"""
+    middle_value: ClassVar[ac.Option]
+    """between the limits"""
+    def __init__(
+        self,
+        *,
+        upper_limit: SupportsFloat | ac.Start = ...,
+        lower_limit: SupportsFloat | ac.Start = ...,
+        n: SupportsIndex = ...,
+        upper_value: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        lower_value: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        middle_value: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class Set(ac.Component):
     """``x`` at all times."""
 
@@ -219,6 +265,118 @@ class Table(ac.Component):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class InertialDelay(ac.Component):
+    """``y`` is ``x`` once that has kept its value for ``delayTime`` [s]."""
+
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    x: ClassVar[ac.Input]
+    """input"""
+    y: ClassVar[ac.Output]
+    """output"""
+    held: ClassVar[ac.Discrete]
+    """the input"""
+    passed: ClassVar[ac.Discrete]
+    """the output"""
+    t_next: ClassVar[ac.Discrete]
+    """when the next change is due [s]"""
+    delayTime: ClassVar[ac.Parameter]
+    """delay [s]"""
+    def __init__(
+        self,
+        *,
+        delayTime: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        held: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
+        t_next: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class InertialDelaySensitive(ac.Component):
+    """``y`` is ``x`` once that has kept its value for the delay of this change."""
+
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    x: ClassVar[ac.Input]
+    """input"""
+    y: ClassVar[ac.Output]
+    """output"""
+    held: ClassVar[ac.Discrete]
+    """the input"""
+    passed: ClassVar[ac.Discrete]
+    """the output"""
+    t_next: ClassVar[ac.Discrete]
+    """when the next change is due [s]"""
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising changes [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling changes [s]"""
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        held: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
+        t_next: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class LogicToUX01(ac.Component):
+    """``'U'``, ``'0'``, ``'1'``, or ``'X'`` for the rest, element by element."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """digital signals"""
+    y: ClassVar[ac.Output]
+    """digital signals of fewer values"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class LogicToX01(ac.Component):
+    """``'0'``, ``'1'``, or ``'X'`` for what is neither, element by element."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """digital signals"""
+    y: ClassVar[ac.Output]
+    """digital signals of fewer values"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class LogicToX01Z(ac.Component):
+    """``'0'``, ``'1'``, ``'Z'``, or ``'X'`` for the rest, element by element."""
+
+    n: ClassVar[ac.Option]
+    """number of signals"""
+    x: ClassVar[ac.Input]
+    """digital signals"""
+    y: ClassVar[ac.Output]
+    """digital signals of fewer values"""
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class Not(ac.Component):
     """1 for 0, 0 for 1, ``'U'`` for ``'U'``, else ``'X'``."""
 
@@ -256,6 +414,86 @@ class And(ac.Component):
         auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class AndGate(ac.Component):
+    """`And` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    G1: And
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class BufGate(ac.Component):
+    """The input with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    x: ClassVar[ac.Input]
+    """input"""
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class InvGate(ac.Component):
+    """`Not` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    x: ClassVar[ac.Input]
+    """input"""
+    G1: Not
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
 class Nand(ac.Component):
     """0 if all inputs are 1; 1 if one is 0."""
 
@@ -274,6 +512,35 @@ class Nand(ac.Component):
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         auxiliary: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class NandGate(ac.Component):
+    """`Nand` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    G1: Nand
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Nor(ac.Component):
@@ -296,6 +563,35 @@ class Nor(ac.Component):
         auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class NorGate(ac.Component):
+    """`Nor` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    G1: Nor
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
 class Or(ac.Component):
     """1 if an input is 1; 0 if all are 0."""
 
@@ -314,6 +610,35 @@ class Or(ac.Component):
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         auxiliary: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class OrGate(ac.Component):
+    """`Or` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    G1: Or
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Xnor(ac.Component):
@@ -336,6 +661,35 @@ class Xnor(ac.Component):
         auxiliary: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class XnorGate(ac.Component):
+    """`Xnor` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    G1: Xnor
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
 class Xor(ac.Component):
     """1 if an odd number of inputs is 1."""
 
@@ -354,4 +708,33 @@ class Xor(ac.Component):
         x: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         auxiliary: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class XorGate(ac.Component):
+    """`Xor` with a delay."""
+
+    tLH: ClassVar[ac.Parameter]
+    """delay of rising outputs [s]"""
+    tHL: ClassVar[ac.Parameter]
+    """delay of falling outputs [s]"""
+    y0: ClassVar[ac.Option]
+    """output before the start"""
+    y: ClassVar[ac.Output]
+    """output"""
+    n: ClassVar[ac.Option]
+    """number of inputs"""
+    x: ClassVar[ac.Input]
+    """inputs"""
+    G1: Xor
+    G2: InertialDelaySensitive
+    def __init__(
+        self,
+        *,
+        tLH: SupportsFloat | ac.Start = ...,
+        tHL: SupportsFloat | ac.Start = ...,
+        y0: Literal["'U'", "'X'", "'0'", "'1'", "'Z'", "'W'", "'L'", "'H'", "'-'"] = ...,
+        n: SupportsIndex = ...,
+        x: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import digital as dg, electrical as el
+from acausal.components import blocks, digital as dg, electrical as el
 from acausal.components.digital.logic import LOGIC, signal
 
 VALUES = "UX01ZWLH-"
@@ -100,6 +100,63 @@ def test_gates_in_a_loop_remember(gate: type, active: str, quiet: str) -> None:
     held = [signal("'U'"), other, other, one, one, other, other]
     assert found["second.y"].tolist() == held
     assert found["first.y"].tolist() == [v if v == 1 else one + other - v for v in held]
+
+
+class Delays(ac.Component):
+    """A signal that rises at 1, falls at 2, is 1 too shortly at 3, and 1, X and 0 from 4, 5 and 6 on; delayed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        values = tuple(f"'{v}'" for v in "010101X0")
+        self.signal = dg.Table(t=(0, 1, 2, 3, 3.1, 4, 5, 6), x=values)
+        self.same = dg.InertialDelay(delayTime=0.25)
+        times = {"tLH": 0.2, "tHL": 0.4}
+        self.sensitive = dg.InertialDelaySensitive(**times, y0="'0'")
+        self.buffer, self.inverter = dg.BufGate(**times), dg.InvGate(**times)
+        self.gate, self.one = dg.AndGate(n=2, **times), dg.Set()
+        for name in ("same", "sensitive", "buffer", "inverter"):
+            self.connect(self.signal.y, getattr(self, name).x)
+        self.connect(self.signal.y, self.gate.x[0])
+        self.connect(self.one.y, self.gate.x[1])
+
+
+def test_changes_that_do_not_last_are_not_passed_on() -> None:
+    changes = {
+        "same.y": "U 0, 0 0.25, 1 1.25, 0 2.25, 1 4.25, X 5.25, 0 6.25",
+        "sensitive.y": "0 0, 1 1.2, 0 2.4, 1 4.2, X 5.4, 0 6.4",
+        "buffer.y": "U 0, 0 0.4, 1 1.2, 0 2.4, 1 4.2, X 5.4, 0 6.4",
+        "inverter.y": "U 0, 1 0.2, 0 1.4, 1 2.2, 0 4.4, X 5.2, 1 6.2",
+        "gate.y": "U 0, 0 0.4, 1 1.2, 0 2.4, 1 4.2, X 5.4, 0 6.4",
+    }
+    found = ac.simulate(ac.compile(Delays()), 7.0, saveat=np.arange(0.05, 7, 0.1))
+    for name, told in changes.items():
+        rows = [pair.split() for pair in told.split(", ")]
+        last = np.searchsorted([float(t) for _, t in rows], found.t, side="right") - 1
+        assert [VALUES[int(v) - 1] for v in found[name]] == [rows[k][0] for k in last], name
+
+
+class Strippers(ac.Component):
+    """All values through the converters that strip strength off them, and numbers to values."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.values = [dg.Set(x=value) for value in LOGIC]
+        for name in ("LogicToX01", "LogicToX01Z", "LogicToUX01"):
+            made = getattr(dg, name)(n=9)
+            setattr(self, name, made)
+            for value, x in zip(self.values, made.x, strict=True):
+                self.connect(value.y, x)
+        self.real = dg.RealToLogic(upper_limit=2, lower_limit=-1, middle_value="'Z'")
+        self.ramp = blocks.Ramp(height=6, duration=6, offset=-3)
+        self.connect(self.ramp.y, self.real.x[0])
+
+
+def test_strength_is_stripped_and_numbers_become_values() -> None:
+    found = ac.simulate(ac.compile(Strippers()), 6.0, saveat=[1.9, 2.1, 4.9, 5.1])
+    tables = {"LogicToX01": "XX01XX01X", "LogicToX01Z": "XX01ZX01X", "LogicToUX01": "UX01XX01X"}
+    for name, table in tables.items():
+        assert [VALUES[int(found[f"{name}.y[{k}]"][0]) - 1] for k in range(1, 10)] == list(table)
+    assert [VALUES[int(v) - 1] for v in found["real.y[1]"]] == list("0ZZ1")
 
 
 class Sources(ac.Component):
