@@ -15,9 +15,9 @@ from .interpolation import EXTRAPOLATION, SMOOTHNESS, corners, interpolant, jump
 __modelica__ = "Modelica.Blocks.Sources"
 
 
-TIME_EVENTS = ("Always", "AtDiscontinuities", "NoTimeEvents")
+_TIME_EVENTS = ("Always", "AtDiscontinuities", "NoTimeEvents")
 
-CORNERS = 30
+_CORNERS = 30
 """A table with more corners than these ends no steps there: each of them is a condition of its own."""
 
 
@@ -46,7 +46,7 @@ class _TimeTable(ac.Component):
 
     @property
     def _has_events(self) -> bool:
-        return 0 < len(self._corners) <= CORNERS
+        return 0 < len(self._corners) <= _CORNERS
 
     def equations(self) -> Iterator[ac.Eq]:
         if self._has_events:
@@ -138,7 +138,7 @@ class CombiTimeTable(PartialColumns, MO, _TimeTable):
     """
 
     timeEvents = ac.Option(
-        "Always", choices=TIME_EVENTS, doc="where steps end in models with events"
+        "Always", choices=_TIME_EVENTS, doc="where steps end in models with events"
     )
     offset = ac.Parameter([0.0], shape=":", doc="offsets of the outputs, or one for all")
 
