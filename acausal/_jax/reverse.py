@@ -16,6 +16,7 @@ from acausal._jax.side_by_side import one_by_one
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 Steps = TypeVar("Steps")
+Tree = TypeVar("Tree")
 
 
 class Kept(eqx.Module):
@@ -28,6 +29,11 @@ class Kept(eqx.Module):
     values: list[Array]
     steps: Any
     moved: tuple[bool, ...] = eqx.field(static=True)
+
+
+def room(like: Tree, n: int) -> Tree:
+    """Room for n of these, side by side."""
+    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
 
 
 def with_steps(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations, pairwise
 
 from acausal.drawing.crossings import Point as Point, crossings, shared
@@ -139,7 +140,7 @@ class Placed:
         """How often wires run along or through pictures that they do not belong to."""
         return sum(_touched(level) for level in self.levels())
 
-    @property
+    @cached_property
     def flaws(self) -> int:
         """How often wires can be taken for what they are not."""
         return self.crossings + self.shared + self.touched
@@ -177,14 +178,11 @@ def _touched(level: Placed) -> int:
         own = {end.box for end in net.net.ends}
         pieces = [piece for line in net.lines for piece in pairwise(line)]
         others = [box.icon for i, box in enumerate(level.boxes) if i not in own]
-        count += sum(_meets(icon, a, b) for a, b in pieces for icon in others)
+        count += sum(icon.overlaps(_around(a, b)) for a, b in pieces for icon in others)
     return count
 
 
-def _meets(icon: Rect, a: Point, b: Point) -> bool:
-    return (
-        min(a[0], b[0]) < icon.right + BESIDE
-        and max(a[0], b[0]) > icon.left - BESIDE
-        and min(a[1], b[1]) < icon.bottom + BESIDE
-        and max(a[1], b[1]) > icon.top - BESIDE
-    )
+def _around(a: Point, b: Point) -> Rect:
+    """What a piece of a wire covers, and what is beside it."""
+    (left, right), (top, bottom) = (sorted(ends) for ends in zip(a, b, strict=True))
+    return Rect.between(left - BESIDE, right + BESIDE, top - BESIDE, bottom + BESIDE)

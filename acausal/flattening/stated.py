@@ -134,16 +134,18 @@ class _Sorting:
         """All of it, each where it belongs."""
         equations: list[Eq] = []
         whens = [one for one in stated if isinstance(one, When)]
-        for one in (*(o for o in stated if not isinstance(o, When)), *whens):
+        for one in stated:
             if isinstance(one, When):
-                self._when(one)
-            elif not isinstance(one, Eq):
+                continue  # after all others, whose comparisons it may repeat
+            if not isinstance(one, Eq):
                 equations.append(one)  # refused where templates are made
             elif (target := _discrete_side(one)) is not None:
                 value = one.rhs if target is one.lhs else one.lhs
                 self._update(target, self._watched(number_or_truth(value)), str(one))
             else:
                 equations.append(self._continuous(one))
+        for one in whens:
+            self._when(one)
         return Stated(
             tuple(equations),
             tuple(self.guards),

@@ -107,6 +107,24 @@ class Run(NamedTuple):
         by_nature = "(if that is its usual size, give its start a nominal value)"
         return row, f"'{name}' has run away to {value:.3g} {by_nature}"
 
+    def refuse_broken(
+        self, x: Float[Array | np.ndarray, "n n_states"], ts: Float[np.ndarray, " n"], name: str
+    ) -> None:
+        """Refuse states that are `broken`.
+
+        Arguments:
+            x, ts: states and their times. name: of the method.
+
+        Raises:
+            SimulationError: for them.
+        """
+        if (broken := self.broken(x)) is not None:
+            row, what = broken
+            raise SimulationError(
+                f"The simulation with {name} broke down before t = {ts[row]:g} s: {what}. "
+                "The model may diverge there: check its parameters, initial values and inputs."
+            )
+
     def explain(self, at: Values, ahead: float) -> str:
         """Find the equation without a finite value at a point, or within some seconds along its derivative.
 
@@ -119,7 +137,11 @@ class Run(NamedTuple):
         """
         if not (np.abs(at.x) < self.limits).all():
             return ""
-        reason = explain_ahead(self.system, self.at, at, ahead)
+
+        def later(t: ArrayLike, x: Array) -> Values:
+            return self.at(t, x)._replace(d=at.d)
+
+        reason = explain_ahead(self.system, later, at, ahead)
         return "" if reason is None else f" There {reason}"
 
 

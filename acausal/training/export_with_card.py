@@ -38,8 +38,8 @@ def export_with_card(
     for card in (target, *cards):
         if card.exists() and not overwrite:
             raise DataError(f"fit.export: '{card}' exists; give another path, or overwrite=True.")
-    if late := {**fit.delays, **fit.lags}:
-        told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late.items())
+    if late := [*fit.delays.items(), *fit.lags.items()]:
+        told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late)
         warnings.warn(
             f"fit.export: delays and lags lie outside the model, so '{target.name}' does not have them; where it is "
             f"used, delay {told}.",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from itertools import count
 from typing import Any
 
@@ -30,10 +31,14 @@ def lies_within(value: Any, component: Component) -> bool:
     return True
 
 
+def numbered(wanted: str) -> Iterator[str]:
+    """Names to try: ``m``, then ``m_2``, ``m_3`` ..."""
+    return (wanted if n == 1 else f"{wanted}_{n}" for n in count(1))
+
+
 def unused(wanted: str, taken: set[str]) -> str:
-    """A name that is not taken, and is from now on: ``m_2``, or else ``m_2_2``, ``m_2_3``."""
-    names = (wanted if n == 1 else f"{wanted}_{n}" for n in count(1))
-    name = next(name for name in names if name not in taken)
+    """The first `numbered` name that is not taken; it is from now on."""
+    name = next(name for name in numbered(wanted) if name not in taken)
     taken.add(name)
     return name
 

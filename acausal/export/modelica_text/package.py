@@ -15,6 +15,7 @@ from acausal.export.modelica_text.declared import (
     connector_class,
     lies_within,
     names_in_class,
+    numbered,
     unused,
 )
 from acausal.export.modelica_text.expressions import Printer, equation
@@ -50,7 +51,7 @@ class Package:
     Attributes:
         networks: by dotted name. standard: Modelica's name and modifiers of a part that the standard library has, or
             None. connector: its name of a connector, by class and name, or None. texts: of the classes, by name.
-        parts: names of a component's parts in its class, by the identity of its node.
+        named: see `names`, by the identity of a component's node.
     """
 
     networks: Mapping[str, Any]
@@ -58,23 +59,25 @@ class Package:
     connector: Callable[[type, str], str | None]
     texts: dict[str, str] = field(default_factory=dict)
     blocks: dict[tuple[int, tuple[int, ...]], str] = field(default_factory=dict)
-    parts: dict[int, dict[str, str]] = field(default_factory=dict)
+    named: dict[int, tuple[dict[str, str], set[str]]] = field(default_factory=dict)
+
+    def names(self, node: Any) -> tuple[dict[str, str], set[str]]:
+        """Names of a component's parts in its class, and all that are taken there; see `names_in_class`."""
+        if id(node) not in self.named:
+            self.named[id(node)] = names_in_class(node)
+        return self.named[id(node)]
 
     def way(self, node: Any, route: Sequence[str]) -> list[str]:
         """The names on the way from a component down to a part of it."""
         found: list[str] = []
         for name in route:
-            if id(node) not in self.parts:
-                self.parts[id(node)] = names_in_class(node)[0]
-            found.append(self.parts[id(node)][name])
+            found.append(self.names(node)[0][name])
             node = node.children[name]._node
         return found
 
     def add(self, wanted: str, write: Callable[[str], str]) -> str:
         """The name of a class; classes of equal text are one."""
-        base = class_name(wanted)
-        for n in range(1, len(self.texts) + 2):
-            name = base if n == 1 else f"{base}_{n}"
+        for name in numbered(class_name(wanted)):
             text = write(name)
             if self.texts.setdefault(name, text) == text:
                 return name
@@ -116,7 +119,7 @@ class Model:
     ) -> None:
         self.package, self.component, self.inputs = package, component, inputs or ()
         self.node = component._node
-        self.taken = names_in_class(self.node)[1]
+        self.taken = set(package.names(self.node)[1])
         self.calls: dict[tuple[str, str], str] = {}
         self.feeds: list[str] = []
         self.printer = Printer(self.path, self._call)

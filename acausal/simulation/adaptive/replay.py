@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Int
 
-from acausal._jax import while_any, with_steps
+from acausal._jax import room, while_any, with_steps
 from acausal.simulation.adaptive.problem import Problem
 from acausal.simulation.adaptive.search import (
     Found,
@@ -26,8 +26,6 @@ from acausal.simulation.adaptive.search import (
     saves_start,
     search,
 )
-
-Tree = TypeVar("Tree")
 
 Task = tuple[Any, Problem, Start]
 """Method, problem, start."""
@@ -81,7 +79,7 @@ def _kept(task: Task, until_stiff: bool) -> tuple[Found, Steps]:
     numbers = sum(a.size for a in jax.tree.leaves(like))
     size = min(problem.max_steps, _size(numbers))
     most = -(-problem.max_steps // size)
-    rows, parts = _room(like, size), _room(progress, most)
+    rows, parts = room(like, size), room(progress, most)
 
     def one(carry: tuple[Any, ...], runs: Array) -> tuple[Any, ...]:
         i, progress, saved, parts, rows, n = carry
@@ -104,11 +102,6 @@ def _size(numbers: int) -> int:
     """How many steps of so many numbers are kept."""
     small = MEMORY // numbers
     return small if small >= FEWEST else max(min(MORE_MEMORY // numbers, ENOUGH), FEWEST)
-
-
-def _room(like: Tree, n: int) -> Tree:
-    """Room for n of these, side by side."""
-    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
 
 
 def _row(rows: Rows, k: Array) -> Any:

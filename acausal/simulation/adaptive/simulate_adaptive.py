@@ -109,13 +109,7 @@ def _check(
     automatic: bool,
 ) -> None:
     if why == REACHED:
-        if (broken := run.broken(found.saved)) is None:
-            return
-        row, what = broken
-        raise SimulationError(
-            f"The simulation with {name} broke down before t = {ts[row]:g} s: {what}. "
-            "The model may diverge there: check its parameters, initial values and inputs."
-        )
+        return run.refuse_broken(found.saved, ts, name)
     reached = float(found.t)
     where = f"The simulation with {name} stopped at t = {reached:g} s, before {run.end:g} s"
     exhausted = why == EXHAUSTED

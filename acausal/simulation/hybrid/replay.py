@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, TypeVar
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array
 
-from acausal._jax import while_any, with_steps
+from acausal._jax import room, while_any, with_steps
 from acausal.codegen import Events
 from acausal.simulation.adaptive.problem import Problem
 from acausal.simulation.hybrid.event_adjoint import Adjoint, OfMoved, Task, through_event
@@ -30,8 +30,6 @@ from acausal.simulation.hybrid.search import (
     reached,
     search,
 )
-
-Tree = TypeVar("Tree")
 
 MEMORY = 2**16
 """Numbers that the steps of a run may take in memory before it is made part by part again: half a megabyte.
@@ -86,7 +84,7 @@ def _kept(task: Task, events: Events, until_stiff: bool) -> tuple[Reached, Steps
     numbers = sum(a.size for a in jax.tree.leaves(like))
     size = min(problem.max_steps, max(MEMORY // numbers, FEWEST))
     most = -(-problem.max_steps // size)
-    rows, parts = _room(like, size), _room(_without_log(progress), most)
+    rows, parts = room(like, size), room(_without_log(progress), most)
 
     def one(carry: tuple[Any, ...], runs: Array) -> tuple[Any, ...]:
         i, progress, saved, parts, rows, n = carry
@@ -112,11 +110,6 @@ def _kept(task: Task, events: Events, until_stiff: bool) -> tuple[Reached, Steps
 def _without_log(progress: Progress) -> Progress:
     """The progress with room for one event: where steps are made again, the log is not read."""
     return progress._replace(log=progress.log.short())
-
-
-def _room(like: Tree, n: int) -> Tree:
-    """Room for n of these, side by side."""
-    return jax.tree.map(lambda a: jnp.zeros((n, *a.shape), a.dtype), like)
 
 
 def _back(

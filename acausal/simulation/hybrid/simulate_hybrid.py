@@ -104,13 +104,7 @@ def _check(
     has_dt: bool,
 ) -> None:
     if why == REACHED:
-        if (broken := run.broken(found.saved)) is None:
-            return
-        row, what = broken
-        raise SimulationError(
-            f"The simulation with {name} broke down before t = {ts[row]:g} s: {what}. "
-            "The model may diverge there: check its parameters, initial values and inputs."
-        )
+        return run.refuse_broken(found.saved, ts, name)
     reached = float(found.t)
     where = f"The simulation with {name} stopped at t = {reached:g} s, before {run.end:g} s"
     last = _last(run, found)
@@ -127,8 +121,8 @@ def _check(
             f"{where}: events follow each other without end{last}. The model slides along this condition, or bounces "
             "for ever: give it a state of rest, or a hysteresis."
         )
-    if reason := run.system.explain_nonfinite(at):
-        raise SimulationError(f"{where}{last}: {reason}")
+    if reason := run.explain(at, 0.0):
+        raise SimulationError(f"{where}{last}.{reason}")
     if why == TOO_SHORT:
         problem = "its values are not finite" if has_dt else "its steps became too small"
         mend = (
