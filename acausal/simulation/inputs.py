@@ -285,9 +285,14 @@ def _derived(name: str, source: str, function: TimeFunction) -> TimeFunction:
         raise DataError(f"The model differentiates an input, '{name}': {error}") from None
 
 
-def evaluate(functions: tuple[TimeFunction, ...], t: ArrayLike) -> Float[Array, " n_inputs"]:
-    """All inputs at one time."""
-    return jnp.stack([f(t) for f in functions]) if functions else jnp.zeros(0)
+def evaluate(
+    functions: tuple[TimeFunction, ...], t: ArrayLike, until: ArrayLike | None = None
+) -> Float[Array, " n_inputs"]:
+    """All inputs at one time; those that jump stay what they are at ``until``, if that is given."""
+    early = t if until is None else jnp.minimum(t, until)
+    jump = [isinstance(f, Signal) and f.jumps for f in functions]
+    values = [f(early if j else t) for f, j in zip(functions, jump, strict=True)]
+    return jnp.stack(values) if functions else jnp.zeros(0)
 
 
 @eqx.filter_jit

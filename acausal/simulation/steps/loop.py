@@ -182,14 +182,11 @@ def advance(
         carry: tuple[Progress, Any, Row | None], runs: Array
     ) -> tuple[Progress, Any, Row | None]:
         c, saved, rows = carry
-        held = problem.held(c.d)
         stop = between_events.Stop(stop_at(problem, c.ahead), kinds[c.ahead], c.ahead)
-        if c.events is None:
-            until = jnp.where(stop.kind >= RESTART, _just_before(stop.t), stop.t)
-        else:
+        held = problem.held(c.d, stop.t)
+        if c.events is not None:
             stop = between_events.sooner(held, c.t, c.x, stop)
-            until = stop.t
-        proposed, left = lax.stop_gradient(c.memory.h), until - c.t
+        proposed, left = lax.stop_gradient(c.memory.h), stop.t - c.t
         to_stop = proposed * LEFT >= left
         h = jnp.where(to_stop, left, proposed)
         if c.events is not None and not problem.watched.timed.all():
@@ -201,7 +198,8 @@ def advance(
         if c.events is not None:
             seen = between_events.look_within(method, held, c.events, made, c.t, h, stop)
             ok, stop = seen.ok, seen.stop
-        row = Row(c.t, lax.stop_gradient(h), stop.kind, stop.which, c.next, made.x, made.row)
+        h_now = lax.stop_gradient(h)
+        row = Row(c.t, h_now, stop.kind, stop.which, c.next, c.ahead, made.x, made.row)
         if c.events is not None:
             row = row._replace(x=c.x, d=c.events.d, band=stop.band)
         t = jnp.where(ok, jnp.where(to_stop, stop.t, c.t + h), c.t)
@@ -256,7 +254,7 @@ def row_like(method: Any, problem: Problem, progress: Progress) -> Row:
     p = progress
     made = eqx.filter_eval_shape(method.attempt, problem.held(p.d), p.memory, p.t, p.memory.h)
     band = None if problem.events is None else jnp.zeros(problem.events.n_guards, p.t.dtype)
-    return Row(p.t, p.t, p.next, p.next, p.next, p.x, made.row, p.d, band)
+    return Row(p.t, p.t, p.next, p.next, p.next, p.ahead, p.x, made.row, p.d, band)
 
 
 def _kinds(problem: Problem) -> Int[Array, " n_breaks_1"]:
@@ -274,13 +272,6 @@ def _begun_again(method: Any, problem: Problem, row: Row, landing: Landing) -> L
         x = jnp.where(row.kind == RESTART, restarted(problem, row.which)[0], x)
     memory, cost = method.begin(problem, landing.t, x)
     return landing._replace(x=x, memory=memory, cost=cost)
-
-
-def _just_before(t: Array) -> Array:
-    """A time that no rounding moves up to this one."""
-    low = jnp.asarray(-jnp.inf, t.dtype)
-    before = lax.stop_gradient(t)
-    return t + (jnp.nextafter(jnp.nextafter(before, low), low) - before)
 
 
 def _save(

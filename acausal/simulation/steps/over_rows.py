@@ -56,7 +56,7 @@ class Clock(eqx.Module):
     Attributes:
         packed: parameters. steps: the rows. edges: the clock at their starts, and at the end.
         own: numbers that differ from row to row; places: where they lie in `Packed.values`.
-        d: discrete variables, or None.
+        d: discrete variables, or None. until: see `RightHandSide`.
     """
 
     packed: Packed
@@ -66,6 +66,7 @@ class Clock(eqx.Module):
     places: tuple[int, ...] = eqx.field(static=True)
     system: Any = eqx.field(static=True)
     d: Float[Array, " n_discrete"] | None = None
+    until: Float[Array, ""] | None = None
 
     @staticmethod
     def of(system: System, packed: Packed, steps: Steps, runs: Runs | None) -> Clock:
@@ -86,7 +87,8 @@ class Clock(eqx.Module):
     def at(self, t: Array) -> Field:
         """It at one time of the clock."""
         steps, edges = self.steps, self.edges
-        row = jnp.clip(jnp.searchsorted(edges, t, side="right") - 1, 0, len(edges) - 2)
+        early = t if self.until is None else jnp.minimum(t, self.until)
+        row = jnp.clip(jnp.searchsorted(edges, early, side="right") - 1, 0, len(edges) - 2)
         begin, start, end, coefficients = (
             jax.tree.map(lambda a: a[row], part)
             for part in (

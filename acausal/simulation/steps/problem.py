@@ -6,6 +6,7 @@ from typing import Any, NamedTuple, Protocol
 
 import equinox as eqx
 import jax.numpy as jnp
+from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal.codegen import Events, Field
@@ -15,10 +16,11 @@ class RightHandSide(Protocol):
     """The right-hand side of a model whose parameters and inputs are given.
 
     Attributes:
-        d: discrete variables, or None.
+        d: discrete variables, or None. until: inputs do not jump before this time, nor there; None: they may.
     """
 
     d: Float[Array, " n_discrete"] | None
+    until: Float[Array, ""] | None
 
     def at(self, t: Array) -> Field:
         """It at one time, as a function of the states."""
@@ -66,11 +68,19 @@ class Problem(eqx.Module):
         assert self.events is not None
         return self.events
 
-    def held(self, d: Float[Array, " n_discrete"] | None) -> Problem:
-        """The problem between two events."""
-        if d is None:
-            return self
-        return eqx.tree_at(lambda p: p.field.d, self, d, is_leaf=lambda leaf: leaf is None)
+    def held(
+        self, d: Float[Array, " n_discrete"] | None, until: Float[Array, ""] | None = None
+    ) -> Problem:
+        """The problem between two events; up to a time at which inputs may jump, they are what they are before it.
+
+        Stages of a step lie at its end, and beyond it (Kvaerno5): what they read there would belong to the next step,
+        and how the state grows with the step's length would be wrong.
+        """
+        if until is not None:
+            until = lax.stop_gradient(jnp.nextafter(until, jnp.full_like(until, -jnp.inf)))
+        sides = self.field.d if d is None else d, until
+        places = lambda p: (p.field.d, p.field.until)  # noqa: E731
+        return eqx.tree_at(places, self, sides, is_leaf=lambda leaf: leaf is None)
 
     def size(
         self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]

@@ -30,7 +30,7 @@ from acausal.simulation.steps.loop import (
     search,
 )
 from acausal.simulation.steps.problem import Problem
-from acausal.simulation.steps.rows import RESTART, STOP, Reach, Row, reach, restarted
+from acausal.simulation.steps.rows import RESTART, STOP, Reach, Row, reach, restarted, stop_at
 
 MEMORY = 2**20
 """Numbers that the steps of a run may take in memory before it is made part by part again: 8 MB.
@@ -175,11 +175,11 @@ def _back(
     first: Adjoint = state[3]
     to_start = first.x if problem.events is not None else method.at_start(first.x)
 
-    def begins(some: list[Array]) -> tuple[Array, Array | None]:
+    def begins(some: list[Array]) -> tuple[Array | None, Array, Array | None]:
         start = of_moved(some)[2]
-        return start.x, start.d
+        return None if problem.events is None else start.t, start.x, start.d
 
-    pulled = jax.vjp(begins, own)[1]((to_start, first.d))[0]
+    pulled = jax.vjp(begins, own)[1]((first.t, to_start, first.d))[0]
     return [a + b for a, b in zip(first.own, pulled, strict=True)]
 
 
@@ -205,7 +205,12 @@ def _through_step(
             return through_restart(of_moved, own, row, behind, method.at_start(behind.x))
 
         behind = lax.cond(row.kind == RESTART, restart, lambda: behind)
-    x, by_own = method.back(of_moved, own, row, begin, behind.x, to.saved[0], which)
+
+    def held(some: list[Array]) -> Task:
+        method, problem, start = of_moved(some)
+        return method, problem.held(None, stop_at(problem, row.ahead)), start
+
+    x, by_own = method.back(held, own, row, begin, behind.x, to.saved[0], which)
     return behind._replace(x=x, own=[a + b for a, b in zip(behind.own, by_own, strict=True)])
 
 

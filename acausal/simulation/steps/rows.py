@@ -29,6 +29,7 @@ class Row(NamedTuple):
     Attributes:
         t, h: its start and length. kind: how it ends. which: the number of the stop, or of the condition.
         next: the first of the times to save that does not lie in it, nor in one before.
+        ahead: the first of the known times at which steps end that lies behind its start.
         x: the state at its end; with events, which may change it there, that at its start.
         own: what the method needs.
         d: discrete variables at its start. band: the conditions that change at its end; see `happen`. None without
@@ -40,6 +41,7 @@ class Row(NamedTuple):
     kind: Int[Array, ""]
     which: Int[Array, ""]
     next: Int[Array, ""]
+    ahead: Int[Array, ""]
     x: Float[Array, " n_states"]
     own: Any = ()
     d: Any = None
@@ -89,7 +91,8 @@ def reach(
         t, x, d: its start. They equal the row's, and may have derivatives.
         is_event: whether an event, or another run, follows; else the step is FREE or goes to a STOP.
     """
-    field, events = problem.held(d).field, problem.watched
+    field = problem.held(d, stop_at(problem, row.ahead)).field
+    events = problem.watched
     stop = stop_at(problem, row.which)
 
     def step(h: Array) -> tuple[Array, Any]:

@@ -34,17 +34,18 @@ class ModelField(eqx.Module):
         packed: parameters.
         inputs: functions of time.
         system: the model.
-        d: discrete variables, or None.
+        d: discrete variables, or None. until: see `RightHandSide`.
     """
 
     packed: Packed
     inputs: tuple[TimeFunction, ...]
     system: Any = eqx.field(static=True)
     d: Float[Array, " n_discrete"] | None = None
+    until: Float[Array, ""] | None = None
 
     def at(self, t: Array) -> Field:
         """It at one time."""
-        return self.system.field(t, evaluate(self.inputs, t), self.packed, self.d)
+        return self.system.field(t, evaluate(self.inputs, t, self.until), self.packed, self.d)
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
