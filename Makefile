@@ -3,6 +3,7 @@
 #
 #   make test PYTEST_ARGS="-n 0 -x -k spring"     arguments for pytest
 #   make test PYTHON=python3.13                   the interpreter to build .venv with
+#   make test-newest SAMPLE=--sample              one file of tests a room
 #   make lock LOCK_ARGS=--upgrade                 newer versions of everything
 
 VENV := .venv
@@ -11,8 +12,7 @@ LOCK := requirements.lock
 READY := $(VENV)/.ready
 
 PYTHON ?=
-NEWEST_ARGS ?=
-LOWEST_ARGS ?=
+SAMPLE ?=
 PYTEST_ARGS ?= -n auto --maxprocesses 8 --dist loadfile
 LOCK_ARGS ?=
 
@@ -22,7 +22,8 @@ export NO_MKDOCS_2_WARNING := 1
 UV := $(shell command -v uv 2>/dev/null)
 
 .DELETE_ON_ERROR:
-.PHONY: help qvm paper ship test test-slow test-newest test-lowest test-uv lint format types contracts docs wheel check lock clean
+.PHONY: help qvm paper ship test test-slow test-newest test-lowest test-uv test-today \
+	lint format types contracts docs wheel check ready lock lock-newest clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z-]*\):.*## /\1	/p' $(MAKEFILE_LIST) | while IFS='	' read -r target what; do \
@@ -50,17 +51,20 @@ test-slow: $(READY) ## the slow tests
 	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG:%=--ignore=%)
 	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG)
 
-# Environments of their own, made anew each time: .ci/dependencies.py says how.
-test-newest test-uv: export XLA_FLAGS ?= $(QUICK)
+# Separate environments, made by .ci/dependencies.py each time they are used.
+test-newest test-uv test-today: export XLA_FLAGS ?= $(QUICK)
 test-lowest: export XLA_FLAGS ?= $(QUICKER)
-test-newest: $(READY) ## the tests with the newest dependencies, on the newest Python that is found
-	$(BIN)/python .ci/dependencies.py newest $(NEWEST_ARGS)
+test-newest: $(READY) ## the tests with .ci/newest.lock, on the newest Python that is found
+	$(BIN)/python .ci/dependencies.py newest $(SAMPLE)
 
-test-lowest: $(READY) ## the tests with the oldest dependencies that pyproject.toml admits, on Python 3.11
-	$(BIN)/python .ci/dependencies.py lowest $(LOWEST_ARGS)
+test-lowest: $(READY) ## the tests with .ci/lowest.lock, the oldest that pyproject.toml admits, on Python 3.11
+	$(BIN)/python .ci/dependencies.py lowest $(SAMPLE)
 
-test-uv: $(READY) ## the examples of the pages by `uv run`, which does not read the lock
+test-uv: $(READY) ## the README's examples by `uv run`, which reads no lock
 	$(BIN)/python .ci/dependencies.py uv
+
+test-today: $(READY) ## the tests with the newest dependencies of today: it shows what is to come and stops nothing
+	$(BIN)/python .ci/dependencies.py today
 
 lint: $(READY) ## ruff: rules and format
 	$(BIN)/python -m ruff check .
@@ -87,12 +91,21 @@ wheel: $(READY) ## sdist and wheel, into dist/, and a check of what they hold
 
 check: lint contracts types docs test test-slow ## everything but the wheel
 
-lock: ## requirements.lock from pyproject.toml (needs uv)
-	@$(if $(UV),,if [ ! -x $(BIN)/uv ]; then echo "make lock needs uv: https://docs.astral.sh/uv" >&2; exit 1; fi)
-	$(or $(UV),$(BIN)/uv) pip compile pyproject.toml --quiet --output-file $(LOCK) \
+ready: ## before you stop: .ci/run in a fresh clone of HEAD, with ../shared beside it
+	@fresh=$$(mktemp -d) && trap 'rm -rf "$$fresh"' EXIT && \
+	git clone --quiet --no-hardlinks . "$$fresh/acausal" && \
+	if [ -d ../shared ]; then cp -R ../shared "$$fresh/shared"; fi && \
+	git --no-pager log -1 --format='.ci/run of %h %s' && \
+	env -u MAKEFLAGS -u MAKELEVEL "$$fresh/acausal/.ci/run"
+
+lock: $(READY) ## requirements.lock from pyproject.toml
+	$(BIN)/python -m uv pip compile pyproject.toml --quiet --output-file $(LOCK) \
 		--extra dev --extra docs --extra bench \
 		--universal --python-version 3.11 --fork-strategy fewest \
 		--generate-hashes --no-header --no-emit-index-url $(LOCK_ARGS)
+
+lock-newest: $(READY) ## .ci/newest.lock and .ci/lowest.lock: what CI tests beside requirements.lock
+	$(BIN)/python .ci/dependencies.py lock
 
 clean: ## everything that was built, except .venv
 	rm -rf build dist site *.egg-info .pytest_cache .ruff_cache .import_linter_cache .hypothesis

@@ -3,9 +3,7 @@
 import gc
 import os
 import sys
-import zlib
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import hypothesis
@@ -30,20 +28,6 @@ def lets_go_of_compiled_programs() -> Iterator[None]:
     if "jax" in sys.modules:
         sys.modules["jax"].clear_caches()
         gc.collect()
-
-
-def pytest_addoption(parser: pytest.Parser) -> None:
-    """``--part 2/3``: every third file of tests, beginning with the second."""
-    parser.addoption("--part", default="1/1", metavar="K/N", help="only part K of N of the tests")
-
-
-def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out files of other parts; the part of a file depends on its name alone."""
-    part, parts = map(int, config.getoption("--part").split("/"))
-    if parts == 1 or not collection_path.name.startswith("test_") or collection_path.is_dir():
-        return None
-    name = collection_path.relative_to(config.rootpath).as_posix()
-    return zlib.crc32(name.encode()) % parts != part - 1 or None
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:
