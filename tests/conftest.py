@@ -27,7 +27,19 @@ def lets_go_of_compiled_programs() -> Iterator[None]:
     yield
     if "jax" in sys.modules:
         sys.modules["jax"].clear_caches()
-        gc.collect()
+        leave_alone_what_stays()
+
+
+def pytest_collection_finish() -> None:
+    """Tracing makes many objects: look for cycles less often, and not among all modules each time."""
+    gc.set_threshold(20_000, 20, 20)
+    leave_alone_what_stays()
+
+
+def leave_alone_what_stays() -> None:
+    """What is alive between two files of tests stays: modules, and what they keep."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_terminal_summary(terminalreporter: Any) -> None:

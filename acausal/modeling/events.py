@@ -83,7 +83,7 @@ def literal(expression: Any) -> Any:
     """The same without events: case distinctions are evaluated as they stand."""
 
     def cases(condition: Any, value: Any, otherwise: Any, _: Any) -> Any:
-        return sp.Piecewise((value, condition), (otherwise, True))
+        return _cases(condition, value, otherwise)
 
     return expression.replace(Watched, cases).replace(Floored, lambda number, _: floor(number))
 
@@ -126,8 +126,32 @@ def where(condition_: Any, value: Any, otherwise: Any, *, events: bool | None = 
     holds = condition(condition_, "the condition of where(...)")
     first, second = number_or_truth(value), number_or_truth(otherwise)
     if events is False or isinstance(holds, BooleanAtom):
-        return sp.Piecewise((first, holds), (second, True))
+        return _cases(holds, first, second)
     return Watched(holds, first, second, sp.Integer(events is True))
+
+
+def _cases(condition_: Any, value: Any, otherwise: Any) -> Any:
+    """Two branches; a comparison of case distinctions becomes a choice of comparisons.
+
+    sympy would do that itself, but it simplifies what comes out, for seconds.
+    """
+    if condition_.has(sp.Piecewise):
+        condition_ = condition_.replace(lambda part: part.is_Relational, _chosen)
+    return sp.Piecewise((value, condition_), (otherwise, True))
+
+
+def _chosen(comparison: Any) -> Any:
+    """A comparison without case distinctions in its sides: each of its cases, where that holds."""
+    parts = sp.preorder_traversal(comparison)
+    pieces: Any = next((p for p in parts if isinstance(p, sp.Piecewise)), None)
+    if pieces is None:
+        return comparison
+    holds: Any = sp.false
+    still: Any = sp.true
+    for value, case in pieces.args:
+        holds |= still & case & _chosen(comparison.xreplace({pieces: value}))
+        still &= ~case
+    return holds
 
 
 def number_or_truth(value: Any) -> sp.Expr:
