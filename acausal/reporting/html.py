@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 
 from acausal.errors import DataError, reason
-from acausal.reporting.mathml import mathml
-from acausal.reporting.short_names import Short
+from acausal.reporting.mathml import mathml, names_in
+from acausal.reporting.short_names import Short, shorten
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -78,10 +78,11 @@ class Page:
         self._body.append(f"<table>{''.join(lines)}</table>")
 
     def equations(
-        self, equations: Iterable[sp.Equality], names: Mapping[str, str] | None = None
+        self, equations: Sequence[sp.Equality], names: Mapping[str, str] | None = None
     ) -> None:
-        """Equations as MathML; ``names`` gives some symbols a shorter name, such as ``{"body.m": "m_b"}``."""
-        short = {name: Short.of(other) for name, other in (names or {}).items()}
+        """Equations as MathML in short names; ``names`` chooses some of them, such as ``{"body.m": "m_b"}``."""
+        chosen = {name: Short.of(other) for name, other in (names or {}).items()}
+        short = {**shorten(n for n in names_in(equations) if n not in chosen), **chosen}
         written = "".join(mathml(e, short) for e in equations)
         self._body.append(f'<div class="equations">{written}</div>')
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
@@ -39,6 +39,17 @@ def _written(element: Any) -> str:
 def latex(expression: Any, names: Mapping[str, Short]) -> str:
     """An expression as LaTeX; arguments as for `mathml`."""
     return str(_Latex(names).doprint(expression))
+
+
+def names_in(equations: Iterable[sp.Equality]) -> list[str]:
+    """Names of symbols and functions in equations, in order."""
+    found: dict[str, None] = {}
+    for equation in equations:
+        symbols: Any = equation.free_symbols
+        functions: Any = equation.atoms(sp.core.function.AppliedUndef)  # pyright: ignore[reportAttributeAccessIssue]
+        names = {s.name for s in symbols} | {f.func.__name__ for f in functions}
+        found |= dict.fromkeys(sorted(names))
+    return list(found)
 
 
 class _MathML(MathMLPresentationPrinter):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import sympy as sp
 
 from acausal.modeling import Component
 from acausal.reporting.diagram_picture import diagram_svg
-from acausal.reporting.mathml import latex, mathml, name_as_mathml
+from acausal.reporting.mathml import latex, mathml, name_as_mathml, names_in
 from acausal.reporting.short_names import Short, shorten
 from acausal.reporting.view import Html, View, html_table
 
@@ -50,7 +50,7 @@ def system_view(
         quantities: states, inputs, parameters, networks: by such a heading, in order.
     """
     known = [quantity.name for group in quantities.values() for quantity in group]
-    names = shorten([*known, *_symbols(equations)])
+    names = shorten([*known, *names_in(equations)])
     view = View(title, about)
     if equations:
         written = "".join(_equation(e, names) for e in equations)
@@ -67,20 +67,9 @@ def system_view(
 
 def equations_as_latex(equations: Sequence[sp.Equality]) -> str:
     """The equations in one block of LaTeX, with short names."""
-    names = shorten(_symbols(equations))
+    names = shorten(names_in(equations))
     rows = [f"{latex(e.lhs, names)} &= {latex(e.rhs, names)}" for e in equations]
     return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
-
-
-def _symbols(equations: Iterable[sp.Equality]) -> list[str]:
-    """Names of symbols and functions in equations, in order."""
-    found: dict[str, None] = {}
-    for equation in equations:
-        symbols: Any = equation.free_symbols
-        functions: Any = equation.atoms(sp.core.function.AppliedUndef)  # pyright: ignore[reportAttributeAccessIssue]
-        names = {s.name for s in symbols} | {f.func.__name__ for f in functions}
-        found |= dict.fromkeys(sorted(names))
-    return list(found)
 
 
 def _equation(equation: Any, names: Mapping[str, Short]) -> str:

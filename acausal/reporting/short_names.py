@@ -32,7 +32,7 @@ GREEK = {
 }
 """Greek letters by the names that variables have."""
 
-_LAST = re.compile(r"(?P<word>[^\[\]]*?)(?P<places>(?:\[[^\]]*\])*)(?P<primes>(?:'\d*)*)$")
+_LAST = re.compile(r"(?P<word>.*?)(?P<places>(?:\[[^\[\]]*\])*)(?P<primes>(?:'\d*)*)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Short:
         dots = 0
         while name.startswith("der(") and name.endswith(")"):
             name, dots = name[4:-1], dots + 1
-        found = _LAST.match(name.lstrip("_") or name)
+        found = _LAST.fullmatch(name.lstrip("_") or name)
         assert found is not None
         word, _, rest = found["word"].partition("_")
         places = found["places"].strip("[]").replace("][", ",")

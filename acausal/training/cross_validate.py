@@ -2,31 +2,19 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Unpack
 
-import jax
 import numpy as np
 
-from acausal._jax import need_double_precision
-from acausal.by_name import names_in
-from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import TrainingError, need_compiled, shown, user_level
-from acausal.training.build_problem import build_problem
+from acausal.data import RecordsLike
+from acausal.errors import TrainingError, need_compiled
 from acausal.training.cross_validation import CrossValidation, Fold
-from acausal.training.halving import halving
-from acausal.training.loop import train
 from acausal.training.objective.folds import Folds, LeftOut, judged_on, left_out, without
-from acausal.training.objective.initial_state import check_records
-from acausal.training.objective.problem import Problem
 from acausal.training.options import FitKeywords, FitOptions, documented
-from acausal.training.progress import display
-from acausal.training.result import result
-from acausal.training.starts import spread_starts, starts_of
-from acausal.training.strategy import Leg, legs
-from acausal.training.train_from_starts import concerns, limit_of
+from acausal.training.record_fit import RecordFit
+from acausal.training.train_from_starts import Training, prepare, run
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -76,18 +64,10 @@ def cross_validate(
     for name, reason in REFUSED.items():
         if getattr(chosen, name) is not None:
             raise TrainingError(f"cross_validate has no {name}=: {reason}; leave it out.")
-    if not isinstance(seed, int | np.integer):
-        raise TrainingError(f"seed={shown(seed)}; give a whole number.")
-    need_double_precision()
-    given = {n: record.for_system(system) for n, record in records_of(data).items()}
-    check_records(chosen.x0, given)
-    start = {**system.parameters(seed), **(params or {})}
-    problem = build_problem(system, given, names_in(targets, "targets"), start, chosen)
-    parts = left_out(problem.records, folds)
-    plan = legs(problem, chosen, limit_of(chosen))
+    training = prepare(system, data, targets, chosen, seeds=(seed,), params=(params,))
     found: list[Fold] = []
-    for part in parts:
-        fold = _fold(problem, plan, part, given, chosen, int(seed))
+    for part in left_out(training.problem.records, folds):
+        fold = _fold(training, part)
         if fold.fit.interrupted:
             break
         found.append(fold)
@@ -96,37 +76,17 @@ def cross_validate(
     return CrossValidation(tuple(found))
 
 
-def _fold(
-    problem: Problem,
-    plan: Sequence[Leg],
-    part: LeftOut,
-    data: Mapping[str, Data],
-    options: FitOptions,
-    seed: int,
-) -> Fold:
+def _fold(training: Training, part: LeftOut) -> Fold:
     """One fold; its program is that of the others, because its trainers are."""
-    own = without(problem, part)
-    judged = judged_on(problem, part, data, options.x0)
-    own_plan = [
-        leg._replace(trainer=common.trainer)
-        for leg, common in zip(legs(own, options, limit_of(options)), plan, strict=True)
-    ]
-    starts = spread_starts(own, options.starts, seed)
-    keys = [jax.random.key(seed)] * len(starts)
-    epochs = sum(leg.epochs for leg in plan)
-    with display(options.progress and jax.process_index() == 0, epochs) as show:
-        observers = (show, *options.all_observers)
-        chosen = halving(options.starts, epochs)
-        trained = train(own, starts, own_plan, keys, observers, halving=chosen)
-    table = starts_of(own, starts, trained) if len(starts) > 1 else None
-    best = 0 if table is None else table.best
-    for sentence in concerns(own, starts[best], trained[best]):
-        warnings.warn(f"Without '{part.name}': {sentence}", stacklevel=user_level())
-    fit = result(own, trained[best], judged, table)
-    counted = [
-        {n: r for n, r in records.items() if np.isfinite(r.measured).any()}
-        for records in (fit.records, fit.held_out)
-    ]
-    fit = replace(fit, records=counted[0], held_out=counted[1])
+    own = without(training.problem, part)
+    judged = judged_on(training.problem, part, training.records, training.options.x0)
+    plan = tuple(leg.over(own) for leg in training.legs)
+    (fit,) = run(replace(training, problem=own, legs=plan), judged, f"Without '{part.name}': ")
+    fit = replace(fit, records=_counting(fit.records), held_out=_counting(fit.held_out))
     loss = float(judged.loss(fit.trained))
     return Fold(part.name, fit, loss if np.isfinite(loss) else np.inf)
+
+
+def _counting(records: Mapping[str, RecordFit]) -> dict[str, RecordFit]:
+    """The records of which something counts as measured."""
+    return {n: r for n, r in records.items() if np.isfinite(r.measured).any()}

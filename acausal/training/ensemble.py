@@ -19,10 +19,9 @@ from acausal.errors import TrainingError, need_compiled, need_path, shown
 from acausal.networks import law_of
 from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_predictions
 from acausal.training.objective.initial_state import InitialState
-from acausal.training.objective.prior import Earlier, entry
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import train_from_starts
+from acausal.training.train_from_starts import prepare, run
 from acausal.training.uncertainty.bumps import SIGMAS
 from acausal.training.uncertainty.confidence import BAND_POINTS, Band
 from acausal.training.uncertainty.conformal import predicted
@@ -177,26 +176,13 @@ def ensemble(
             "The members of an ensemble differ in their seeds alone: leave out starts=, or pass the params of an "
             "ac.fit(..., starts=...)."
         )
-    seeds = tuple(range(seed, seed + members))
-    starts = _starts(system, params, seeds, chosen.prior)
-    return Ensemble(train_from_starts(system, data, targets, chosen, seeds=seeds, params=starts))
-
-
-def _starts(
-    system: System,
-    params: Mapping[str, Any] | Sequence[Mapping[str, Any]] | None,
-    seeds: Sequence[int],
-    prior: Earlier | None,
-) -> Sequence[Mapping[str, Any]]:
     if params is None or isinstance(params, Mapping):
-        made = [entry(system.parameters(seed), prior) for seed in seeds]
         numbers = {n: leaf for n, leaf in (params or {}).items() if not callable(leaf)}
-        return [{**own, **numbers} for own in made]
-    if len(params) != len(seeds):
-        raise TrainingError(f"There are {len(params)} params for {len(seeds)} members.")
-    return [
-        {**entry(system.parameters(s), prior), **own} for s, own in zip(seeds, params, strict=True)
-    ]
+        params = [numbers] * members
+    if len(params) != members:
+        raise TrainingError(f"There are {len(params)} params for {members} members.")
+    seeds = tuple(range(seed, seed + members))
+    return Ensemble(run(prepare(system, data, targets, chosen, seeds=seeds, params=params)))
 
 
 def _mean_and_deviation(

@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Unpack
 
-import numpy as np
-
 from acausal.data import RecordsLike
-from acausal.errors import DataError, TrainingError, need_compiled, shown
-from acausal.training.objective.prior import entry
+from acausal.errors import need_compiled
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import train_from_starts
+from acausal.training.train_from_starts import prepare, run
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -54,14 +51,5 @@ def fit(
     """
     need_compiled(system, "fit")
     chosen = FitOptions.of("fit", options)
-    if not isinstance(params, Mapping | None):
-        raise DataError(f"params={shown(params)} are not parameters; give a mapping by name.")
-    if not isinstance(seed, int | np.integer):
-        raise TrainingError(f"seed={shown(seed)}; give a whole number.")
-    if not isinstance(targets, Sequence):
-        raise TrainingError(
-            f"targets={shown(targets)} are not names; give some of the model's variables."
-        )
-    start = {**entry(system.parameters(seed), chosen.prior), **(params or {})}
-    (trained,) = train_from_starts(system, data, targets, chosen, seeds=(seed,), params=(start,))
+    (trained,) = run(prepare(system, data, targets, chosen, seeds=(seed,), params=(params,)))
     return trained

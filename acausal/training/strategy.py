@@ -47,6 +47,10 @@ class Leg(NamedTuple):
     evaluate_every: int
     patience: int | None
 
+    def over(self, problem: Problem) -> Leg:
+        """The same part with the same trainer, and so the same program, for a problem of the same shapes."""
+        return self._replace(objective=KINDS[self.name].objective(problem))
+
 
 class _Kind(NamedTuple):
     """A kind of leg.

@@ -1,11 +1,15 @@
-"""Trainings of one model on its records, from one start or from several, in one program."""
+"""The one way to train a model on its records, from one start or several: `prepare`, then `run`.
+
+`fit`, `ensemble` and `cross_validate` differ only in what they ask for: one training, one for each seed, or one
+for each part of the samples that is left out.
+"""
 
 from __future__ import annotations
 
 import logging
 import warnings
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +22,8 @@ from acausal._jax import need_double_precision
 from acausal.analysis import in_switches
 from acausal.by_name import names_in
 from acausal.codegen import Values
-from acausal.data import RecordsLike, records_of
-from acausal.errors import TrainingError, listing, shown, user_level
+from acausal.data import Data, RecordsLike, records_of
+from acausal.errors import DataError, TrainingError, listing, shown, user_level
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.build_problem import build_problem
@@ -29,8 +33,9 @@ from acausal.training.happened import grazing
 from acausal.training.log_progress import log_progress
 from acausal.training.loop import train
 from acausal.training.member import Best, Trained
-from acausal.training.objective.held_out import hold_out, split
+from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
+from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.options import FitOptions
@@ -38,7 +43,7 @@ from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
 from acausal.training.starts import spread_starts, starts_of
-from acausal.training.strategy import legs
+from acausal.training.strategy import Leg, legs
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -52,56 +57,103 @@ EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
 
 
-def train_from_starts(
+@dataclass(frozen=True, eq=False)
+class Training:
+    """Trainings of one model on its records that are ready to run, in one program.
+
+    Attributes:
+        problem: what is trained; parameters that are not trained are those of the first start.
+        records: to train on, by name, in the model's units.
+        held: what is held out and chooses the best state, if anything is.
+        legs: what to do, one part after the other.
+        options: how to train.
+        seeds: one for each training; ``params``: the parameters where each starts.
+    """
+
+    problem: Problem
+    records: dict[str, Data]
+    held: HeldOut | None
+    legs: tuple[Leg, ...]
+    options: FitOptions
+    seeds: Sequence[int]
+    params: Sequence[Mapping[str, Any]]
+
+
+def prepare(
     system: System,
     data: RecordsLike,
     targets: str | Sequence[str],
     options: FitOptions,
     *,
     seeds: Sequence[int],
-    params: Sequence[Mapping[str, Any]],
-) -> tuple[Fit, ...]:
-    """Train from several starts; parameters that are not trained are those of the first start.
+    params: Sequence[Mapping[str, Any] | None],
+) -> Training:
+    """Check what is to be trained, and build the problem.
 
     Arguments:
         system, data, targets: as of `acausal.fit`.
         options: the same for all.
         seeds: one for each training.
-        params: the parameters where each starts.
+        params: by training, what differs from the parameters that the model has for its seed, or its prior knows.
 
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
-    need_double_precision()
+    for given in params:
+        if not isinstance(given, Mapping | None):
+            raise DataError(f"params={shown(given)} are not parameters; give a mapping by name.")
     for seed in seeds:
         if not isinstance(seed, int | np.integer):
             raise TrainingError(f"seed={shown(seed)}; give a whole number.")
+    need_double_precision()
+    starts = [
+        {**entry(system.parameters(seed), options.prior), **(given or {})}
+        for seed, given in zip(seeds, params, strict=True)
+    ]
     system = system.watching(_trained_numbers(options))
-    given = {n: record.for_system(system) for n, record in records_of(data).items()}
-    kept = split(given, options.validation)
+    records = {n: record.for_system(system) for n, record in records_of(data).items()}
+    kept = split(records, options.validation)
     names = names_in(targets, "targets")
-    check_records(options.x0, (*given, *(kept.held or {})))
-    problem = build_problem(system, kept.training, names, dict(params[0]), options)
+    check_records(options.x0, (*records, *(kept.held or {})))
+    problem = build_problem(system, kept.training, names, starts[0], options)
     held = hold_out(problem, kept, options.x0)
-    plan = legs(problem, options, limit_of(options))
-    problems = [_from(problem, own) for own in params]
+    plan = legs(problem, options, _limit_of(options))
+    return Training(problem, kept.training, held, plan, options, seeds, starts)
+
+
+def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:
+    """Train, from one start or several; the result of each.
+
+    Arguments:
+        training: from `prepare`.
+        judged: samples that the results tell of although they choose nothing; by default those held out.
+        prefix: what warnings begin with.
+
+    Raises:
+        DataError, TrainingError: as `acausal.fit` does.
+    """
+    problem, held, options = training.problem, training.held, training.options
+    plan, seeds, epochs = training.legs, training.seeds, sum(leg.epochs for leg in training.legs)
+    problems = [_from(problem, own) for own in training.params]
     starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
     keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
-    chosen = halving(options.starts, sum(leg.epochs for leg in plan))
     identity = (
         {}
         if options.checkpoint is None
-        else fingerprint(problem, plan, seeds, starts[1:], held, kept.training)
+        else fingerprint(problem, plan, seeds, starts[1:], held, training.records)
     )
     path, stored = _checkpoint(options, identity)
     what = ", ".join((*problem.networks, *problem.modifiers.names))
-    LOGGER.info("training %s of %s by %s", what, system.flat.name, " and ".join(options.parts))
+    LOGGER.info(
+        "training %s of %s by %s", what, problem.system.flat.name, " and ".join(options.parts)
+    )
     first = jax.process_index() == 0
     with (
-        display(options.progress and first, sum(leg.epochs for leg in plan)) as show,
+        display(options.progress and first, epochs) as show,
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
         observers = (show, log_progress, *options.all_observers)
+        chosen = halving(options.starts, epochs)
         trained = train(problem, starts, plan, keys, observers, keep, stored, held, chosen)
     for one in trained:
         LOGGER.info(
@@ -113,10 +165,10 @@ def train_from_starts(
         starts, trained = [starts[spread.best]], (trained[spread.best],)
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in concerns(own, start, one):
-            warnings.warn(sentence, stacklevel=user_level())
+            warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     settings = [{"seed": str(seed), **options.described()} for seed in seeds]
     return tuple(
-        result(own, one, held, spread, said)
+        result(own, one, judged or held, spread, said)
         for own, one, said in zip(problems, trained, settings, strict=True)
     )
 
@@ -128,7 +180,7 @@ def _trained_numbers(options: FitOptions) -> tuple[str, ...]:
     return (*named, *(options.per_record or ()))
 
 
-def limit_of(options: FitOptions) -> float:
+def _limit_of(options: FitOptions) -> float:
     """The loss above which a sequence has diverged; of a user's loss nothing is known."""
     return DIVERGED if options.loss == "nrmse" else np.inf
 

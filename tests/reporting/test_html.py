@@ -70,3 +70,12 @@ def test_the_losses_of_many_are_all_drawn() -> None:
     plot.plot_losses(axes, {f"member {k}": history for k in range(len(plot.LEARNED) + 2)})
     assert len(axes.lines) == 2 * (len(plot.LEARNED) + 2)
     plt.close("all")
+
+
+def test_equations_of_arrays_of_parts_have_short_names(tmp_path: Path) -> None:
+    charge, current = sp.symbols("particle.shell[1].Q particle.shell[2].Q")
+    page = Page("Cell")
+    page.equations([sp.Eq(charge, 2 * current, evaluate=False)])
+    text = page.write(tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "<msub><mi>Q</mi><mtext>shell 1</mtext></msub>" in text
+    assert "particle" not in text

@@ -35,6 +35,7 @@ def test_several_parts_where_one_is_not_enough() -> None:
         ("law.net'2", "net'2"),
         ("a.flange_a.f", "f"),
         ("part._x", "x"),
+        ("shell[1].Q", "Q"),
     ],
 )
 def test_how_a_single_name_looks(name: str, text: str) -> None:
@@ -65,3 +66,13 @@ def test_an_equation_as_mathml_and_latex() -> None:
     assert latex(equation.lhs, names) == r"\dot{s}"
     assert latex(equation.rhs, names).count(r"v_{\mathrm{rel}}") == 1
     assert Short.of("T_amb").latex == r"T_{\mathrm{amb}}"
+
+
+@pytest.mark.parametrize(
+    "name", ["shell[1].Q", "particle.diffusion[2].net'", "x[1][2]", "[", "a]b", "a_"]
+)
+def test_any_name_can_be_written(name: str) -> None:
+    """Also one that nobody has shortened, with places in the middle of its path."""
+    short = Short.of(name)
+    assert short.text.replace("_", "") or not name
+    assert short.latex or not name

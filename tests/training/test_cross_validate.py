@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.components import blocks
 from acausal.training.objective.folds import judged_on, left_out, without
 from acausal.training.options import FitOptions
 from tests.support.oscillator import plain
@@ -23,6 +24,8 @@ OPTIONS: dict[str, Any] = {
     "modifiers": ["mass.m", "spring.d"], "gamma": 0.9, "strategy": "gauss_newton", "epochs": 12,
     "progress": False,
 }  # fmt: skip
+
+ONE_EPOCH: dict[str, Any] = OPTIONS | {"epochs": 1}
 
 
 def noisy(data: ac.Data, seed: int) -> ac.Data:
@@ -167,6 +170,62 @@ def test_a_parameter_of_each_record_leaves_the_others_better(tmp_path: Path):
     assert own.summary().split(";")[0] in page
     assert "What was left out" in page
     assert "Trained parameters" in page
+
+
+def test_a_fold_says_how_it_was_trained():
+    """The options and the seed, as a fit does."""
+    alone = ac.fit(plain(), records()["a"], "mass.s", seed=3, **ONE_EPOCH)
+    for fit in validate(seed=3, epochs=1).fits:
+        assert fit.settings == alone.settings
+
+
+def test_folds_begin_where_an_earlier_training_ended():
+    earlier = by_record().fits[0]
+    found = validate(prior=earlier, epochs=1)
+    for fit in found.fits:
+        for name in ("mass.m", "spring.d"):
+            assert fit.problem.params[name] == pytest.approx(float(earlier.params[name]))
+    given = validate(prior=earlier, epochs=1, params={"mass.m": 1.5})
+    assert given.fits[0].problem.params["mass.m"] == pytest.approx(1.5)
+
+
+class Stepped(ac.Component):
+    """A lag behind a step, whose time acts through a condition alone."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.step = blocks.Step(startTime=0.5)
+        self.lag = blocks.FirstOrder(T=0.3, y=ac.Start(0.0, fixed=True))
+        self.connect(self.step.y, self.lag.u)
+
+
+def test_conditions_that_a_trained_parameter_moves_are_watched():
+    """Without events the time of a step has no gradient, and stays where it is."""
+    t = np.linspace(0.0, 2.0, 21)
+    late = np.maximum(t - 0.6, 0.0)
+    data = ac.Data(t, {"lag.y": 1 - np.exp(-late / 0.3)})
+    found = ac.cross_validate(
+        ac.compile(Stepped()), data, "lag.y", folds=2, x0="model",
+        modifiers={"step.startTime": ac.Bounded(0.3, 0.9)},
+        strategy="gauss_newton", epochs=5, solver="rk4", progress=False,
+    )  # fmt: skip
+    assert found.fits[1].params["step.startTime"] == pytest.approx(0.6, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"seed": 0.5}, {"params": [1.0]}, {"targets": 3}],
+    ids=["seed", "params", "targets"],
+)
+def test_all_trainings_refuse_alike(wrong: dict[str, Any]):
+    """`fit` and `cross_validate` check what they are given in one place."""
+    said: list[str] = []
+    for function in (ac.fit, ac.cross_validate):
+        call: dict[str, Any] = {"targets": "mass.s", **OPTIONS, **wrong}
+        with pytest.raises((ac.DataError, ac.TrainingError)) as caught:
+            function(plain(), records(), **call)
+        said.append(str(caught.value))
+    assert said[0] == said[1]
 
 
 def test_several_starts_go_into_every_fold():
