@@ -4,11 +4,6 @@ In: a `System`, inputs, parameters. Out: a `Solution`, any variable of it by nam
 It knows nothing of training; it calls `acausal.reporting` to draw.
 """
 
-from acausal.simulation.adaptive import (
-    Adaptive as Adaptive,
-    check_tolerances as check_tolerances,
-    integrate_adaptively as integrate_adaptively,
-)
 from acausal.simulation.fixed_steps import (
     Integrated as Integrated,
     Runs as Runs,
@@ -16,7 +11,6 @@ from acausal.simulation.fixed_steps import (
     inner_fractions as inner_fractions,
     integrate as integrate,
 )
-from acausal.simulation.hybrid import integrate_with_events as integrate_with_events
 from acausal.simulation.inputs import (
     TimeFunction as TimeFunction,
     announce_derivatives as announce_derivatives,
@@ -40,4 +34,9 @@ from acausal.simulation.solvers import (
     solver_named as solver_named,
 )
 from acausal.simulation.stability import long_steps as long_steps
+from acausal.simulation.steps import (
+    Adaptive as Adaptive,
+    check_tolerances as check_tolerances,
+    integrate_in_steps as integrate_in_steps,
+)
 from acausal.simulation.sweep import Sweep as Sweep, sweep as sweep

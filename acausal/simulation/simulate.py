@@ -19,9 +19,7 @@ from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, shown, user_level
 from acausal.simulation import solvers
-from acausal.simulation.adaptive import Tolerance, check_tolerances, simulate_adaptive
 from acausal.simulation.fixed import simulate_fixed
-from acausal.simulation.hybrid import simulate_hybrid
 from acausal.simulation.inputs import (
     TimeFunction,
     announce_derivatives,
@@ -32,6 +30,7 @@ from acausal.simulation.inputs import (
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.step_grid import step_ends
+from acausal.simulation.steps import Tolerance, check_tolerances, simulate_in_steps
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -127,35 +126,26 @@ def simulate(
     run.check_start()
     steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
-    if system.events is not None:
-        chosen = _chosen(solver, fixed=ends is not None, events=True)
-        saved = saved if saved is not None else ends
-        ts = np.linspace(start, end, POINTS) if saved is None else saved
-        forward = isinstance(adjoint, dfx.ForwardMode)
-        return simulate_hybrid(
-            run, ts, chosen, rtol, atol, max_steps, kind, ends=ends, forward=forward
-        )
-    if ends is not None:
-        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
-        direct = isinstance(adjoint, dfx.ForwardMode | dfx.DirectAdjoint)
-        return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
-    ts = np.linspace(start, end, POINTS) if saved is None else saved
-    chosen = _chosen(solver)
     forward = isinstance(adjoint, dfx.ForwardMode)
-    if adjoint is not None and not forward:
+    if ends is not None and system.events is None:
+        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
+        direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
+        return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
+    if adjoint is not None and not forward and system.events is None:
         warnings.warn(
             "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
             DeprecationWarning,
             stacklevel=user_level(),
         )
-    return simulate_adaptive(run, ts, chosen, rtol, atol, max_steps, kind, forward=forward)
-
-
-def _chosen(
-    solver: str | solvers.Solver, *, fixed: bool = False, events: bool = False
-) -> solvers.Solver | None:
-    """The solver; None where it is to be chosen by the model."""
-    return None if solver == "auto" else solvers.solver_named(solver, fixed=fixed, events=events)
+    if saved is None:
+        saved = np.linspace(start, end, POINTS) if ends is None else ends
+    chosen = None
+    if solver != "auto":
+        with_events = system.events is not None
+        chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
+    return simulate_in_steps(
+        run, saved, chosen, rtol, atol, max_steps, kind, ends=ends, forward=forward
+    )
 
 
 def _span(t: float | tuple[float, float]) -> tuple[float, float]:

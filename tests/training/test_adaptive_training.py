@@ -11,7 +11,7 @@ import pytest
 import acausal as ac
 from acausal._jax import Restarts
 from acausal.codegen import Values
-from acausal.simulation import Adaptive, Runs, Samples, Steps, integrate_adaptively
+from acausal.simulation import Adaptive, Runs, Samples, Steps, integrate_in_steps
 from acausal.simulation.solvers import BDF
 from tests.support.parts import Equations
 
@@ -122,14 +122,14 @@ def test_runs_of_one_loop_are_those_made_singly():
         own = system().pack({**TRUE, "k": k})
         runs = Runs(Restarts(jnp.asarray(begins), jnp.asarray(first).at[6].set(starts[1])))
         start = Values(steps.t[0], starts[0], steps.inputs.start[0], own)
-        return integrate_adaptively(system(), start, steps, adaptive, outputs=("x",), runs=runs).y
+        return integrate_in_steps(system(), start, steps, adaptive, outputs=("x",), runs=runs).y
 
     def singly(k: Any, starts: Any) -> Any:
         own, found = system().pack({**TRUE, "k": k}), []
         for rows, x in ((slice(0, 6), starts[0]), (slice(6, 11), starts[1])):
             part = jax.tree.map(lambda a, rows=rows: a[rows] if a.ndim else a, steps)
             start = Values(part.t[0], x, part.inputs.start[0], own)
-            found.append(integrate_adaptively(system(), start, part, adaptive, outputs=("x",)).y)
+            found.append(integrate_in_steps(system(), start, part, adaptive, outputs=("x",)).y)
         return jnp.concatenate(found)
 
     np.testing.assert_allclose(together(14.0, starts), singly(14.0, starts), atol=1e-9)

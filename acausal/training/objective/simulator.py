@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
@@ -20,8 +19,7 @@ from acausal.simulation import (
     Scheme,
     Steps,
     integrate,
-    integrate_adaptively,
-    integrate_with_events,
+    integrate_in_steps,
 )
 from acausal.training.objective.initial_state import FIT, FirstStates
 from acausal.training.objective.multiple_shooting import ShootingStates
@@ -173,12 +171,16 @@ class Simulator(eqx.Module):
         packed, x0, steps, runs = cast((packed, x0, steps, runs), self.dtype)
         first: Any = steps.t[0]
         start = Values(first, x0, steps.inputs.start[0], packed)
-        over: Any
-        if self.system.events is not None:
-            over = partial(integrate_with_events, solver=self.solver, substeps=self.substeps)
-        elif isinstance(self.solver, Adaptive):
-            over = partial(integrate_adaptively, adaptive=self.solver)
-        else:
-            over = partial(integrate, solver=self.solver, substeps=self.substeps)
-        found = over(self.system, start, steps, outputs=self.targets, direct=direct, runs=runs)
+        in_steps = self.system.events is not None or isinstance(self.solver, Adaptive)
+        over: Any = integrate_in_steps if in_steps else integrate
+        found = over(
+            self.system,
+            start,
+            steps,
+            self.solver,
+            substeps=self.substeps,
+            outputs=self.targets,
+            direct=direct,
+            runs=runs,
+        )
         return cast(found, float)

@@ -8,9 +8,9 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from acausal.simulation.adaptive.one_step import Made, Memory, OneStep, part_of_step
-from acausal.simulation.adaptive.problem import Attempt, Counts, Problem, RightHandSide
-from acausal.simulation.adaptive.runge_kutta import Explicit
+from acausal.simulation.steps.one_step import Made, Memory, OneStep, part_of_step
+from acausal.simulation.steps.problem import Attempt, Counts, Problem, RightHandSide
+from acausal.simulation.steps.runge_kutta import Explicit
 
 
 class Paced(eqx.Module):

@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.simulation.adaptive.multistep import (
+from acausal.simulation.steps.multistep import (
     HARMONIC,
     MOST,
     POINTS,
@@ -24,9 +24,9 @@ from acausal.simulation.adaptive.multistep import (
     slopes,
     weights,
 )
-from acausal.simulation.adaptive.newton_matrix import NewtonMatrix
-from acausal.simulation.adaptive.one_step import first_length
-from acausal.simulation.adaptive.problem import Attempt, Counts, Problem
+from acausal.simulation.steps.newton_matrix import NewtonMatrix
+from acausal.simulation.steps.one_step import first_length
+from acausal.simulation.steps.problem import Attempt, Counts, Problem
 
 State = Float[Array, " n_states"]
 

@@ -1,4 +1,7 @@
-"""Integrate a model over rows of samples in adaptive steps, as `fixed_steps.integrate` does in fixed ones."""
+"""Integrate a model over rows of samples in adaptive steps, or in fixed ones that end at events.
+
+`fixed_steps.integrate` does the same in fixed steps for a model without events.
+"""
 
 from __future__ import annotations
 
@@ -12,17 +15,22 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.codegen import Field, Packed, Values
-from acausal.simulation.adaptive.problem import Problem
-from acausal.simulation.adaptive.search import REACHED
-from acausal.simulation.adaptive.solve import solve
 from acausal.simulation.fixed_steps import Integrated, Runs, Step, Steps
-from acausal.simulation.solvers import Solver
+from acausal.simulation.log import Log
+from acausal.simulation.solvers import Scheme, Solver
+from acausal.simulation.steps.loop import REACHED
+from acausal.simulation.steps.methods import paced
+from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.solve import solve
 
 if TYPE_CHECKING:
     from acausal.system import System
 
 STEPS_PER_ROW = 100
 """Steps, at most, that a row takes on average: where an input has a corner, stiff methods begin with short ones."""
+
+EVENTS_PER_ROW = 4
+"""Steps of given length that a row takes on average, at most: events divide some."""
 
 FEWEST = 1000
 """Steps that are allowed in any case."""
@@ -98,12 +106,13 @@ class Clock(eqx.Module):
         return self.system.field(step.time(fraction), u, packed, self.d)
 
 
-def integrate_adaptively(
+def integrate_in_steps(
     system: System,
     start: Values,
     steps: Steps,
-    adaptive: Adaptive,
+    solver: Scheme | Adaptive,
     *,
+    substeps: int = 1,
     outputs: Sequence[str] = (),
     direct: bool = False,
     runs: Runs | None = None,
@@ -111,52 +120,91 @@ def integrate_adaptively(
     """Integrate the model over some rows. Pure: trace, differentiate and map it.
 
     Arguments:
-        system, start, outputs, direct, runs: as for `fixed_steps.integrate`.
-        steps: the n rows and their inputs; steps end at each where the model has inputs.
-        adaptive: the steps.
+        system, start, substeps, outputs, direct, runs: as for `fixed_steps.integrate`.
+        steps: the n rows and their inputs; steps end at each where the model has inputs, or events.
+        solver: adaptive steps; or, for a model with events, a scheme of fixed ones.
 
     Returns:
         States and outputs at the rows' starts, and the state at the end; NaN from where a step cannot be made.
     """
-    n, dtype = len(steps.t), start.x.dtype
-    field = Clock.of(system, start.packed, steps, runs)
-    edges = field.edges
+    events, dtype = system.events, start.x.dtype
+    d0 = None if events is None else system.modes(start).d
+    clock = Clock.of(system, start.packed, steps, runs).with_modes(d0)
+    edges, n = clock.edges, len(steps.t)
     restarts = None if runs is None else runs.restarts
-    inner = edges[1:-1]
+    jumps = jnp.zeros(n - 1, bool)
     if system.inputs and n > 1:
         jumps = jnp.any(steps.inputs.end[:-1] != steps.inputs.start[1:], axis=1)
+    if isinstance(solver, Adaptive):
+        adaptive, method, parts = solver, solver.solver, 1
+        breaks, most = edges[1:-1], STEPS_PER_ROW * n + FEWEST
+        if events is None and not system.inputs and restarts is None:
+            breaks, jumps = breaks[:0], jumps[:0]
     else:
-        jumps = jnp.zeros(n - 1, bool)
-        inner, jumps = (inner, jumps) if restarts is not None else (inner[:0], jumps[:0])
-    begins = first = None
-    if restarts is not None:
-        begins, first = restarts.begins[1:], restarts.first[1:]
-        jumps = jumps | begins
+        adaptive, method, parts = Adaptive(), paced(solver), substeps
+        breaks, most = _divided(edges, substeps), EVENTS_PER_ROW * n * substeps + FEWEST
+    place = jnp.arange(1, n) * parts - 1
+
+    def spread(rows: Array) -> Array:
+        """Of inner edges, what belongs to the breaks."""
+        if len(rows) == len(breaks):
+            return rows
+        return jnp.zeros((len(breaks), *rows.shape[1:]), rows.dtype).at[place].set(rows)
+
+    others: tuple[Any, ...] = None, None, None
+    if runs is not None and restarts is not None:
+        first = restarts.first[1:], None
+        if events is not None:
+            first = _firsts(system, clock, runs)
+        others = jax.tree.map(spread, (restarts.begins[1:], *first))
     problem = Problem(
-        field,
+        clock,
         start.x,
         edges[0],
         edges[-1],
         edges[:-1],
-        inner,
-        jumps,
+        breaks,
+        spread(jumps),
         jnp.asarray(adaptive.rtol, dtype),
         jnp.asarray(adaptive.atol, dtype),
-        STEPS_PER_ROW * n + FEWEST,
-        begins,
-        first,
+        most,
+        *others,
+        events=events,
     )
-    found = solve(problem, adaptive.solver, system.state_jacobian, forward=direct).found
-    x = found.saved
+    log = None if d0 is None else Log.empty(len(start.x) + len(d0), dtype, values=0)
+    found = solve(problem, method, system.state_jacobian, d=d0, log=log, forward=direct).found
+    x, d = found.saved
     if restarts is not None:
         x = jnp.where(restarts.begins[:, None], restarts.first, x)
-    reached = found.why == REACHED
-    end = jnp.where(reached, found.x, jnp.nan)
+    end = jnp.where(found.why == REACHED, found.x, jnp.nan)
     if not outputs:
-        return Integrated(x, None, end)
+        return Integrated(x, None, end, found.log)
 
-    def read(clock: Array, x: Array) -> Array:
-        at = field.at(clock)
-        return system.read(tuple(outputs), Values(at.t, x, at.u, at.packed))
+    def read(at: Array, x: Array, d: Array | None) -> Array:
+        return system.read(tuple(outputs), clock.with_modes(d).at(at).values(x))
 
-    return Integrated(x, jax.vmap(read)(edges[:-1], x), end)
+    return Integrated(x, jax.vmap(read)(edges[:-1], x, d), end, found.log)
+
+
+def _divided(edges: Float[Array, " n_1"], substeps: int) -> Float[Array, " n_breaks"]:
+    """The times between rows, and those that divide each into equal parts."""
+    parts = jnp.arange(1, substeps + 1, dtype=edges.dtype) / substeps
+    ends = edges[:-1, None] + parts * jnp.diff(edges)[:, None]
+    return ends.at[:, -1].set(edges[1:]).ravel()[:-1]
+
+
+def _firsts(
+    system: System, clock: Clock, runs: Runs
+) -> tuple[Float[Array, "n_inner n_states"], Float[Array, "n_inner n_discrete"]]:
+    """With which states and discrete variables further runs begin, at the inner edges; only there they count."""
+    begins, first = runs.restarts.begins[1:], runs.restarts.first[1:]
+    rows = jnp.flatnonzero(begins, size=max(runs.count - 1, 1), fill_value=0)
+
+    def one(t: Array, x: Array) -> tuple[Array, Array]:
+        found = system.modes(clock.at(t).values(x))
+        assert found.d is not None
+        return found.x, found.d
+
+    x, d = jax.vmap(one)(clock.edges[1:-1][rows], first[rows])
+    empty = jnp.zeros((len(begins), d.shape[1]), d.dtype)
+    return first.at[rows].set(x), empty.at[rows].set(d)

@@ -14,10 +14,10 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import Events, due, guards
+from acausal.codegen import due, guards
 from acausal.initialization import After, Rates, happen
-from acausal.simulation.adaptive.problem import Problem
-from acausal.simulation.hybrid.row import Reach, Row, chosen, grazes, rates_at, values_at
+from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.rows import Reach, Row, chosen, grazes, rates_at, values_at
 
 MOST = 8
 """So many conditions of one instant, at most, are taken in turn."""
@@ -61,18 +61,18 @@ def guard_of(row: Row, i: Int[Array, ""]) -> Int[Array, ""]:
 
 
 def still_wait(
-    problem: Problem, events: Events, row: Row, turn: Turn, t: Array, x: Array, d: Array
+    problem: Problem, row: Row, turn: Turn, t: Array, x: Array, d: Array
 ) -> Bool[Array, ""]:
     """Whether the conditions that wait are still about to change."""
-    numbers = lax.stop_gradient(guards(events, values_at(problem, t, x, d)))
+    numbers = lax.stop_gradient(guards(problem.watched, values_at(problem, t, x, d)))
     return jnp.all(~turn.waits | (jnp.abs(numbers) <= row.band))
 
 
 def until(
-    problem: Problem, events: Events, row: Row, guard: Int[Array, ""], t: Array, x: Array, d: Array
+    problem: Problem, row: Row, guard: Int[Array, ""], t: Array, x: Array, d: Array
 ) -> tuple[Float[Array, ""], Float[Array, " n_states"]]:
     """Time and states where a condition changes: those given, with other derivatives."""
-    field = problem.held(d).field
+    field, events = problem.held(d).field, problem.watched
     rate = field(t, x)
     fixed = lax.stop_gradient((rate, jnp.ones_like(t)))
 
@@ -94,21 +94,21 @@ def until(
 
 
 def follow_in_turn(
-    problem: Problem, events: Events, row: Row, end: Reach, d: Array
+    problem: Problem, row: Row, end: Reach, d: Array
 ) -> tuple[Float[Array, ""], After]:
     """Time and values behind an event, with derivatives in forward mode."""
-    rates = rates_at(problem, events, end.t)
+    rates = rates_at(problem, end.t)
     n = count(row)
 
     def one(state: tuple[Any, ...]) -> tuple[Any, ...]:
         """All together first; then in turn."""
         k, t, x, d_now, whole, fits = state
         own = turn(row, d_now, k - 1, k == 0)
-        later = until(problem, events, row, guard_of(row, k - 1), t, x, d_now)
+        later = until(problem, row, guard_of(row, k - 1), t, x, d_now)
         t, x = (jnp.where(k > 1, a, b) for a, b in zip(later, (t, x), strict=True))
         at = values_at(problem, t, x, d_now)
-        after = happen(events, at, row.band, own.rates(rates), decreed=own.decreed)
-        fits = fits & still_wait(problem, events, row, own, t, after.x, after.d)
+        after = happen(problem.watched, at, row.band, own.rates(rates), decreed=own.decreed)
+        fits = fits & still_wait(problem, row, own, t, after.x, after.d)
         first = k == 0
         whole = jax.tree.map(lambda a, b: jnp.where(first, a, b), after, whole)
         t, x, d_now = (

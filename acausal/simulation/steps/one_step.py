@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.simulation.adaptive.problem import Attempt, Counts, Problem, RightHandSide
+from acausal.simulation.steps.problem import Attempt, Counts, Problem, RightHandSide
 
 State = Float[Array, " n_states"]
 

@@ -11,11 +11,12 @@ import optimistix as optx
 
 from acausal.codegen import StateJacobian
 from acausal.simulation import solvers
-from acausal.simulation.adaptive.bdf import BDF
-from acausal.simulation.adaptive.newton_matrix import NewtonMatrix
-from acausal.simulation.adaptive.one_step import Foreign
-from acausal.simulation.adaptive.problem import Problem
-from acausal.simulation.adaptive.runge_kutta import Explicit
+from acausal.simulation.steps.bdf import BDF
+from acausal.simulation.steps.newton_matrix import NewtonMatrix
+from acausal.simulation.steps.one_step import Foreign
+from acausal.simulation.steps.paced import Paced
+from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.runge_kutta import Explicit
 
 Method: TypeAlias = Explicit | Foreign | BDF
 
@@ -25,9 +26,10 @@ def explicit() -> Explicit:
     return Explicit(dfx.Tsit5())
 
 
-def stiff(jacobian: StateJacobian) -> BDF:
-    """The method for stiff models."""
-    return BDF(NewtonMatrix(jacobian))
+def stiff(problem: Problem, jacobian: StateJacobian) -> Method:
+    """The method for stiff models; with events, which end all that a multistep method knows, a one-step method."""
+    solver = solvers.solver_named("stiff", events=problem.events is not None)
+    return method_of(solver, problem, jacobian)
 
 
 def method_of(solver: solvers.Solver, problem: Problem, jacobian: StateJacobian) -> Method:
@@ -38,10 +40,15 @@ def method_of(solver: solvers.Solver, problem: Problem, jacobian: StateJacobian)
     """
     solver = solvers.for_adaptive_steps(solver)
     if isinstance(solver, solvers.BDF):
-        return stiff(jacobian)
+        return BDF(NewtonMatrix(jacobian))
     if isinstance(solver, dfx.AbstractERK):
         return Explicit(solver)
     return Foreign(_with_tolerances(solver, problem))
+
+
+def paced(scheme: solvers.Scheme) -> Paced:
+    """Steps of given length by a scheme."""
+    return Paced(Explicit(scheme) if isinstance(scheme, dfx.AbstractERK) else Foreign(scheme))
 
 
 def _with_tolerances(solver: dfx.AbstractSolver[Any], problem: Problem) -> dfx.AbstractSolver[Any]:

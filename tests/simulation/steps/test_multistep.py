@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from acausal.simulation.adaptive.multistep import (
+from acausal.simulation.steps.multistep import (
     HARMONIC,
     POINTS,
     differences,

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.codegen import StateJacobian
-from acausal.simulation.adaptive.problem import RightHandSide
+from acausal.simulation.steps.problem import RightHandSide
 
 State = Float[Array, " n_states"]
 

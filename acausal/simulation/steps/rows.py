@@ -1,4 +1,4 @@
-"""One step of a model with events, as it is made again for derivatives: where it ends may depend on what moves."""
+"""One step, as it is made again for derivatives; with events, where it ends may depend on what moves."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
-from acausal.codegen import Events, Values, due, guards
+from acausal.codegen import Values, due, guards
 from acausal.initialization import After, happen
-from acausal.simulation.adaptive.problem import Problem
+from acausal.simulation.steps.problem import Problem
 
 FREE, STOP, RESTART, JUMP, TIMED, STATE = range(6)
 """How a step ends: as long as it was; at a known time; where another run begins; where inputs jump; at the known time
@@ -28,19 +28,22 @@ class Row(NamedTuple):
 
     Attributes:
         t, h: its start and length. kind: how it ends. which: the number of the stop, or of the condition.
-        band: the conditions that change at its end; see `happen`.
-        x, d: states and discrete variables at its start.
         next: the first of the times to save that does not lie in it, nor in one before.
+        x: the state at its end; with events, which may change it there, that at its start.
+        own: what the method needs.
+        d: discrete variables at its start. band: the conditions that change at its end; see `happen`. None without
+            events.
     """
 
     t: Float[Array, ""]
     h: Float[Array, ""]
     kind: Int[Array, ""]
     which: Int[Array, ""]
-    band: Float[Array, " n_guards"]
-    x: Float[Array, " n_states"]
-    d: Float[Array, " n_discrete"]
     next: Int[Array, ""]
+    x: Float[Array, " n_states"]
+    own: Any = ()
+    d: Any = None
+    band: Any = None
 
 
 class Reach(NamedTuple):
@@ -56,7 +59,7 @@ class Reach(NamedTuple):
     dense: Any
 
 
-Event = Callable[[Problem, Events, Row, Reach, Array], tuple[Array, After]]
+Event = Callable[[Problem, Row, Reach, Array], tuple[Array, After]]
 """Time and values behind an event."""
 
 
@@ -71,7 +74,6 @@ def stop_at(problem: Problem, i: Int[Array, ""]) -> Float[Array, ""]:
 def reach(
     method: Any,
     problem: Problem,
-    events: Events,
     row: Row,
     t: Float[Array, ""],
     x: Float[Array, " n_states"],
@@ -82,12 +84,12 @@ def reach(
     """Make a step again, up to the event at its end.
 
     Arguments:
-        method, problem, events: what is integrated.
+        method, problem: what is integrated.
         row: the step; its length counts where it does not follow from the rest.
         t, x, d: its start. They equal the row's, and may have derivatives.
         is_event: whether an event, or another run, follows; else the step is FREE or goes to a STOP.
     """
-    field = problem.held(d).field
+    field, events = problem.held(d).field, problem.watched
     stop = stop_at(problem, row.which)
 
     def step(h: Array) -> tuple[Array, Any]:
@@ -146,9 +148,10 @@ def values_at(problem: Problem, t: Array, x: Array, d: Array) -> Values:
     return problem.held(d).field.at(t).values(x)
 
 
-def rates_at(problem: Problem, events: Events, t: Array) -> Callable[[Array, Array], Array]:
+def rates_at(problem: Problem, t: Array) -> Callable[[Array, Array], Array]:
     """How fast the conditions' numbers grow at a time, for states and discrete variables; without derivatives."""
     problem, t = without_derivatives((problem, t))
+    events = problem.watched
 
     def rates(x: Array, d: Array) -> Array:
         field = problem.held(d).field
@@ -159,33 +162,34 @@ def rates_at(problem: Problem, events: Events, t: Array) -> Callable[[Array, Arr
 
 
 def follow(
-    problem: Problem, events: Events, row: Row, end: Reach, d: Array, in_turn: Event | None = None
+    problem: Problem, row: Row, end: Reach, d: Array, in_turn: Event | None = None
 ) -> tuple[Float[Array, ""], After]:
     """What follows a step that ends with an event, or where another run begins.
 
     Arguments:
-        problem, events, row: what is integrated, and the step. end, d: values at its end, before the event.
+        problem, row: what is integrated, and the step. end, d: values at its end, before the event.
         in_turn: what an event leads to, where derivatives must work in forward mode.
     """
 
     def event() -> tuple[Array, After]:
         if in_turn is not None:
-            return in_turn(problem, events, row, end, d)
+            return in_turn(problem, row, end, d)
         at = values_at(problem, end.t, end.x, d)
-        return end.t, happen(events, at, row.band, rates_at(problem, events, end.t))
+        return end.t, happen(problem.watched, at, row.band, rates_at(problem, end.t))
 
     if problem.first is None:
         return event()
 
     def restart() -> tuple[Array, After]:
-        return end.t, After(*restarted(problem, row), jnp.array(True))
+        x, d = restarted(problem, row.which)
+        assert d is not None
+        return end.t, After(x, d, jnp.array(True))
 
     return lax.cond(row.kind == RESTART, restart, event)
 
 
-def restarted(problem: Problem, row: Row) -> tuple[Array, Array]:
-    """States and discrete variables with which another run begins."""
+def restarted(problem: Problem, which: Int[Array, ""]) -> tuple[Array, Array | None]:
+    """States and discrete variables with which another run begins at a break."""
     assert problem.first is not None
-    assert problem.first_d is not None
-    at = jnp.minimum(row.which, len(problem.breaks) - 1)
-    return problem.first[at], problem.first_d[at]
+    at = jnp.minimum(which, len(problem.breaks) - 1)
+    return problem.first[at], None if problem.first_d is None else problem.first_d[at]

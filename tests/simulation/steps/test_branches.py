@@ -81,7 +81,7 @@ def text() -> str:
 
 
 def test_hash_seeds_do_not_change_what_holds_at_events() -> None:
-    code = "from tests.simulation.hybrid import test_branches; print(test_branches.text())"
+    code = "from tests.simulation.steps import test_branches; print(test_branches.text())"
     runs = [
         subprocess.Popen(
             [sys.executable, "-c", code],

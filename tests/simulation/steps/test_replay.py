@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.adaptive import replay
+from acausal.simulation.steps import replay
 from tests.support.parts import Equations
 from tests.support.slow import all_slow_but
 from tests.support.stiff import Plate

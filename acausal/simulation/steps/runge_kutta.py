@@ -10,8 +10,8 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from acausal.simulation.adaptive.one_step import Made, OneStep, State
-from acausal.simulation.adaptive.problem import Counts, RightHandSide
+from acausal.simulation.steps.one_step import Made, OneStep, State
+from acausal.simulation.steps.problem import Counts, RightHandSide
 
 MANY = 256
 """States from which on a step is made in reverse stage by stage.

@@ -10,14 +10,13 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array
 
-from acausal.codegen import Events
 from acausal.initialization import Round, after_round, rounds_of
-from acausal.simulation.adaptive.problem import Problem
-from acausal.simulation.hybrid import coinciding
-from acausal.simulation.hybrid.row import RESTART, Reach, Row, rates_at, restarted, values_at
-from acausal.simulation.hybrid.search import Begin
+from acausal.simulation.steps import coinciding
+from acausal.simulation.steps.loop import Start
+from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.rows import RESTART, Reach, Row, rates_at, restarted, values_at
 
-Task = tuple[Any, Problem, Begin]
+Task = tuple[Any, Problem, Start]
 """Method, problem, start."""
 
 OfMoved = Callable[[list[Array]], Task]
@@ -25,17 +24,19 @@ OfMoved = Callable[[list[Array]], Task]
 
 
 class Adjoint(NamedTuple):
-    """Cotangents of time, states and discrete variables, and of what moves."""
+    """Cotangents of time, states (or of what a method keeps) and discrete variables, and of what moves.
 
-    t: Array
+    Those of time and discrete variables are None without events.
+    """
+
+    t: Any
     x: Array
-    d: Array
+    d: Any
     own: list[Array]
 
 
 def through_event(
     of_moved: OfMoved,
-    events: Events,
     own: list[Array],
     row: Row,
     end: Reach,
@@ -44,30 +45,36 @@ def through_event(
 ) -> Adjoint:
     """The cotangents before an event, from those behind it."""
     problem = of_moved(own)[1]
+    events = problem.watched
 
     def event() -> Adjoint:
         if events.n_guards > 1:
-            return _through_turns(of_moved, events, own, row, end, then, behind)
+            return _through_turns(of_moved, own, row, end, then, behind)
         at = values_at(problem, end.t, end.x, row.d)
-        rounds, n, _ = rounds_of(events, at, row.band, rates_at(problem, events, end.t))
-        return _through_rounds(of_moved, events, own, end.t, rounds, n, behind)
+        rounds, n, _ = rounds_of(events, at, row.band, rates_at(problem, end.t))
+        return _through_rounds(of_moved, own, end.t, rounds, n, behind)
 
     if problem.first is None:
         return event()
 
     def restart() -> Adjoint:
-        pulled = jax.vjp(lambda own: restarted(of_moved(own)[1], row), own)[1](
-            (behind.x, behind.d)
-        )[0]
-        totals = [a + b for a, b in zip(behind.own, pulled, strict=True)]
-        return Adjoint(behind.t, jnp.zeros_like(end.x), jnp.zeros_like(row.d), totals)
+        return through_restart(of_moved, own, row, behind, behind.x)
 
     return lax.cond(row.kind == RESTART, restart, event)
 
 
+def through_restart(
+    of_moved: OfMoved, own: list[Array], row: Row, behind: Adjoint, to_first: Array
+) -> Adjoint:
+    """The cotangents before another run begins: the one before feels nothing of it."""
+    pull = jax.vjp(lambda own: restarted(of_moved(own)[1], row.which), own)[1]
+    totals = [a + b for a, b in zip(behind.own, pull((to_first, behind.d))[0], strict=True)]
+    x, d = jax.tree.map(jnp.zeros_like, (behind.x, behind.d))
+    return Adjoint(behind.t, x, d, totals)
+
+
 def _through_rounds(
     of_moved: OfMoved,
-    events: Events,
     own: list[Array],
     t: Array,
     rounds: Round,
@@ -81,8 +88,9 @@ def _through_rounds(
         this = jax.tree.map(lambda a: a[k], rounds)
 
         def after(own: list[Array], t: Array, x: Array, x_before: Array, d: Array) -> Any:
-            at = values_at(of_moved(own)[1], t, x, d)
-            return after_round(events, at, Round(x, x_before, d, this.found))
+            problem = of_moved(own)[1]
+            at = values_at(problem, t, x, d)
+            return after_round(problem.watched, at, Round(x, x_before, d, this.found))
 
         args = own, t, this.x, this.x_before, this.d_before
         by_own, to_t, to_x, to_before, to_d = jax.vjp(after, *args)[1]((behind.x, behind.d))
@@ -111,7 +119,6 @@ class _Turns(NamedTuple):
 
 def _through_turns(
     of_moved: OfMoved,
-    events: Events,
     own: list[Array],
     row: Row,
     end: Reach,
@@ -120,7 +127,8 @@ def _through_turns(
 ) -> Adjoint:
     """The cotangents before an event, from those behind it: of each condition in turn, see `coinciding`."""
     problem = of_moved(own)[1]
-    rates = rates_at(problem, events, end.t)
+    events = problem.watched
+    rates = rates_at(problem, end.t)
     last = coinciding.count(row) - 1
     most = min(coinciding.MOST, events.n_guards)
     none = jnp.zeros_like(last)
@@ -136,7 +144,7 @@ def _through_turns(
         def onwards() -> _Turns:
             this = jax.tree.map(lambda a: a[n - 1], rounds)
             after = after_round(events, at, this)
-            waits = coinciding.still_wait(problem, events, row, turn, end.t, *after)
+            waits = coinciding.still_wait(problem, row, turn, end.t, *after)
             arrived = i == state.last
             fits = settled & waits & (~arrived | coinciding.same(after, then))
             following = jnp.where(fits, jnp.minimum(i + 1, state.last), 0)
@@ -157,13 +165,13 @@ def _through_turns(
             )
 
         def backwards() -> _Turns:
-            before = _through_rounds(of_moved, events, own, end.t, rounds, n, state.behind)
+            before = _through_rounds(of_moved, own, end.t, rounds, n, state.behind)
             previous = jnp.maximum(i - 1, 0)
             guard = coinciding.guard_of(row, i)
 
             def until(own: list[Array], t: Array, x: Array, d: Array) -> tuple[Array, Array]:
                 problem = of_moved(own)[1]
-                later = coinciding.until(problem, events, row, guard, t, x, d)
+                later = coinciding.until(problem, row, guard, t, x, d)
                 return jnp.where(i > 0, later[0], t), jnp.where(i > 0, later[1], x)
 
             pull = jax.vjp(until, own, end.t, x, d)[1]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.adaptive import runge_kutta
+from acausal.simulation.steps import runge_kutta
 from tests.support.parts import Equations
 
 TS = np.linspace(0, 2, 5)

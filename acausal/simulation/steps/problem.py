@@ -8,7 +8,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import Field
+from acausal.codegen import Events, Field
 
 
 class RightHandSide(Protocol):
@@ -42,6 +42,7 @@ class Problem(eqx.Module):
         max_steps: limit of steps, those that are repeated included.
         restarts: at which breaks another run begins, if any do. first: with which state.
         first_d: and with which discrete variables.
+        events: of the model; None for one without.
     """
 
     field: RightHandSide
@@ -57,9 +58,18 @@ class Problem(eqx.Module):
     restarts: Bool[Array, " n_breaks"] | None = None
     first: Float[Array, "n_breaks n_states"] | None = None
     first_d: Float[Array, "n_breaks n_discrete"] | None = None
+    events: Events | None = eqx.field(static=True, default=None)
 
-    def held(self, d: Float[Array, " n_discrete"]) -> Problem:
+    @property
+    def watched(self) -> Events:
+        """The events of a model that has some."""
+        assert self.events is not None
+        return self.events
+
+    def held(self, d: Float[Array, " n_discrete"] | None) -> Problem:
         """The problem between two events."""
+        if d is None:
+            return self
         return eqx.tree_at(lambda p: p.field.d, self, d, is_leaf=lambda leaf: leaf is None)
 
     def size(

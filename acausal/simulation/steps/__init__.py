@@ -1,0 +1,15 @@
+"""Steps in one loop, for every method, with events or without; what it did is kept, and derivatives make it again.
+
+In: a `Run` and a solver, or rows of samples. Out: a `Solution`, or an `Integrated`. `fixed_steps` makes fixed steps
+of models without events.
+"""
+
+from acausal.simulation.steps.over_rows import (
+    Adaptive as Adaptive,
+    integrate_in_steps as integrate_in_steps,
+)
+from acausal.simulation.steps.simulate_in_steps import simulate_in_steps as simulate_in_steps
+from acausal.simulation.steps.tolerances import (
+    Tolerance as Tolerance,
+    check_tolerances as check_tolerances,
+)

@@ -1,0 +1,246 @@
+"""What models with events need in the loop of steps: look for a change of a condition, end there, let it happen."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal._jax import cond_any, without_derivatives
+from acausal.codegen import Events, due, guards
+from acausal.initialization import COINCIDE
+from acausal.simulation.log import Log
+from acausal.simulation.steps.coinciding import follow_in_turn
+from acausal.simulation.steps.locate import POINTS, Hunt, look, no_hunt
+from acausal.simulation.steps.problem import Attempt, Counts, Problem
+from acausal.simulation.steps.rows import JUMP, STATE, TIMED, Reach, Row, follow, reach
+
+CROWD = 12
+"""So many events in sequence, each within `NEAR` of the one before: the model slides, or bounces for ever."""
+
+NEAR = 1e-10
+"""Of the span of a run: what counts as no time between two events."""
+
+DEADER = 10.0
+"""So many times farther must a condition's number go after an event that changed nothing."""
+
+
+class EventState(NamedTuple):
+    """What belongs to events, between two steps.
+
+    Attributes:
+        d: discrete variables. log: what has happened.
+        crowd: how many of the last events followed the one before at once. last: the time of the last event.
+        hunt: for the instant of the next.
+        dead: how far beyond zero a condition's number must be to count: more than zero where rounding and the errors of
+            steps have made an event that changed nothing.
+    """
+
+    d: Float[Array, " n_discrete"]
+    log: Log
+    crowd: Int[Array, ""]
+    last: Float[Array, ""]
+    hunt: Hunt
+    dead: Float[Array, " n_guards"]
+
+
+class Stop(NamedTuple):
+    """Where the next step ends at the latest, or where it has ended.
+
+    Attributes:
+        t: time. kind: what it is. which: its number, or that of the condition.
+        band: the conditions that change there, see `happen`; None without events.
+        times: at which conditions are known to change; None where none has such a time.
+        rounding: of their numbers. apart: times so near are the same instant.
+    """
+
+    t: Float[Array, ""]
+    kind: Int[Array, ""]
+    which: Int[Array, ""]
+    band: Any = None
+    times: Any = None
+    rounding: Any = None
+    apart: Any = None
+
+
+class Seen(NamedTuple):
+    """What a step has shown.
+
+    Attributes:
+        ok: whether it counts. stop: where it ends.
+        hunt: how the search for an instant goes on. grazes: whether the condition hardly changes there.
+    """
+
+    ok: Bool[Array, ""]
+    stop: Stop
+    hunt: Hunt
+    grazes: Bool[Array, ""]
+
+
+class Landing(NamedTuple):
+    """Where a step leads, behind what happens at its end.
+
+    Attributes:
+        t, x: time and state. memory: the method's. cost: of what happened.
+        d: discrete variables, and settled: whether they agree; None without events.
+        within: the interpolation within the step and its length, where they have derivatives of their own.
+    """
+
+    t: Float[Array, ""]
+    x: Float[Array, " n_states"]
+    memory: Any
+    cost: Counts
+    d: Any = None
+    settled: Any = None
+    within: tuple[Any, Array] | None = None
+
+
+def none_yet(events: Events, t: Array, d: Array, log: Log) -> EventState:
+    """Before the first event."""
+    zero, before = jnp.zeros((), jnp.int32), jnp.full_like(t, -jnp.inf)
+    return EventState(d, log, zero, before, no_hunt(events, t), jnp.zeros(events.n_guards, t.dtype))
+
+
+def sooner(held: Problem, t: Array, x: Array, stop: Stop) -> Stop:
+    """The time at which a condition is known to change, if that comes before the stop."""
+    events, span = held.watched, held.end - held.begin
+    band = -jnp.ones(events.n_guards, x.dtype)
+    if not events.timed.any():
+        return stop._replace(band=band)
+    apart = COINCIDE * jnp.maximum(jnp.abs(t), span)
+    known = lax.stop_gradient(due(events, held.field.at(t).values(x)))
+    times = jnp.where(known.t > t + apart, known.t, jnp.inf)
+    j = jnp.argmin(times)
+    first = times[j] <= stop.t + apart
+    rounding = 2 * apart * jnp.abs(known.rate)
+    return Stop(
+        jnp.where(first, times[j], stop.t),
+        jnp.where(first, TIMED, stop.kind).astype(jnp.int32),
+        jnp.where(first, j, stop.which).astype(jnp.int32),
+        jnp.where(first & (times <= times[j] + apart), rounding, band),
+        times,
+        rounding,
+        apart,
+    )
+
+
+def look_within(
+    method: Any,
+    held: Problem,
+    state: EventState,
+    made: Attempt,
+    t: Array,
+    h: Array,
+    stop: Stop,
+) -> Seen:
+    """See whether a condition changes in a step, and whether that ends where it does."""
+    events, ok, hunt = held.watched, made.accepted, state.hunt
+    if events.timed.all():
+        return Seen(ok, stop, hunt, jnp.array(False))
+    numbers = _numbers(method, held, made, t, h)
+    found = look(events, hunt, numbers, state.dead, state.d, *lax.stop_gradient((t, h)))
+    goes_on_hunting = found.hunt.active & (ok | hunt.active)
+    is_event, changing = found.is_event, found.band
+    if stop.times is not None:  # a condition whose time has come would be missed after the event
+        near = jnp.abs(stop.times - (t + h)) <= stop.apart
+        changing = jnp.where(near, jnp.maximum(changing, stop.rounding), changing)
+    return Seen(
+        (ok | is_event) & ~goes_on_hunting,
+        stop._replace(
+            kind=jnp.where(is_event, STATE, stop.kind).astype(jnp.int32),
+            which=jnp.where(is_event, found.which, stop.which).astype(jnp.int32),
+            band=jnp.where(is_event, changing, stop.band),
+        ),
+        found.hunt._replace(active=goes_on_hunting),
+        found.grazes,
+    )
+
+
+def land(
+    method: Any,
+    problem: Problem,
+    memory: Any,
+    row: Row,
+    made: Attempt,
+    h: Array,
+    seen: Seen,
+    plain: Landing,
+    happens: Bool[Array, ""],
+    *,
+    forward: bool,
+) -> Landing:
+    """Where a step leads: on, or behind the event at its end.
+
+    Arguments:
+        memory: the method's before it. row: the step. h: its length, with derivatives.
+        plain: where it leads if nothing happens. happens: whether something does.
+        forward: whether derivatives in forward mode must work.
+    """
+
+    def event() -> Landing:
+        end = Reach(plain.t, made.x, h, made.dense)
+        if forward:
+            end = reach(method, problem, row, row.t, row.x, row.d, is_event=True)
+        in_turn = follow_in_turn if forward and problem.watched.n_guards > 1 else None
+        t, after = follow(problem, row, end, row.d, in_turn)
+        begun, cost = method.begin(problem.held(after.d), t, after.x)
+        there = (end.dense, end.h) if forward else None
+        return Landing(t, after.x, begun, cost, after.d, after.settled, there)
+
+    def goes_on() -> Landing:
+        pairs = memory, made.memory
+        kept = jax.tree.map(lambda a, b: jnp.where(seen.hunt.active, a, b), *pairs)
+        within = (made.dense, h) if forward else None
+        return plain._replace(memory=kept, d=row.d, settled=jnp.array(True), within=within)
+
+    return cond_any(happens, event, goes_on)
+
+
+def after(
+    problem: Problem,
+    state: EventState,
+    row: Row,
+    made: Attempt,
+    seen: Seen,
+    landing: Landing,
+    happened: Bool[Array, ""],
+) -> EventState:
+    """What belongs to events behind a step."""
+    d, t = landing.d, landing.t
+    span = problem.end - problem.begin
+    moved = jnp.any(d != state.d) | jnp.any(landing.x != made.x) | (row.kind != STATE)
+    dead = jnp.where(row.band >= 0, jnp.maximum(DEADER * state.dead, row.band), state.dead)
+    dead = lax.stop_gradient(jnp.where(moved, 0.0, dead))
+    dead = jnp.where(happened, dead, state.dead)
+    happened = happened & moved
+    fired = jnp.where(row.kind == JUMP, -1, row.which)
+    log = state.log.with_event(
+        happened & (row.kind >= JUMP),
+        t,
+        fired,
+        (made.x, state.d),
+        (landing.x, d),
+        seen.grazes & (row.kind == STATE),
+    )
+    near = happened & (t - state.last < NEAR * span)
+    crowd = jnp.where(happened, jnp.where(near, state.crowd + 1, 0), state.crowd)
+    last = jnp.where(happened, lax.stop_gradient(t), state.last)
+    return EventState(d, log, crowd.astype(jnp.int32), last, seen.hunt, dead)
+
+
+def _numbers(
+    method: Any, held: Problem, made: Attempt, t: Array, h: Array
+) -> Float[Array, "n_points n_guards"]:
+    """The conditions' numbers at some points of a step; without derivatives."""
+    dense, t, h, end = lax.stop_gradient((made.dense, t, h, made.x))
+    field = without_derivatives(held).field
+
+    def at(fraction: Array) -> Array:
+        time = t + fraction * h
+        x = jnp.where(fraction == 1, end, method.between(dense, t, h, time))
+        return guards(held.watched, field.at(time).values(x))
+
+    return jax.vmap(at)(jnp.asarray(POINTS, h.dtype))

@@ -1,0 +1,322 @@
+"""The loop of steps: try one, keep it or take a shorter one, save what lies within it; then what happens at its end.
+
+Models without events go through it, too: what belongs to events is `None` in their state then, and costs nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from acausal._jax import cond_any, while_any
+from acausal.simulation.log import Log
+from acausal.simulation.steps import between_events
+from acausal.simulation.steps.between_events import EventState, Landing
+from acausal.simulation.steps.problem import Attempt, Counts, Problem
+from acausal.simulation.steps.rows import FREE, JUMP, RESTART, STOP, Row, restarted, stop_at
+
+REACHED, STIFF, EXHAUSTED, TOO_SHORT, UNSETTLED, CROWDED = range(6)
+"""Why a loop stopped: at the end; as the model is stiff; at the limit of steps; with steps that became too short; at an
+event without solution; as events follow each other without end."""
+
+LEFT = 1.0001
+"""A step that would end so near before a time at which steps must end goes up to it."""
+
+Saved = tuple[Array, Any]
+"""States, and discrete variables if there are events, at the times to save."""
+
+
+class Start(NamedTuple):
+    """Where a loop begins.
+
+    Attributes:
+        t, x: time and state. next: which is the next of the times to save.
+        d: discrete variables. log: the events so far. Both None without events.
+    """
+
+    t: Float[Array, ""]
+    x: Float[Array, " n_states"]
+    next: Int[Array, ""]
+    d: Float[Array, " n_discrete"] | None = None
+    log: Log | None = None
+
+
+class Found(NamedTuple):
+    """What a loop found.
+
+    Attributes:
+        saved: states at the times to save, shape (n_saved, n_states), and discrete variables (None without events); NaN
+            where the loop did not come.
+        t, x, d: where it stopped. next: the first of the times to save beyond.
+        why: it stopped there. counts: what it cost. log: what happened.
+    """
+
+    saved: Saved
+    t: Float[Array, ""]
+    x: Float[Array, " n_states"]
+    d: Any
+    next: Int[Array, ""]
+    why: Int[Array, ""]
+    counts: Counts
+    log: Log | None
+
+
+class Progress(NamedTuple):
+    """How far a run has come; all that it needs to go on.
+
+    Attributes:
+        t, x: time and state. next: the next of the times to save. ahead: the next time at which steps must end.
+        memory: the method's. why: it stopped (-1: it goes on). counts: what it has cost.
+        events: what belongs to events; None for a model without.
+    """
+
+    t: Float[Array, ""]
+    x: Float[Array, " n_states"]
+    next: Int[Array, ""]
+    ahead: Int[Array, ""]
+    memory: Any
+    why: Int[Array, ""]
+    counts: Counts
+    events: EventState | None
+
+    @property
+    def d(self) -> Float[Array, " n_discrete"] | None:
+        """Discrete variables; None without events."""
+        return None if self.events is None else self.events.d
+
+    def short(self) -> Progress:
+        """The same with room for one event, for what does not read the log."""
+        if self.events is None:
+            return self
+        return self._replace(events=self.events._replace(log=self.events.log.short()))
+
+
+def search(
+    method: Any,
+    problem: Problem,
+    start: Start,
+    *,
+    until_stiff: bool = False,
+    forward: bool = False,
+) -> Found:
+    """Go from a start to the end of a problem.
+
+    Arguments:
+        method: of the steps.
+        problem: what is integrated.
+        start: where.
+        until_stiff: whether to stop where stability limits the steps.
+        forward: whether derivatives in forward mode must work.
+    """
+    progress, saved = begin(method, problem, start)
+    last, saved, _ = advance(
+        method, problem, progress, saved, until_stiff=until_stiff, forward=forward
+    )
+    return found(problem, last, saved)
+
+
+def found(problem: Problem, last: Progress, saved: Saved) -> Found:
+    """The result of a run; with events, what is to be saved at its end is what follows the last of them."""
+    log = None
+    if last.events is not None:
+        left = ((jnp.arange(len(problem.ts)) >= last.next) & (last.why == REACHED))[:, None]
+        at_end = last.x, last.events.d
+        saved = jax.tree.map(lambda a, b: jnp.where(left, a, b), at_end, saved)
+        log = last.events.log
+    return Found(saved, last.t, last.x, last.d, last.next, last.why, last.counts, log)
+
+
+def begin(method: Any, problem: Problem, start: Start) -> tuple[Progress, Saved]:
+    """A run before its first step, and what is saved so far: nothing."""
+    memory, counts = method.begin(problem.held(start.d), start.t, start.x)
+    nothing = jax.tree.map(
+        lambda a: jnp.full((len(problem.ts), *a.shape), jnp.nan, start.x.dtype), (start.x, start.d)
+    )
+    ahead = jnp.searchsorted(problem.breaks, start.t, side="right")
+    why = jnp.where(start.t < problem.end, -1, REACHED)
+    following, ahead, why = (n.astype(jnp.int32) for n in (start.next, ahead, why))
+    events = None
+    if start.d is not None:
+        assert start.log is not None
+        events = between_events.none_yet(problem.watched, start.t, start.d, start.log)
+    return Progress(start.t, start.x, following, ahead, memory, why, counts, events), nothing
+
+
+def advance(
+    method: Any,
+    problem: Problem,
+    progress: Progress,
+    saved: Saved | None,
+    rows: Row | None = None,
+    *,
+    until_stiff: bool = False,
+    forward: bool = False,
+) -> tuple[Progress, Any, Row | None]:
+    """Make steps until the end, or until there is no more room for them.
+
+    Arguments:
+        method, problem, until_stiff, forward: as for `search`.
+        progress: so far.
+        saved: what is saved so far; ``None``: save nothing.
+        rows: room for what is needed to make these steps again, with a leading axis, if it is asked for.
+
+    Returns:
+        The progress, what is saved, and the rows filled from the first on.
+    """
+    before = progress.counts.steps
+    kinds = _kinds(problem)
+
+    def goes_on(carry: tuple[Progress, Any, Row | None]) -> Array:
+        c, _, rows = carry
+        running = c.why < 0
+        return running if rows is None else running & (c.counts.steps - before < len(rows.t))
+
+    def body(
+        carry: tuple[Progress, Any, Row | None], runs: Array
+    ) -> tuple[Progress, Any, Row | None]:
+        c, saved, rows = carry
+        held = problem.held(c.d)
+        stop = between_events.Stop(stop_at(problem, c.ahead), kinds[c.ahead], c.ahead)
+        if c.events is None:
+            until = jnp.where(stop.kind >= RESTART, _just_before(stop.t), stop.t)
+        else:
+            stop = between_events.sooner(held, c.t, c.x, stop)
+            until = stop.t
+        proposed, left = lax.stop_gradient(c.memory.h), until - c.t
+        to_stop = proposed * LEFT >= left
+        h = jnp.where(to_stop, left, proposed)
+        if c.events is not None and not problem.watched.timed.all():
+            hunt = c.events.hunt
+            h, to_stop = jnp.where(hunt.active, hunt.h, h), to_stop & ~hunt.active
+        made: Attempt = method.attempt(held, c.memory, c.t, h)
+        stop = stop._replace(kind=jnp.where(to_stop, stop.kind, FREE))
+        ok, seen = made.accepted, None
+        if c.events is not None:
+            seen = between_events.look_within(method, held, c.events, made, c.t, h, stop)
+            ok, stop = seen.ok, seen.stop
+        row = Row(c.t, lax.stop_gradient(h), stop.kind, stop.which, c.next, made.x, made.row)
+        if c.events is not None:
+            row = row._replace(x=c.x, d=c.events.d, band=stop.band)
+        t = jnp.where(ok, jnp.where(to_stop, stop.t, c.t + h), c.t)
+        landing = Landing(t, jnp.where(ok, made.x, c.x), made.memory, Counts.of())
+        happens = ok & (stop.kind >= RESTART) & runs
+        if seen is not None:
+            landing = between_events.land(
+                method, problem, c.memory, row, made, h, seen, landing, happens, forward=forward
+            )
+        elif len(problem.breaks):
+            landing = cond_any(
+                happens, lambda: _begun_again(method, problem, row, landing), lambda: landing
+            )
+        dense, length = landing.within or (made.dense, h)
+        between = partial(method.between, dense, c.t, length)
+        saved, following = _save(between, problem.ts, saved, c, landing.t, happens, runs)
+        if rows is not None:
+            k = jnp.where(ok & runs, c.counts.steps - before, len(rows.t))  # beyond: dropped
+            row = row._replace(next=following)
+            rows = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), rows, row)
+        t, x, memory = landing.t, landing.x, landing.memory
+        at_break = ok & to_stop & (t >= stop_at(problem, c.ahead))
+        ahead = (c.ahead + (at_break & (c.ahead < len(problem.breaks)))).astype(jnp.int32)
+        hunting = jnp.array(False) if seen is None else seen.hunt.active
+        counts = c.counts.plus(made.counts).plus(landing.cost)
+        counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~hunting))
+        why = jnp.where(counts.steps + counts.rejected >= problem.max_steps, EXHAUSTED, -1)
+        why = jnp.where(~ok & ~hunting & (c.t + memory.h <= c.t), TOO_SHORT, why)
+        reached, events = t >= problem.end, None
+        if seen is not None:
+            assert c.events is not None
+            events = between_events.after(problem, c.events, row, made, seen, landing, happens)
+            why = jnp.where(events.crowd >= between_events.CROWD, CROWDED, why)
+            why = jnp.where(landing.settled, why, UNSETTLED)
+            reached = reached & landing.settled
+        if until_stiff:
+            is_stiff = made.stiff if seen is None else made.stiff & ~happens
+            why = jnp.where(is_stiff, STIFF, why)
+        why = jnp.where(reached, REACHED, why).astype(jnp.int32)
+        after = Progress(t, x, following, ahead, memory, why, counts, events)
+        unchanged = c
+        if c.events is not None and events is not None:  # the log does not grow where a run is over
+            unchanged = c._replace(events=c.events._replace(log=events.log))
+        after = jax.tree.map(lambda a, b: jnp.where(runs, a, b), after, unchanged)
+        return after, saved, rows
+
+    return while_any(goes_on, body, (progress, saved, rows))
+
+
+def row_like(method: Any, problem: Problem, progress: Progress) -> Row:
+    """What one row looks like: something with its shapes and types."""
+    p = progress
+    made = eqx.filter_eval_shape(method.attempt, problem.held(p.d), p.memory, p.t, p.memory.h)
+    band = None if problem.events is None else jnp.zeros(problem.events.n_guards, p.t.dtype)
+    return Row(p.t, p.t, p.next, p.next, p.next, p.x, made.row, p.d, band)
+
+
+def _kinds(problem: Problem) -> Int[Array, " n_breaks_1"]:
+    """How steps end that end at breaks, or at the end."""
+    kinds = jnp.append(jnp.where(problem.jumps, JUMP, STOP), STOP)
+    if problem.restarts is not None:
+        kinds = jnp.where(jnp.append(problem.restarts, False), RESTART, kinds)
+    return kinds.astype(jnp.int32)
+
+
+def _begun_again(method: Any, problem: Problem, row: Row, landing: Landing) -> Landing:
+    """The method begins anew behind a jump of the right-hand side, and where another run begins."""
+    x = landing.x
+    if problem.first is not None:
+        x = jnp.where(row.kind == RESTART, restarted(problem, row.which)[0], x)
+    memory, cost = method.begin(problem, landing.t, x)
+    return landing._replace(x=x, memory=memory, cost=cost)
+
+
+def _just_before(t: Array) -> Array:
+    """A time that no rounding moves up to this one."""
+    low = jnp.asarray(-jnp.inf, t.dtype)
+    before = lax.stop_gradient(t)
+    return t + (jnp.nextafter(jnp.nextafter(before, low), low) - before)
+
+
+def _save(
+    between: Callable[[Array], Array],
+    ts: Array,
+    saved: Saved | None,
+    c: Progress,
+    reached: Array,
+    happens: Bool[Array, ""],
+    runs: Array,
+) -> tuple[Saved | None, Array]:
+    """What is saved up to the time reached, and the next of the times to save.
+
+    At the time of an event that is what follows it.
+    """
+    with_events = c.events is not None
+    if saved is None:
+        following = jnp.searchsorted(ts, reached, side="right")
+        if with_events:
+            left = jnp.searchsorted(ts, reached, side="left")
+            following = jnp.maximum(jnp.where(happens, left, following), c.next)
+        return None, following.astype(jnp.int32)
+    if not len(ts):
+        return saved, c.next
+
+    def is_within(state: tuple[Saved, Array]) -> Array:
+        j = state[1]
+        at = ts[jnp.minimum(j, len(ts) - 1)]
+        here = (at < reached) | ((at == reached) & ~happens) if with_events else at <= reached
+        return runs & (j < len(ts)) & here
+
+    def one(state: tuple[Saved, Array], within: Array) -> tuple[Saved, Array]:
+        saved, j = state
+        x = between(ts[jnp.minimum(j, len(ts) - 1)])
+        k = jnp.where(within, j, len(ts))
+        saved = jax.tree.map(lambda a, v: a.at[k].set(v, mode="drop"), saved, (x, c.d))
+        return saved, j + within
+
+    return while_any(is_within, one, (saved, c.next))

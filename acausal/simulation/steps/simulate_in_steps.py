@@ -1,0 +1,174 @@
+"""Simulation by the loop of steps: adaptive ones, and fixed ones of models with events."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import diffrax as dfx
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from acausal._jax import cast, known, traced
+from acausal.codegen import Field, Packed
+from acausal.errors import SimulationError, StepLimitError, listing
+from acausal.initialization import restless
+from acausal.simulation import solvers
+from acausal.simulation.inputs import TimeFunction, breaks, evaluate, evaluate_all
+from acausal.simulation.log import FEW_VALUES, VALUES, Log
+from acausal.simulation.run import Run
+from acausal.simulation.solution import Solution
+from acausal.simulation.statistics import Statistics
+from acausal.simulation.steps.loop import CROWDED, EXHAUSTED, REACHED, UNSETTLED, Found
+from acausal.simulation.steps.methods import paced
+from acausal.simulation.steps.problem import Problem
+from acausal.simulation.steps.solve import Solved, solve
+from acausal.simulation.steps.tolerances import Tolerance
+
+
+class ModelField(eqx.Module):
+    """The right-hand side of a model whose parameters and inputs are given: (time, state) -> derivative.
+
+    Attributes:
+        packed: parameters.
+        inputs: functions of time.
+        system: the model.
+        d: discrete variables, or None.
+    """
+
+    packed: Packed
+    inputs: tuple[TimeFunction, ...]
+    system: Any = eqx.field(static=True)
+    d: Float[Array, " n_discrete"] | None = None
+
+    def at(self, t: Array) -> Field:
+        """It at one time."""
+        return self.system.field(t, evaluate(self.inputs, t), self.packed, self.d)
+
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+        """The derivatives of the states."""
+        return self.at(t)(x)
+
+
+def simulate_in_steps(
+    run: Run,
+    saved: Float[np.ndarray, " n"],
+    solver: solvers.Solver | None,
+    rtol: Tolerance,
+    atol: Tolerance,
+    max_steps: int,
+    dtype: np.dtype[Any],
+    *,
+    ends: Float[np.ndarray, " n_ends"] | None = None,
+    forward: bool = False,
+) -> Solution:
+    """Simulate in steps that end where an input is known to jump, and at events.
+
+    Arguments:
+        run: what to simulate.
+        saved: times to save.
+        solver: a solver with an error estimate, or of fixed steps; ``None``: Tsit5, and a stiff method from where the
+            model is stiff.
+        rtol: relative tolerance of a step.
+        atol: absolute tolerance, in the states' units.
+        max_steps: limit of steps.
+        dtype: precision of time and states.
+        ends: of fixed steps of a model with events; by default, steps follow their errors.
+        forward: allow derivatives in forward mode only, of any order.
+
+    Raises:
+        SimulationError: if the end is not reached.
+    """
+    ts, jumps = breaks(run.inputs, run.begin, run.end)
+    method: Any = solver
+    if ends is not None:
+        inner = np.union1d(ts, ends[1:-1])
+        ts, jumps = inner, np.isin(inner, ts[jumps])
+        max_steps = max(max_steps, 20 * len(ends))
+        chosen = dfx.Tsit5() if solver is None else solver
+        method = paced(solvers.for_fixed_steps(chosen, dtype, direct=forward))
+    problem = Problem(
+        ModelField(run.start.packed, run.inputs, run.system, run.start.d),
+        run.start.x,
+        jnp.asarray(run.begin),
+        jnp.asarray(run.end),
+        jnp.asarray(saved),
+        jnp.asarray(ts),
+        jnp.asarray(jumps),
+        jnp.asarray(rtol, float),
+        jnp.asarray(atol, float),
+        max_steps,
+        events=run.system.events,
+    )
+    problem, d = cast((problem, run.start.d), dtype)
+    log = None
+    if d is not None:
+        room = FEW_VALUES if traced(problem, d) else VALUES
+        log = Log.empty(len(problem.x) + len(d), dtype, values=room)
+    solved = solve(problem, method, run.system.state_jacobian, d=d, log=log, forward=forward)
+    found, c = solved.found, solved.found.counts
+    x, saved_d = found.saved
+    if (why := known(found.why)) is not None and not traced(x):
+        if int(why) == REACHED:
+            run.refuse_broken(x, saved, solved.method)
+        else:
+            raise _stopped(run, solved, int(why), max_steps, ends is not None, solver is None)
+    statistics = Statistics(
+        solved.method, c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
+    )
+    u = evaluate_all(run.inputs, problem.ts)
+    values = cast(run.start, dtype)._replace(t=problem.ts, x=x, u=u, d=saved_d)
+    inputs = None if found.log is None else run.inputs
+    return Solution(values, run.system, statistics, found.log, inputs)
+
+
+def _stopped(
+    run: Run, solved: Solved, why: int, max_steps: int, has_dt: bool, automatic: bool
+) -> SimulationError:
+    """Why a run stopped short of its end."""
+    found = solved.found
+    reached = float(found.t)
+    where = (
+        f"The simulation with {solved.method} stopped at t = {reached:g} s, before {run.end:g} s"
+    )
+    last, events = _last(run, found), run.system.events
+    at = run.at(found.t, found.x)._replace(d=found.d)
+    if why == UNSETTLED and events is not None:
+        places = restless(events, at)
+        circle = listing(map(run.system.describe_discrete, places), 6) or "conditions"
+        return SimulationError(
+            f"{where}: at an event {circle} change each other without end{last}. Break the circle by pre(...)."
+        )
+    if why == CROWDED:
+        return SimulationError(
+            f"{where}: events follow each other without end{last}. The model slides along this condition, or bounces "
+            "for ever: give it a state of rest, or a hysteresis."
+        )
+    ahead = (run.end - run.begin) / max_steps if why == EXHAUSTED else run.end - reached
+    if reason := run.explain(at, 0.0 if found.log is not None else ahead):
+        return SimulationError(f"{where}{last}.{reason}")
+    if why != EXHAUSTED and has_dt:
+        return SimulationError(
+            f"{where}: its values are not finite{last}. The model diverges there, or is too fast for these steps: take "
+            "a shorter dt, or leave dt out for adaptive steps."
+        )
+    if why != EXHAUSTED:
+        return SimulationError(
+            f"{where}: its steps became too small, or its values not finite{last}. "
+            "The model may diverge there: check its parameters, initial values and inputs."
+        )
+    slides = "" if found.log is None else f"It has had {int(found.log.total)} events{last}. "
+    hint = "" if automatic else "it is stiff (choose solver='auto' or 'stiff'), "
+    return StepLimitError(
+        f"{where}, after max_steps={max_steps}. {slides}Perhaps {hint}it slides or diverges there, or its inputs are "
+        "rough (raise max_steps, loosen rtol, or give dt for fixed steps)."
+    )
+
+
+def _last(run: Run, found: Found) -> str:
+    """The conditions that changed last."""
+    if found.log is None:
+        return ""
+    words = list(dict.fromkeys(words for _, words in found.log.conditions(run.system)[-6:]))
+    return f" ({'; '.join(words)})" if words else ""
