@@ -25,7 +25,7 @@ def test_the_solution_is_that_of_lapack(n):
 def test_rows_are_exchanged():
     a = jnp.asarray([[0.0, 1.0, 0.0], [0.0, 1e-20, 1.0], [1.0, 0.0, 1e20]])
     b = jnp.asarray([2.0, 3.0, 0.0])
-    np.testing.assert_allclose(eliminate(a, b), [-3e20, 2.0, 3.0], rtol=1e-14)
+    np.testing.assert_allclose(eliminate(a, b), [-3e20, 2.0, 3.0], rtol=1e-12)
     assert (
         float(
             jnp.max(jnp.abs(eliminate(jnp.eye(4)[::-1], jnp.arange(4.0)) - jnp.arange(4.0)[::-1]))

@@ -156,10 +156,10 @@ def test_jit_vmap_and_grad_agree_with_the_plain_program(small):
     plain = [both(x, u, packed) for x, u in zip(xs, us, strict=True)]
     batch = jax.jit(jax.vmap(both, in_axes=(0, 0, None)))(xs, us, packed)
     for i in range(2):
-        np.testing.assert_allclose(batch[i], [p[i] for p in plain], rtol=1e-14)
+        np.testing.assert_allclose(batch[i], [p[i] for p in plain], rtol=1e-12)
 
     derivative = jax.jacobian(lambda x: both(x, us[0], packed)[0])(xs[0])
-    np.testing.assert_allclose(derivative, [[0.0, 1.0], [-2.0, -0.25]], atol=1e-14)
+    np.testing.assert_allclose(derivative, [[0.0, 1.0], [-2.0, -0.25]], atol=1e-12)
 
 
 def test_what_is_observed_together_is_computed_once(small):

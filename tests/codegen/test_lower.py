@@ -75,7 +75,7 @@ def by_jax(expression, points):
 @pytest.mark.parametrize("name", [*SMOOTH, *KINKED, *STEPPED])
 def test_values(name):
     expression = {**SMOOTH, **KINKED, **STEPPED}[name]
-    np.testing.assert_allclose(by_jax(expression, POINTS), by_sympy(expression, POINTS), rtol=1e-13)
+    np.testing.assert_allclose(by_jax(expression, POINTS), by_sympy(expression, POINTS), rtol=1e-11)
 
 
 @pytest.mark.parametrize("name", [*SMOOTH, *KINKED])
@@ -143,7 +143,7 @@ def test_functions_of_real_numbers_are_differentiated_as_such():
     weird = functions.Abs(sp.log(x)) + functions.sign(sp.log(x)) * x
     expected = sp.sign(sp.log(x)) * (1 / x + 1)
     np.testing.assert_allclose(
-        by_jax(sp.diff(weird, x), POINTS), by_sympy(expected, POINTS), rtol=1e-13
+        by_jax(sp.diff(weird, x), POINTS), by_sympy(expected, POINTS), rtol=1e-11
     )
 
 

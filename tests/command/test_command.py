@@ -1,7 +1,9 @@
 """The command line, as it is typed."""
 
 import csv
+import errno
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -93,7 +95,7 @@ def test_in_a_shell(folder: Path) -> None:
     done = shell("check", "oscillator.jsn", cwd=folder)
     assert done.returncode == 3
     assert done.stdout == ""
-    assert done.stderr == "error: oscillator.jsn: cannot be read (No such file or directory)\n"
+    assert done.stderr == f"error: oscillator.jsn: cannot be read ({os.strerror(errno.ENOENT)})\n"
     assert shell("--version", cwd=folder).stdout == f"acausal {ac.__version__}\n"
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -109,9 +111,10 @@ def test_swapped_arguments_get_one_sentence(tmp_path: Path):
 def test_files_that_cannot_be_read_or_written(
     tmp_path: Path, saved: Path, monkeypatch: pytest.MonkeyPatch
 ):
-    with pytest.raises(ac.DataError, match=r"cannot be read: No such file"):
+    missing = os.strerror(errno.ENOENT)
+    with pytest.raises(ac.DataError, match=f"cannot be read: {re.escape(missing)}"):
         ac.load_params(tmp_path / "none.safetensors", learned())
-    with pytest.raises(ac.DataError, match=r"cannot be written: No such file or directory\.$"):
+    with pytest.raises(ac.DataError, match=rf"cannot be written: {re.escape(missing)}\.$"):
         ac.save_params({}, tmp_path / "none" / "a.safetensors")
     tensors.write_arrays(tmp_path / "a.safetensors", {}, {"kind": "something else"})
     with pytest.raises(

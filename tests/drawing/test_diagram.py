@@ -6,7 +6,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
@@ -16,6 +15,7 @@ import pytest
 import acausal as ac
 from acausal.components import electrical as el, translational as tl
 from examples.qvm.model import with_networks
+from tests.support.counted import calls_below
 from tests.support.drawn import Bridge, Chain, Controller, Drive, Tree
 from tests.support.paths import ROOT
 
@@ -71,9 +71,9 @@ def test_a_ground_is_drawn_at_each_component_that_needs_it() -> None:
 
 
 def test_lists_are_one_box_with_a_count() -> None:
-    began = time.perf_counter()
-    drawing = ac.diagram(Chain(10_000))
-    assert time.perf_counter() - began < 10
+    chain = Chain(10_000)
+    with calls_below(8_000_000):
+        drawing = ac.diagram(chain)
     assert sorted(set(attributes(drawing, "component"))) == ["mass", "push", "spring", "wall"]
     assert {"mass (10000)", "spring (10000)"} <= set(texts(drawing))
     assert len(drawing.svg) < 10_000
@@ -202,10 +202,10 @@ def test_the_same_model_gives_the_same_drawing_whatever_the_hash_seed() -> None:
     assert len(found) == 1
 
 
-def test_two_hundred_components_take_seconds() -> None:
-    began = time.perf_counter()
-    placed = ac.diagram(Tree(100)).placed
-    assert time.perf_counter() - began < 10
+def test_two_hundred_components_take_little_work() -> None:
+    tree = Tree(100)
+    with calls_below(3_000_000):
+        placed = ac.diagram(tree).placed
     assert len(placed.boxes) == 199
     assert not list(placed.overlaps())
 

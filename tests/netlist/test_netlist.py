@@ -2,7 +2,6 @@
 
 import json
 import math
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -23,6 +22,7 @@ from acausal.components import (
 )
 from acausal.flattening.flat_model import FlatModel, flatten
 from examples.qvm import model as qvm
+from tests.support.counted import calls_below
 from tests.test_event_oracles import FOLDER as EVENTS, NETLISTS as WITH_EVENTS
 from tests.test_oracles import FOLDER, NETLISTS
 
@@ -711,8 +711,7 @@ def test_a_hostile_file_ends_in_one_sentence(name: str, file: Path) -> None:
     given, sentence = HOSTILE[name]
     text = given if isinstance(given, str | bytes) else json.dumps(given)
     file.write_bytes(text if isinstance(text, bytes) else text.encode())
-    began = time.perf_counter()
-    with pytest.raises(ac.NetlistError) as caught:
+    with calls_below(2_000_000), pytest.raises(ac.NetlistError) as caught:
         ac.load(file)
     message = str(caught.value)
     assert sentence in message
@@ -720,7 +719,6 @@ def test_a_hostile_file_ends_in_one_sentence(name: str, file: Path) -> None:
     assert len(message) < 1000
     assert "\n" not in message
     assert caught.value.__cause__ is None
-    assert time.perf_counter() - began < 5
 
 
 def test_files_that_are_not_there(tmp_path: Path) -> None:

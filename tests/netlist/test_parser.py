@@ -2,7 +2,6 @@
 
 import contextlib
 import math
-import time
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +14,7 @@ import acausal as ac
 from acausal.modeling import references
 from acausal.netlist.parser import ExpressionError, parse, parse_equation
 from acausal.netlist.printer import written
+from tests.support.counted import calls_below
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ def test_values(text: str, expected: Any) -> None:
     if isinstance(expected, bool | str | list | Medium):
         assert found == expected
     else:
-        assert found == pytest.approx(expected, rel=1e-14, abs=1e-15)
+        assert found == pytest.approx(expected, rel=1e-12, abs=1e-13)
 
 
 def test_names_come_before_constants() -> None:
@@ -221,11 +221,9 @@ def test_refusals(text: str, reason: str) -> None:
         "*".join(["9007199254740991"] * 500),
     ],
 )
-def test_nothing_takes_long(text: str) -> None:
-    began = time.process_time()
-    with contextlib.suppress(ExpressionError):
+def test_nothing_takes_much_work(text: str) -> None:
+    with calls_below(12_000_000), contextlib.suppress(ExpressionError):
         parse(text, lookup)
-    assert time.process_time() - began < 3
 
 
 # -- writing -----------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,6 +17,8 @@ from typing import Any, BinaryIO
 import pytest
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
+MOST_WAITS = 2000
+"""Looks at a page, 30 ms apart, until it counts as not loaded."""
 
 
 def need_browser() -> str:
@@ -56,8 +59,12 @@ class Browser:
         there = (
             f"document.readyState === 'complete' && location.href.startsWith({json.dumps(address)})"
         )
-        while not self.evaluate(there):
-            pass
+        for _ in range(MOST_WAITS):
+            if self.evaluate(there):
+                break
+            time.sleep(0.03)
+        else:
+            raise AssertionError(f"{address} is not loaded")
         self.settle()
 
     def settle(self) -> None:

@@ -1,6 +1,6 @@
 """A small training that is interrupted in many ways; run as a program, it waits to be killed.
 
-python -m tests.support.interrupted CHECKPOINT [EPOCH_AT_WHICH_A_WRITING_NEVER_ENDS]
+python -m tests.support.interrupted CHECKPOINT EPOCH_AT_WHICH_IT_WAITS [EPOCH_AT_WHICH_A_WRITING_NEVER_ENDS]
 """
 
 import os
@@ -30,8 +30,8 @@ def train(**chosen: Any) -> ac.Fit:
     return ac.fit(learned(), record(end=5.0), "mass.a", **(defaults | chosen))
 
 
-def main(path: str, never: str = "-1") -> None:
-    """Go on with the training, and say after every checkpoint how far it is."""
+def main(path: str, at: str, never: str = "-1") -> None:
+    """Go on with the training; say how far it is after the checkpoint of an epoch, and wait."""
     replace = Path.replace
 
     def replace_or_die(part: Path, target: Path) -> Path:
@@ -45,7 +45,9 @@ def main(path: str, never: str = "-1") -> None:
     def say(progress: Any) -> None:
         nonlocal done
         done = progress.epoch
-        print(done, flush=True)  # noqa: T201
+        if done >= int(at):
+            print(done, flush=True)  # noqa: T201
+            signal.pause()
 
     train(checkpoint=path, resume=True, observers=[say])
 

@@ -106,20 +106,19 @@ def test_a_training_that_has_ended_goes_on_to_where_it_is(tmp_path: Path):
 
 
 def killed(path: Path, at: int, never: int | None = None) -> None:
-    """Train in a process of its own until an epoch is reported, and kill it; or it kills itself while writing."""
+    """Train in a process of its own that waits at an epoch, and kill it there; or it kills itself while writing."""
     environment = os.environ | {
         "JAX_COMPILATION_CACHE_DIR": str(path.parent / "cache"),
         "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
     }
-    command = [sys.executable, "-m", "tests.support.interrupted", str(path)]
+    command = [sys.executable, "-m", "tests.support.interrupted", str(path), str(at)]
     command += [] if never is None else [str(never)]
     with subprocess.Popen(
         command, stdout=subprocess.PIPE, text=True, env=environment, cwd=ROOT
     ) as process:  # fmt: skip
         assert process.stdout is not None
-        for line in process.stdout:
-            if int(line) >= at:
-                process.kill()
+        if process.stdout.readline():
+            process.kill()
         assert process.wait() == -signal.SIGKILL
 
 

@@ -29,9 +29,12 @@ def alone():
     ],
 )
 def test_the_same_weights(processes, devices, alone, tmp_path):
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        address = f"127.0.0.1:{free.getsockname()[1]}"
+    free = (
+        socket.socket()
+    )  # kept, so that no other program gets the port; the coordinator shares it
+    free.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
+    free.bind(("127.0.0.1", 0))
+    address = f"127.0.0.1:{free.getsockname()[1]}"
     flags = f"--xla_force_host_platform_device_count={devices}"
     target = tmp_path / "weights.npy"
     started = [
@@ -52,7 +55,8 @@ def test_the_same_weights(processes, devices, alone, tmp_path):
         )
         for i in range(processes)
     ]
-    errors = [process.communicate(timeout=240)[1] for process in started]
+    with free:
+        errors = [process.communicate(timeout=240)[1] for process in started]
     assert not any(process.returncode for process in started), errors
     np.testing.assert_allclose(np.load(target), alone, rtol=0, atol=1e-10)
 
