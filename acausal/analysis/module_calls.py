@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
-from acausal.codegen import Values, chosen_module, evaluate, read, read_parameters
+from acausal.codegen import Packed, Values, chosen_module, evaluate, read, read_parameters
 from acausal.errors import ModelError, nearest
 from acausal.flattening import EquationGroup, Integers
 from acausal.modeling import ModuleCall, time
@@ -138,15 +138,22 @@ class Labels:
 
     Attributes:
         arguments: names with units, or expressions.
-        result: name with unit; empty where the law's value is no variable of the model.
+        result: name with unit of the variable that the law gives; empty where its value alone is no variable's.
+        factor: what the law is multiplied with to give that variable.
     """
 
     arguments: tuple[str, ...]
     result: str
+    factor: float = 1.0
 
 
-def labels(system: System, module: str) -> Labels:
+def labels(system: System, module: str, packed: Packed) -> Labels:
     """What a module takes and gives, by the first equation that calls it.
+
+    Arguments:
+        system: the model.
+        module: name of the module.
+        packed: the model's parameters, of which a factor may be made.
 
     Raises:
         ModelError: for a name that is no module of the model.
@@ -161,19 +168,39 @@ def labels(system: System, module: str) -> Labels:
             if not rows.size:
                 continue
             first = group.rows(rows[:1])
-            rest: Any = group.template.residual.xreplace({call: sp.Integer(0)})
-            result = _label(system, first, -rest if (-rest).is_Symbol else rest)
-            arguments = tuple(_label(system, first, a) or str(a) for a in call.args[2:])
-            return Labels(arguments, result)
+            arguments = tuple(_label(system, first, a) for a in call.args[2:])
+            given, factor = _given(first, call)
+            if given is None:
+                return Labels(arguments, "")
+            slots = zip(group.template.parameters, first.parameters[0].tolist(), strict=True)
+            values = {s: read_parameters(system.layout, p, packed) for s, p in slots}
+            return Labels(arguments, _label(system, first, given), float(evaluate(factor, values)))
     return Labels((), "")
 
 
+def _given(group: EquationGroup, call: Any) -> tuple[Any, Any]:
+    """The variable that is a law times a factor of numbers and parameters; None where it is more than that."""
+    template, law = group.template, sp.Dummy()
+    residual: Any = sp.expand(template.residual.xreplace({call: law}))
+    others = residual.free_symbols & {*template.variables, time}
+    if len(others) == 1:
+        (variable,) = others
+        factor = -residual.coeff(law) / residual.coeff(variable)
+        rest: Any = sp.simplify(residual - residual.coeff(variable) * (variable - factor * law))
+        known = {*template.parameters}
+        if variable in template.variables and rest == 0 and factor.free_symbols <= known:
+            return variable, factor
+    return None, sp.S.One
+
+
 def _label(system: System, group: EquationGroup, expression: Any) -> str:
-    """Name and unit of a variable of the first equation of a group; an empty text for anything else."""
+    """An expression of the first equation of a group by its names; a variable has its unit."""
     template, layout = group.template, system.flat.layout
     places = zip(template.variables, group.variables[0].tolist(), template.orders, strict=True)
-    for symbol, index, order in places:
-        if symbol == expression:
-            name = "der(" * order + layout.variable(index) + ")" * order
-            return f"{name} [{system.unit(name)}]".replace(" []", "")
-    return ""
+    names = {s: "der(" * k + layout.variable(i) + ")" * k for s, i, k in places}
+    if expression in names:
+        name = names[expression]
+        return f"{name} [{system.unit(name)}]".replace(" []", "")
+    parameters = zip(template.parameters, group.parameters[0].tolist(), strict=True)
+    names |= {s: layout.parameter(p) for s, p in parameters}
+    return str(expression.xreplace({s: sp.Symbol(name) for s, name in names.items()}))

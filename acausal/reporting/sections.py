@@ -38,6 +38,7 @@ class LearnedLaw(NamedTuple):
         seen: statistics of the network's arguments.
         samples: some of the values that its first argument had.
         argument, result: names with units of the first argument and of the value.
+        factor: by which the network's value was multiplied to give ``result``.
     """
 
     band: UncertainCurve
@@ -45,6 +46,7 @@ class LearnedLaw(NamedTuple):
     samples: Float[np.ndarray, " n_samples"]
     argument: str = "argument"
     result: str = ""
+    factor: float = 1.0
 
 
 def figure(size: tuple[float, float], draw: Callable[[Axes], None]) -> Figure:

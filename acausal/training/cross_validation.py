@@ -13,7 +13,7 @@ import numpy as np
 from acausal.errors import need_path
 from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_records
 from acausal.training.ensemble import Ensemble
-from acausal.training.record_fit import RecordFit, rms_of
+from acausal.training.record_fit import RecordFit, out_of_range, rms_of
 from acausal.training.result import Fit
 
 
@@ -143,6 +143,10 @@ class CrossValidation:
         page.table(self._header, self._rows())
         add_losses(page, {f"without {f.name}": f.fit.history for f in self.folds})
         add_records(page, "What was left out", {}, self.records, self._units)
+        for fold in self.folds:
+            for record in fold.fit.held_out.values():
+                if sentence := out_of_range(record, fold.fit):
+                    page.text(f"Without '{fold.name}': {sentence}")
         laws = Ensemble(self.fits).laws
         add_laws(page, self.fits[0].with_bands(laws))
         names = list(self.parameters)

@@ -118,7 +118,7 @@ def _record(system: System, record: RecordFit) -> dict[str, Any]:
 
 
 def _network(fit: TrainedModel, name: str, confidence: Confidence | None) -> dict[str, Any]:
-    found, statistics = labels(fit.system, name), fit.seen[name]
+    found, statistics = labels(fit.system, name, fit.system.pack(fit.params)), fit.seen[name]
     leaves = jax.tree.leaves(eqx.filter(fit.params[name], eqx.is_inexact_array))
     bounds = fit.ranges.get(name)
     band = None if confidence is None else confidence.laws.get(name)
@@ -136,7 +136,8 @@ def _network(fit: TrainedModel, name: str, confidence: Confidence | None) -> dic
         "result": found.result,
         "promises": list(promises_of(fit.params[name])),
         "weights": sum(int(np.size(leaf)) for leaf in leaves),
-        "one sigma": None if band is None else float(np.median(band.sigma)),
+        "factor": found.factor,
+        "one sigma": None if band is None else abs(found.factor) * float(np.median(band.sigma)),
     }
 
 

@@ -29,7 +29,7 @@ def law_blocks(fit: Trained, name: str, law: LearnedLaw) -> list[Block]:
     rest = np.asarray(seen.mean[1:])
     first = fit.problem.model_params(fit.problem.start())[name]
     curves = [
-        Curve("before", band.x, _values(first, band.x, rest), "before"),
+        Curve("before", band.x, law.factor * _values(first, band.x, rest), "before"),
         Curve("learned", band.x, band.law, "after", sigma=band.sigma),
     ]
     beside = parallel_law(fit.system, name, fit.system.pack(fit.params))

@@ -16,10 +16,13 @@ from acausal.simulation import Solution
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.page_subject import Trained
-from acausal.training.record_fit import RecordFit
+from acausal.training.record_fit import RecordFit, out_of_range
 
 RECORDS_SHOWN, POINTS, ALL_POINTS = 8, 10_000, 40_000
 """Records that are drawn, points in a plot, and points in all plots."""
+
+FAR = 20
+"""What is farther from a plot than so many times its height is no number of it."""
 
 
 def runs_of(fit: Trained) -> dict[str, Solution]:
@@ -71,6 +74,8 @@ def record_blocks(
     most = max(300, min(POINTS, ALL_POINTS // (len(shown) * len(units))))
     for name, record in shown:
         where = "" if len(records) == 1 else f" of '{name}'"
+        if records is not fit.records and (sentence := out_of_range(record, fit)):
+            yield Text(sentence)
         for i, (target, unit) in enumerate(units.items()):
             caption = f"{of}'{target}'{where}"
             yield from _record(record, before.get(name), i, target, unit, caption, most)
@@ -98,14 +103,23 @@ def _record(
         return
     runs: dict[Role, RecordFit] = {} if before is None else {"before": before}
     runs["after"] = record
-    low, high = float(np.nanmin(measured)), float(np.nanmax(measured))
-    room = 1.5 * (high - low) + 1e-12
+    window = _window(measured, [run.predicted[:, i] for run in runs.values()])
+    room = window[1] - window[0]
+    beyond = list[str]()
 
-    def near(values: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-        return np.clip(values, low - room, high + room)
+    def drawable(role: Role, values: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """What can be drawn: a curve leaves the plot, and what is far off is neither drawn nor read."""
+        if not np.isfinite(values).all():
+            beyond.append(f"{role} training the model diverges")
+        elif values.min() < window[0] or values.max() > window[1]:
+            beyond.append(
+                f"{role} training it reaches from {values.min():.4g} to {values.max():.4g}"
+            )
+        far = (values < window[0] - FAR * room) | (values > window[1] + FAR * room)
+        return np.where(np.isfinite(values) & ~far, values, np.nan)
 
     predicted: dict[Role, Float[np.ndarray, " n"]] = {
-        role: near(run.predicted[:, i]) for role, run in runs.items()
+        role: drawable(role, run.predicted[:, i]) for role, run in runs.items()
     }
     errors: dict[Role, Float[np.ndarray, " n"]] = {r: measured - y for r, y in predicted.items()}
     rows = kept_rows([measured, *predicted.values(), *errors.values()], most)
@@ -122,13 +136,40 @@ def _record(
             f" {len(rows)} of {len(record.time)} samples are drawn, among them the extremes of every stretch."
         )
     )
+    if beyond:
+        drawn += (
+            f" The plot shows what was measured, with room: {' and '.join(beyond)} {unit}.".replace(
+                " .", "."
+            )
+        )
     group = f"record {caption}"
-    yield Plot("", "time [s]", labelled(target, unit), tuple(above), group=group)
+    yield Plot(
+        "",
+        "time [s]",
+        labelled(target, unit),
+        tuple(above),
+        group=group,
+        limits=window if beyond else None,
+    )
     yield Plot(
         f"{caption[:1].upper()}{caption[1:]} as measured and simulated, and below it the error over time.{drawn}",
         "time [s]",
         f"error [{unit or '1'}]",
         tuple(below),
         group=group,
+        limits=_window(errors["after"], list(errors.values())) if beyond else None,
         low=True,
     )
+
+
+def _window(
+    values: Float[np.ndarray, " n"], curves: Sequence[Float[np.ndarray, " n"]]
+) -> tuple[float, float]:
+    """What a plot of values shows: all of the curves beside them that are within 1.5 times their range."""
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+    room = 1.5 * (high - low) or 0.05 * abs(high) or 1e-12
+    others = np.concatenate([[low, high], *curves])
+    others = others[np.isfinite(others)]
+    least, most = max(low - room, float(others.min())), min(high + room, float(others.max()))
+    return least - 0.04 * room, most + 0.04 * room

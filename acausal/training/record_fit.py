@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from jaxtyping import Float
@@ -11,6 +12,12 @@ from jaxtyping import Float
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.uncertainty.residuals import Piece, Residuals, residuals
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+OUTSIDE = 0.05
+"""A record is outside of the training's range if it leaves it by more than this part of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +87,50 @@ def residuals_of(records: Sequence[RecordFit]) -> tuple[Residuals, ...]:
         if pieces:
             found.append(residuals(name, pieces, float(records[0].sigma[i])))
     return tuple(found)
+
+
+class _Known(Protocol):
+    @property
+    def system(self) -> System: ...
+    @property
+    def records(self) -> Mapping[str, RecordFit]: ...
+
+
+def out_of_range(record: RecordFit, fit: _Known) -> str:
+    """A sentence on what of a record is outside of what a model was trained on; empty where nothing is.
+
+    Inputs and targets count, at samples where a target is measured, from `OUTSIDE` of the range in training on.
+
+    Arguments:
+        record: as predicted by the trained model.
+        fit: the training.
+    """
+    seen = [_measured(r) for r in fit.records.values()]
+    found: list[str] = []
+    for name, values in _measured(record).items():
+        known = np.concatenate([columns[name] for columns in seen])
+        if not (len(values) and len(known)):
+            continue
+        low, high, least, most = known.min(), known.max(), values.min(), values.max()
+        if max(low - least, most - high) > OUTSIDE * (high - low):
+            unit = fit.system.unit(name)
+            found.append(
+                f"'{name}' is from {least:.4g} to {most:.4g} {unit}".rstrip()
+                + f" (in training {low:.4g} to {high:.4g})"
+            )
+    if not found:
+        return ""
+    return f"'{record.name}' is outside of the training's range: {', '.join(found)}. There the model extrapolates."
+
+
+def _measured(record: RecordFit) -> dict[str, Float[np.ndarray, " m"]]:
+    """What is measured of inputs and targets, by name, where some target is."""
+    counts = np.isfinite(record.measured).any(axis=1)
+    columns = {
+        **record.inputs,
+        **{n: record.measured[:, i] for i, n in enumerate(record.targets)},
+    }
+    return {n: c[counts & np.isfinite(c)] for n, c in columns.items()}
 
 
 def of_records(

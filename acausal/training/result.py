@@ -339,12 +339,20 @@ class Fit:
         return rows
 
     def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
-        """Learned laws as reports show them: bands over their networks' arguments in training."""
+        """Learned laws as reports show them: over their arguments in training, in the quantity that the model has."""
+        packed = self.system.pack(self.params)
 
         def law(name: str, band: Band) -> LearnedLaw:
-            found = labels(self.system, name)
+            found = labels(self.system, name, packed)
             argument = found.arguments[0] if found.arguments else "argument"
-            return LearnedLaw(band, self.seen[name], self.samples(name), argument, found.result)
+            return LearnedLaw(
+                band.times(found.factor),
+                self.seen[name],
+                self.samples(name),
+                argument,
+                found.result,
+                found.factor,
+            )
 
         return {name: law(name, band) for name, band in bands.items()}
 

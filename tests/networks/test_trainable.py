@@ -121,7 +121,7 @@ def test_arguments_and_labels_of_networks_in_a_list():
     for i, stretched in ((1, 0.1), (2, 0.2), (3, 0.4)):
         seen = arguments(system, f"spring[{i}].net", at)
         np.testing.assert_allclose(seen, [[stretched]], rtol=1e-12)
-        found = labels(system, f"spring[{i}].net")
+        found = labels(system, f"spring[{i}].net", at.packed)
         assert found.arguments == (f"spring[{i}].s_rel [m]",)
         assert found.result == f"spring[{i}].f [N]"
     (together,) = calls(system, "spring[1].net", "spring[3].net")

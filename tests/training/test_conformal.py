@@ -61,6 +61,14 @@ def test_a_band_is_the_quantile_of_independent_errors():
     band = fit.conformal(noisy, 0.9, x0="model")
     assert band.width["mass.a"] == pytest.approx(1.645, abs=0.1)
     assert band.independent["mass.a"] > 0.5 * len(data)
+    head, target = repr(band).splitlines()
+    assert "hold 90 % of all measurements" in head
+    assert head.endswith("like the one that they were calibrated on: 'record'")
+    independent = f"{band.independent['mass.a']:.0f} independent samples"
+    assert target == f"  mass.a: ±{band.width['mass.a']:.4g} m/s2 (from errors worth {independent})"
+    halves = {"a": noisy.between(0, 1.0), "b": noisy.between(1.01, 2.0)}
+    both = repr(fit.conformal(halves, 0.9, x0="model"))
+    assert "records like the 2 that they were calibrated on: 'a', 'b'" in both
     with pytest.raises(ac.DataError, match=r"^level=1 is not a share of the samples"):
         fit.conformal(noisy, 1.0)
     with pytest.raises(ac.DataError, match=r"too few for level=0\.99: take a longer one"):

@@ -71,6 +71,10 @@ class Band:
     law: Float[np.ndarray, " points"]
     sigma: Float[np.ndarray, " points"]
 
+    def times(self, factor: float) -> Band:
+        """The band of a multiple."""
+        return Band(self.x, factor * self.law, abs(factor) * self.sigma)
+
 
 @dataclass(frozen=True, eq=False)
 class Confidence:

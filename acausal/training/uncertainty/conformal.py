@@ -11,7 +11,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError
+from acausal.errors import DataError, listing
 from acausal.training.objective.held_out import over
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
@@ -47,6 +47,7 @@ class Conformal:
         width: from a band's middle to its bounds, by target, in its unit.
         independent: how many independent samples the record is worth, by target; neighbouring samples are correlated.
         problem, trained: the trained model.
+        records: names of those that the bands were calibrated on.
     """
 
     level: float
@@ -54,6 +55,7 @@ class Conformal:
     independent: dict[str, float]
     problem: Problem
     trained: Trainable
+    records: tuple[str, ...]
 
     def predict(
         self,
@@ -81,8 +83,17 @@ class Conformal:
         }
 
     def __repr__(self) -> str:
-        widths = [f"  {n}: ±{w:.4g}" for n, w in self.width.items()]
-        return "\n".join([f"Conformal bands that hold {100 * self.level:g} % of", *widths])
+        count = len(self.records)
+        widths = [
+            f"  {n}: ±{w:.4g} {self.problem.system.unit(n)}".rstrip()
+            + f" (from errors worth {self.independent[n]:.0f} independent samples)"
+            for n, w in self.width.items()
+        ]
+        head = (
+            f"Bands that hold {100 * self.level:g} % of all measurements, on average over time, of records like "
+            f"the {'one' if count == 1 else count} that they were calibrated on: {listing(self.records, 5)}"
+        )
+        return "\n".join([head, *widths])
 
 
 def conformal(
@@ -103,7 +114,8 @@ def conformal(
     """
     if not 0 < level < 1:
         raise DataError(f"level={level:g} is not a share of the samples; give a number in (0, 1).")
-    found = predicted(problem, trained, data, x0)
+    records = records_of(data)
+    found = predicted(problem, trained, records, x0)
     if not all(np.isfinite(p.y).all() for p in found):
         raise DataError("The trained model diverges over the record; it has no bands.")
     width: dict[str, float] = {}
@@ -123,7 +135,7 @@ def conformal(
             )
         width[name] = float(np.quantile(column, raised, method="inverted_cdf"))
         independent[name] = float(count)
-    return Conformal(level, width, independent, problem, trained)
+    return Conformal(level, width, independent, problem, trained, tuple(records))
 
 
 class Predicted(NamedTuple):
