@@ -136,6 +136,39 @@ def test_blocks_are_found_and_numbered(tmp_path: Path) -> None:
     assert [len(block) - len(block.lstrip("\n")) for block in blocks(page)] == [2, 12]
 
 
+EXTRAS = {
+    "plot": r"\.plot\(",
+    "diagram": r"ac\.diagram\(",
+    "page": r"ac\.page\(|\.report\(",
+    "dataframe": r"\.to_dataframe\(",
+    "xarray": r"\.to_xarray\(",
+    "notebook": r"ac\.sliders\(",
+}
+"""What a page's code needs, by extra."""
+
+
+@pytest.mark.parametrize("name", ["README.md", "docs/index.md", "docs/getting-started.md"])
+def test_what_a_page_installs_is_what_its_code_needs(name: str) -> None:
+    """Of the pages on which readers begin; the first of several lines is for all of them."""
+    text = (ROOT / name).read_text(encoding="utf-8")
+    installed = re.findall(r"^pip install '\.\[(.*?)\]'", text, re.MULTILINE)
+    code = "\n".join(block for _, block in BLOCK.findall(text))
+    needed = {extra for extra, pattern in EXTRAS.items() if re.search(pattern, code)}
+    assert needed <= set(",".join(installed).split(","))
+    assert {"plot", "diagram", "page"} <= set(installed[0].split(","))
+
+
+def test_no_page_denies_what_there_is() -> None:
+    """Sentences that were true once."""
+    found = [
+        f"{page.name}: {sentence}"
+        for page in PAGES
+        for sentence in ("There are no events", "Gates have no delay", "not within the model")
+        if sentence in page.read_text(encoding="utf-8")
+    ]
+    assert found == []
+
+
 def test_how_it_works_names_modules_that_exist() -> None:
     text = (ROOT / "docs" / "how-it-works.md").read_text(encoding="utf-8")
     named = set(re.findall(r"`(\w+\.py)`", text))

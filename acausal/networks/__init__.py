@@ -31,12 +31,16 @@ from acausal.networks.min_slope import (
 from acausal.networks.mlp import MLP as MLP
 from acausal.networks.monotone import Monotone as Monotone
 from acausal.networks.passive import Passive as Passive, SameSign as SameSign
-from acausal.networks.promises import promises_of as promises_of
+from acausal.networks.promises import (
+    kept_promises as kept_promises,
+    promises_of as promises_of,
+)
 from acausal.networks.scaled import (
     EnergyLaw as EnergyLaw,
     Scaled as Scaled,
     inputs_of as inputs_of,
     law_of as law_of,
+    rise_of as rise_of,
 )
 from acausal.networks.symmetry import Even as Even, Odd as Odd
 from acausal.networks.trainable import (

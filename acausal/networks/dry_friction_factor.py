@@ -26,8 +26,12 @@ class DryFrictionFactor(eqx.Module):
 
     def __call__(self, x: ArrayLike) -> Float[Array, ""]:
         """The output for a scalar input."""
-        k = jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
-        return jnp.asarray(x) + jax.nn.softplus(self.height) * jnp.tanh(k * x)
+        return jnp.asarray(x) + jax.nn.softplus(self.height) * jnp.tanh(self.k * x)
+
+    @property
+    def k(self) -> Float[Array, ""]:
+        """How steeply it rises: within about ``1/k`` of zero."""
+        return jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
 
 
 class WithFactor(eqx.Module):

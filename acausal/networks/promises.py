@@ -33,16 +33,20 @@ WORDS = {
 
 def promises_of(network: object) -> tuple[str, ...]:
     """What a network's law promises for all weights, in words; nothing for a module of your own."""
-    kept = _of_law(network)
+    kept = kept_promises(network)
     return tuple(words for name, words in WORDS.items() if name in kept)
 
 
-def _of_law(net: Any) -> Promises:
-    """The names of promises."""
+def kept_promises(net: Any) -> Promises:
+    """What a network's law promises, by the names of `WORDS`."""
     if isinstance(net, EnergyLaw):
         return _of_derivative(_of_energy(net.net), net.inputs)
     rule = _LAWS.get(type(net))
-    return frozenset() if rule is None else frozenset(rule(net, _of_law(getattr(net, "net", None))))
+    return (
+        frozenset()
+        if rule is None
+        else frozenset(rule(net, kept_promises(getattr(net, "net", None))))
+    )
 
 
 def _of_energy(net: Any) -> Promises:

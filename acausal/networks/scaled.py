@@ -11,6 +11,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal.networks.arity import check_inputs
+from acausal.networks.dry_friction_factor import WithFactor
 from acausal.networks.mlp import Scale, scaled
 
 REACH = 1e6
@@ -77,3 +78,14 @@ def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
 def inputs_of(network: Callable[..., Array]) -> int:
     """How many inputs a network's law has; the others are secondary."""
     return network.inputs if isinstance(network, EnergyLaw) else 1
+
+
+def rise_of(network: object) -> Float[Array, ""]:
+    """Within what distance of zero a law may rise as dry friction does, in units of its first input; else infinite."""
+    scale, part = 1.0, network
+    while part is not None and not isinstance(part, WithFactor):
+        if isinstance(part, Scaled):
+            own = part.input_scale
+            scale *= own[0] if isinstance(own, tuple) else own
+        part = getattr(part, "net", None)
+    return jnp.asarray(jnp.inf) if part is None else scale / part.factor.k

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from acausal.pages.energy import LOSSES, Power, energy, gradient, powers
+from acausal.pages.energy import LOSSES, Power, energy, gradient, integrated, powers
 from acausal.pages.trajectories import labelled, thinned
 from acausal.reporting import Block, Curve, Plot, Text, table
 from acausal.system import System
@@ -47,9 +47,12 @@ def energy_blocks(
         if loss is not None and not power.effort:
             continue  # there the loss leaves as heat
         total = total + columns[power.flow] * _effort_values(system, power.effort, columns)
-    one = energy(layout.components[number], t, total, loss)
-    parts = {"taken in": one.taken, "dissipated": one.dissipated, "stored": one.stored}
-    shown = {name: part for name, part in parts.items() if part is not None}
+    if len(found) > 1 and not any(power.effort for power in found):
+        shown = _heat(path, t, {power.flow: columns[power.flow] for power in found})
+    else:
+        one = energy(layout.components[number], t, total, loss)
+        parts = {"taken in": one.taken, "dissipated": one.dissipated, "stored": one.stored}
+        shown = {name: part for name, part in parts.items() if part is not None}
     if not all(np.isfinite(part).all() for part in shown.values()):
         return [Text("Its energy is not known: the trajectory is not finite everywhere.")]
     least = 1e-5 * max(float(np.abs(part).max()) for part in shown.values())
@@ -61,6 +64,15 @@ def energy_blocks(
         table((f"energy{of}, until {t[-1]:g} s", "J"), rows),
         Plot(caption, "time [s]", labelled("energy", "J"), curves, group=f"card {path}"),
     ]
+
+
+def _heat(path: str, t: Numbers, flows: Mapping[str, Numbers]) -> dict[str, Numbers]:
+    """What flowed in through each connector of a component that conducts heat, and what stays if anything does."""
+    names = (flow.removeprefix(f"{path}.").rpartition(".")[0] for flow in flows)
+    entered = {f"in at {n}": integrated(t, q) for n, q in zip(names, flows.values(), strict=True)}
+    stays = np.sum(list(entered.values()), axis=0)
+    least = 1e-9 * max(float(np.abs(part).max()) for part in entered.values())
+    return entered if float(np.abs(stays).max()) <= least else {**entered, "stored": stays}
 
 
 def _powers(system: System, number: int) -> tuple[Power, ...]:

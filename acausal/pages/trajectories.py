@@ -22,6 +22,7 @@ def thinned(curves: Sequence[Curve], most: int) -> tuple[Curve, ...]:
         Curve(
             c.label, c.x[rows], c.y[rows], c.role,
             None if c.sigma is None else c.sigma[rows], c.dots, c.steps,
+            None if c.bounds is None else (c.bounds[0][rows], c.bounds[1][rows]),
         )
         for c in curves
     )  # fmt: skip

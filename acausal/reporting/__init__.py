@@ -43,6 +43,7 @@ from acausal.reporting.plot import (
     GUIDE as GUIDE,
     LEARNED as LEARNED,
     TRUTH as TRUTH,
+    InputStatistics as InputStatistics,
     UncertainCurve as UncertainCurve,
     plot_band as plot_band,
     plot_guides as plot_guides,
@@ -53,16 +54,6 @@ from acausal.reporting.plot import (
 from acausal.reporting.profiles import (
     Profiled as Profiled,
     plot_profile as plot_profile,
-)
-from acausal.reporting.records import (
-    add_predictions as add_predictions,
-    add_records as add_records,
-)
-from acausal.reporting.sections import (
-    LearnedLaw as LearnedLaw,
-    add_laws as add_laws,
-    add_losses as add_losses,
-    add_parameters as add_parameters,
 )
 from acausal.reporting.short_names import Short as Short, shorten as shorten
 from acausal.reporting.svg_plot import SmallCurve as SmallCurve, small_plot as small_plot

@@ -55,6 +55,11 @@ class UncertainCurve(Protocol):
         """The standard deviation."""
         ...
 
+    @property
+    def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
+        """Two standard deviations to either side, as far as it can be there."""
+        ...
+
 
 class Losses(Protocol):
     """Losses over the updates of a training, such as `Fit.history`; (epochs done, loss) in rows of two columns."""
@@ -141,7 +146,7 @@ def plot_guides(ax: Axes, seen: InputStatistics, start: float, end: float) -> No
 
 def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: str = "") -> None:
     """Draw a law with a band of two standard deviations to either side."""
-    low, high = law.law - 2 * law.sigma, law.law + 2 * law.sigma
+    low, high = law.bounds
     ax.fill_between(law.x, low, high, color=color, alpha=0.2, lw=0)
     ax.plot(law.x, law.law, color=color, lw=1.6, label=label)
 

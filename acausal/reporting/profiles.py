@@ -8,10 +8,15 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.reporting.drawing import need_axes, new_axes
-from acausal.reporting.sections import AFTER, MEASURED, NARROW
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+NARROW = (6.0, 3.2)
+"""Size of a figure, in inches."""
+
+MEASURED, AFTER = "#22303c", "#1f77b4"
+"""Colours of curves."""
 
 SHOWN = 4.0
 """Ratios are drawn up to so many times the bound."""

@@ -17,6 +17,9 @@ WIDTH, HEIGHT = 640, 190
 LEFT, RIGHT, TOP, BOTTOM = 64, 12, 24, 30
 """Size of a plot and its margins, in pixels."""
 
+DIGIT = 6.5
+"""How wide a digit is."""
+
 _Map = Callable[[np.ndarray], np.ndarray]
 
 POINTS = 600
@@ -30,14 +33,14 @@ class SmallCurve:
     Attributes:
         label: its name; empty for none.
         x, y: its points; NaN interrupts it.
-        sigma: half the width of a band around it, if it has one.
+        bounds: of a band around it, if it has one.
         steps: whether each value holds until the next.
     """
 
     label: str
     x: Float[np.ndarray, " n"]
     y: Float[np.ndarray, " n"]
-    sigma: Float[np.ndarray, " n"] | None = None
+    bounds: tuple[Float[np.ndarray, " n"], Float[np.ndarray, " n"]] | None = None
     steps: bool = False
 
 
@@ -80,7 +83,7 @@ def small_plot(
     parts += _axes(x0, x1, y0, y1, right, down, size, logarithmic)
     for number, curve in enumerate(reduced):
         color = COLORS[number % len(COLORS)]
-        if curve.sigma is not None:
+        if curve.bounds is not None:
             parts.append(_band(curve, color, right, down))
         parts.append(
             f'<path d="{_path(right(curve.x), down(curve.y), curve.steps)}" fill="none" '
@@ -99,7 +102,7 @@ def _scaled(curve: SmallCurve, logarithmic: bool) -> SmallCurve:
     if logarithmic:
         y = np.log10(y, where=y > 0, out=np.full(y.shape, np.nan))
     y = np.where(np.isfinite(y), y, np.nan)
-    return SmallCurve(curve.label, x, y, curve.sigma, curve.steps)
+    return SmallCurve(curve.label, x, y, curve.bounds, curve.steps)
 
 
 def _fewer(curve: SmallCurve) -> SmallCurve:
@@ -116,15 +119,13 @@ def _fewer(curve: SmallCurve) -> SmallCurve:
         else:
             kept.update((start + int(np.nanargmin(piece)), start + int(np.nanargmax(piece))))
     rows = sorted(kept)
-    sigma = None if curve.sigma is None else curve.sigma[rows]
-    return SmallCurve(curve.label, curve.x[rows], curve.y[rows], sigma, curve.steps)
+    bounds = curve.bounds and (curve.bounds[0][rows], curve.bounds[1][rows])
+    return SmallCurve(curve.label, curve.x[rows], curve.y[rows], bounds, curve.steps)
 
 
 def _extent(curves: Sequence[SmallCurve]) -> tuple[tuple[float, float], tuple[float, float]] | None:
     xs = [c.x[_finite(c.x)] for c in curves]
-    lows = [c.y - (0.0 if c.sigma is None else 2 * c.sigma) for c in curves]
-    highs = [c.y + (0.0 if c.sigma is None else 2 * c.sigma) for c in curves]
-    ys = [y[_finite(y)] for y in (*lows, *highs)]
+    ys = [y[_finite(y)] for c in curves for y in (c.y, *(c.bounds or ()))]
     if not any(map(len, xs)) or not any(map(len, ys)):
         return None
     x, y = np.concatenate(xs), np.concatenate(ys)
@@ -169,10 +170,11 @@ def _axes(
     width, height = size
     parts: list[str] = []
     for value in ticks(x0, x1, max(2, width // 90)):
-        x = float(right(np.asarray(value)))
+        x, text = float(right(np.asarray(value))), _number(value)
+        inside = min(x, width - DIGIT * len(text) / 2)
         parts.append(
             f'<path d="M{x:.1f} {TOP}V{height - BOTTOM}" stroke="currentColor" stroke-opacity="0.12"/>'
-            f'<text x="{x:.1f}" y="{height - BOTTOM + 14}" text-anchor="middle">{_number(value)}</text>'
+            f'<text x="{inside:.1f}" y="{height - BOTTOM + 14}" text-anchor="middle">{text}</text>'
         )
     found = ticks(y0, y1, max(3, (height - TOP - BOTTOM) // 24))
     whole = [v for v in found if float(v).is_integer()]
@@ -205,10 +207,11 @@ def _path(x: np.ndarray, y: np.ndarray, steps: bool) -> str:
 
 
 def _band(curve: SmallCurve, color: str, right: _Map, down: _Map) -> str:
-    assert curve.sigma is not None
-    known = np.isfinite(curve.y) & np.isfinite(curve.sigma)
-    x, y, sigma = curve.x[known], curve.y[known], curve.sigma[known]
-    around = np.concatenate([x, x[::-1]]), np.concatenate([y + 2 * sigma, (y - 2 * sigma)[::-1]])
+    assert curve.bounds is not None
+    low, high = curve.bounds
+    known = np.isfinite(low) & np.isfinite(high)
+    x, low, high = curve.x[known], low[known], high[known]
+    around = np.concatenate([x, x[::-1]]), np.concatenate([high, low[::-1]])
     outline = _path(right(around[0]), down(around[1]), False)
     return f'<path d="{outline}Z" fill="{color}" fill-opacity="0.22"/>'
 

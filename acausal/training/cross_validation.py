@@ -11,8 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.errors import need_path
-from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_records
+from acausal.pages import write_page
+from acausal.reporting import PageContent, table
 from acausal.training.ensemble import Ensemble
+from acausal.training.page_of_several import several_content
+from acausal.training.page_records import record_blocks
 from acausal.training.record_fit import RecordFit, out_of_range, rms_of
 from acausal.training.result import Fit
 
@@ -139,24 +142,30 @@ class CrossValidation:
 
     def report(self, folder: str | Path, title: str = "Cross-validation") -> Path:
         """Write a self-contained page, ``index.html`` in a folder; returns its path."""
-        page = Page(title, self.summary())
-        page.table(self._header, self._rows())
-        add_losses(page, {f"without {f.name}": f.fit.history for f in self.folds})
-        add_records(page, "What was left out", {}, self.records, self._units)
-        for fold in self.folds:
-            for record in fold.fit.held_out.values():
-                if sentence := out_of_range(record, fold.fit):
-                    page.text(f"Without '{fold.name}': {sentence}")
-        laws = Ensemble(self.fits).laws
-        add_laws(page, self.fits[0].with_bands(laws))
-        names = list(self.parameters)
+        return write_page(self.page_content(title), need_path(folder, "report"))
+
+    def page_content(self, title: str = "") -> PageContent:
+        """All that the page shows."""
+        first, names = self.fits[0], list(self.parameters)
         rows = [(fold.name, *(f"{fold.parameters[n]:.6g}" for n in names)) for fold in self.folds]
         rows.append(("mean ± deviation", *(_written(s) for s in self.parameters.values())))
-        if names:
-            unit = self.fits[0].problem.unit
-            header = ("without", *(f"{n} [{unit(n)}]" for n in names))
-            add_parameters(page, header, rows)
-        return page.write(need_path(folder, "report") / "index.html")
+        header = ("without", *(f"{n} [{first.problem.unit(n)}]" for n in names))
+        remarks = {
+            record.name: sentence
+            for fold in self.folds
+            for record in fold.fit.held_out.values()
+            if (sentence := out_of_range(record, fold.fit))
+        }
+        return several_content(
+            first,
+            title or "Cross-validation",
+            self.summary(),
+            table(self._header, self._rows()),
+            {"What was left out": [*record_blocks(first, self.records, {}, remarks=remarks)]},
+            Ensemble(self.fits).laws,
+            {f"without {fold.name}": fold.fit.history for fold in self.folds},
+            table(header, rows) if names else None,
+        )
 
     @property
     def _header(self) -> tuple[str, ...]:

@@ -17,9 +17,11 @@ from numpy.typing import ArrayLike
 from acausal.data import Data, RecordsLike
 from acausal.errors import TrainingError, need_compiled, need_path, shown
 from acausal.networks import law_of
-from acausal.reporting import Page, add_laws, add_losses, add_parameters, add_predictions
+from acausal.pages import write_page
+from acausal.reporting import PageContent, table
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
+from acausal.training.page_of_several import prediction_blocks, several_content
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import prepare, run
 from acausal.training.uncertainty.bumps import SIGMAS
@@ -105,27 +107,38 @@ class Ensemble:
 
     def report(self, folder: str | Path, title: str = "Ensemble") -> Path:
         """Write a self-contained page, ``index.html`` in a folder; returns its path."""
+        return write_page(self.page_content(title), need_path(folder, "report"))
+
+    def page_content(self, title: str = "") -> PageContent:
+        """All that the page shows."""
         best = self.best
         trained = ", ".join((*best.seen, *best.modifiers))
-        page = Page(
-            title,
+        lead = (
             f"{trained} trained {len(self.fits)} times on {best.samples_trained} samples of "
-            f"{', '.join(best.problem.targets)} in {best.seconds:.3g} s.",
+            f"{', '.join(best.problem.targets)} in {best.seconds:.3g} s."
         )
         rows = [
             (k, f"{fit.loss_before:.4g}", f"{fit.loss:.4g}", f"{fit.score:.4g}")
             for k, fit in enumerate(self.fits)
         ]
-        page.table(("member", "loss before", "after", "deciding loss"), rows)
-        add_losses(page, {f"member {k}": fit.history for k, fit in enumerate(self.fits)})
         units = {name: best.system.unit(name) for name in best.problem.targets}
-        add_predictions(page, best.records, self.predicted_records, units)
-        add_laws(page, best.with_bands(self.laws))
         changes = [
-            (name, f"{mean:+.4g}", f"{sigma:.2g}") for name, (mean, sigma) in self.modifiers.items()
+            (n, f"{mean:+.4g}", f"{sigma:.2g}") for n, (mean, sigma) in self.modifiers.items()
         ]
-        add_parameters(page, ("parameter", "change", "standard deviation"), changes)
-        return page.write(need_path(folder, "report") / "index.html")
+        return several_content(
+            best,
+            title or "Ensemble",
+            lead,
+            table(("member", "loss before", "after", "deciding loss"), rows),
+            {
+                "Measured and simulated": [
+                    *prediction_blocks(best.records, self.predicted_records, units)
+                ]
+            },
+            self.laws,
+            {f"member {k}": fit.history for k, fit in enumerate(self.fits)},
+            table(("parameter", "change", "standard deviation"), changes) if changes else None,
+        )
 
     def __repr__(self) -> str:
         losses = ", ".join(f"{fit.score:.4g}" for fit in self.fits)

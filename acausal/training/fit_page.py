@@ -31,7 +31,7 @@ from acausal.training.history import History
 from acausal.training.page_laws import SURE, law_blocks
 from acausal.training.page_records import record_blocks, runs_of
 from acausal.training.page_subject import Trained
-from acausal.training.record_fit import RecordFit
+from acausal.training.record_fit import RecordFit, out_of_range
 from acausal.training.uncertainty.confidence import Confidence
 from acausal.training.uncertainty.residuals import Residuals
 
@@ -71,10 +71,11 @@ def fit_content(
         over=f"Over the record '{next(iter(fit.records))}', before and after training.",
         laws=[Law(n, tuple(blocks)) for n, blocks in laws.items()],
     )
+    remarks = {n: out_of_range(record, fit) for n, record in fit.held_out.items()}
     parts: dict[str, Mapping[str, Sequence[Block | None]]] = {
         "Records": {
             "Measured and simulated": list(record_blocks(fit, fit.records, before)),
-            "Held out": list(record_blocks(fit, fit.held_out, {}, "held out, ")),
+            "Held out": list(record_blocks(fit, fit.held_out, {}, "held out, ", remarks)),
         },
         "Laws": {"Learned laws": [Text(SURE), *(b for blocks in laws.values() for b in blocks)] if laws else []},
         "Training": {

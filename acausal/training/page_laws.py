@@ -12,8 +12,8 @@ from jaxtyping import Float
 
 from acausal.networks import law_of
 from acausal.pages import parallel_law
-from acausal.reporting import Block, Curve, LearnedLaw, Plot, Text
-from acausal.training.page_subject import Trained
+from acausal.reporting import Block, Curve, Plot, Text
+from acausal.training.page_subject import LearnedLaw, Trained
 
 SURE = (
     "The band is two standard deviations wide to either side. Dashed lines mark one standard deviation of what the "
@@ -30,15 +30,23 @@ def law_blocks(fit: Trained, name: str, law: LearnedLaw) -> list[Block]:
     first = fit.problem.model_params(fit.problem.start())[name]
     curves = [
         Curve("before", band.x, law.factor * _values(first, band.x, rest), "before"),
-        Curve("learned", band.x, band.law, "after", sigma=band.sigma),
+        Curve("learned", band.x, band.law, "after", sigma=band.sigma, bounds=band.bounds),
     ]
     beside = parallel_law(fit.system, name, fit.system.pack(fit.params))
     remark = f"The law of '{name}' and how sure it is."
     if beside is not None:
         known = beside.value(band.x)
+        low, high = band.bounds
         curves += [
             Curve("known", band.x, known, "known"),
-            Curve("sum", band.x, known + band.law, "sum", sigma=band.sigma),
+            Curve(
+                "sum",
+                band.x,
+                known + band.law,
+                "sum",
+                band.sigma,
+                bounds=(known + low, known + high),
+            ),
         ]
         held = f" at {beside.held} = 0" if beside.held else ""
         others = ", ".join(f"'{n}'" for n in beside.names)

@@ -16,7 +16,7 @@ from acausal.simulation import Solution
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.page_subject import Trained
-from acausal.training.record_fit import RecordFit, out_of_range
+from acausal.training.record_fit import RecordFit
 
 RECORDS_SHOWN, POINTS, ALL_POINTS = 8, 10_000, 40_000
 """Records that are drawn, points in a plot, and points in all plots."""
@@ -53,7 +53,11 @@ def _run(problem: Problem, trainable: Trainable) -> Solution:
 
 
 def record_blocks(
-    fit: Trained, records: Mapping[str, RecordFit], before: Mapping[str, RecordFit], of: str = ""
+    fit: Trained,
+    records: Mapping[str, RecordFit],
+    before: Mapping[str, RecordFit],
+    of: str = "",
+    remarks: Mapping[str, str] | None = None,
 ) -> Iterable[Block]:
     """A table of errors, and every target over time with the error below it.
 
@@ -61,6 +65,7 @@ def record_blocks(
         fit: the training.
         records: by name, after training. before: before it; may be empty.
         of: what the captions begin with.
+        remarks: sentences above the plots of a record, by name.
     """
     if not records:
         return
@@ -74,7 +79,7 @@ def record_blocks(
     most = max(300, min(POINTS, ALL_POINTS // (len(shown) * len(units))))
     for name, record in shown:
         where = "" if len(records) == 1 else f" of '{name}'"
-        if records is not fit.records and (sentence := out_of_range(record, fit)):
+        if sentence := (remarks or {}).get(name):
             yield Text(sentence)
         for i, (target, unit) in enumerate(units.items()):
             caption = f"{of}'{target}'{where}"

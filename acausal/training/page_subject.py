@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Protocol
+from typing import NamedTuple, Protocol
 
-from acausal.reporting import LearnedLaw
+import numpy as np
+from jaxtyping import Float
+
+from acausal.reporting import InputStatistics
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.starts import Starts
@@ -13,8 +16,24 @@ from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band, Confidence
 from acausal.training.uncertainty.residuals import Residuals
 
-if TYPE_CHECKING:
-    pass
+
+class LearnedLaw(NamedTuple):
+    """A learned law.
+
+    Attributes:
+        band: the law with its standard deviation.
+        seen: statistics of the network's arguments.
+        samples: some of the values that its first argument had.
+        argument, result: names with units of the first argument and of the value.
+        factor: by which the network's value was multiplied to give ``result``.
+    """
+
+    band: Band
+    seen: InputStatistics
+    samples: Float[np.ndarray, " n_samples"]
+    argument: str = "argument"
+    result: str = ""
+    factor: float = 1.0
 
 
 class Trained(TrainedModel, Protocol):

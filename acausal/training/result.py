@@ -17,7 +17,7 @@ from acausal.data import RecordsLike
 from acausal.errors import TrainingError, nearest, need_path
 from acausal.networks import remove_offset
 from acausal.pages import write_page
-from acausal.reporting import LearnedLaw, PageContent
+from acausal.reporting import PageContent
 from acausal.training.export_with_card import export_with_card
 from acausal.training.fit_page import fit_content
 from acausal.training.fit_view import fit_view
@@ -30,6 +30,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.page_subject import LearnedLaw
 from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.starts import Starts

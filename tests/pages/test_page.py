@@ -175,6 +175,29 @@ def test_electrical_energy_becomes_heat():
     assert value("r", "dissipated") == pytest.approx(value("body", "stored"), rel=1e-6)
 
 
+class Wall(ac.Component):
+    """Two bodies that exchange heat."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.warm = th.HeatCapacitor(C=10.0, T=ac.Start(320.0, fixed=True))
+        self.cold = th.HeatCapacitor(C=20.0, T=ac.Start(290.0, fixed=True))
+        self.wall = th.ThermalConductor(G=5.0)
+        self.connect(self.warm.port, self.wall.port_a)
+        self.connect(self.wall.port_b, self.cold.port)
+
+
+def test_a_heat_conductor_passes_heat_on():
+    """It neither keeps nor loses any: what matters is what went through."""
+    run = ac.simulate(ac.compile(Wall()), (0, 5.0), dt=1e-2)
+    cards = component_cards(run.system, Known(run.packed, runs={"simulated": run}))
+    (card,) = (c for c in cards if c.path == "wall")
+    found = {n: float(v) for n, v in section(card, "Energy")[0].rows}
+    through = 20.0 * (float(run["cold.T"][-1]) - 290.0)
+    assert through > 50
+    assert found == pytest.approx({"in at port_a": through, "in at port_b": -through}, rel=1e-3)
+
+
 def test_signals_have_no_energy():
     assert powers("a", {}) is None
     assert integrated(np.array([0.0, 1.0, 3.0]), np.array([1.0, 1.0, 2.0])).tolist() == [0, 1, 4]

@@ -9,7 +9,7 @@ import pytest
 
 import acausal as ac
 from acausal.reporting import plot_over_time
-from acausal.reporting.sections import figure
+from acausal.reporting.drawing import new_axes
 from tests.support.paths import ROOT
 
 
@@ -24,9 +24,9 @@ def without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
     "draw",
     [
         lambda: plot_over_time([0.0, 1.0], {"y": [1.0, 2.0]}, {"y": "m"}),
-        lambda: figure((3, 2), lambda axes: None),
+        lambda: new_axes((3, 2)),
     ],
-    ids=["over time", "page"],
+    ids=["over time", "axes"],
 )
 def test_a_drawing_says_what_to_install(draw) -> None:
     with pytest.raises(ac.AcausalError, match=r"needs matplotlib: pip install 'acausal\[plot\]'"):

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from acausal.reporting import render
+from acausal.reporting import Card, Curve, PageContent, Plot, Section, render
 from acausal.reporting.page import plot_library
 from tests.support.browser import Browser, browser
 from tests.support.pages import EVIL, content
@@ -176,6 +177,44 @@ def test_a_band_stays_within_the_plot_and_says_how_sure_a_law_is(tab: Browser, p
     tab.move(**place)
     tab.settle()
     assert "±" in readings(tab, 4)[0]
+
+
+def test_a_printed_page_has_all_its_charts(tab: Browser, page: Path, tmp_path: Path):
+    """Also those of parts and components that were never shown, as wide as the paper."""
+    tab.open(page)
+    tab.evaluate("""addEventListener('beforeprint', () => { window.printed =
+        [...document.querySelectorAll('.plot')].map(f => ({
+            drawn: f.querySelectorAll('path.curve[d^=M]').length, width: f.getBoundingClientRect().width
+        })); })""")
+    tab.pdf(tmp_path / "page.pdf")
+    printed = tab.evaluate("window.printed")
+    assert len(printed) == tab.evaluate("document.querySelectorAll('.plot').length") > 3
+    assert all(plot["drawn"] >= 1 for plot in printed)
+    assert all(500 < plot["width"] < 720 for plot in printed)
+    assert (
+        tab.evaluate(
+            "[...document.querySelectorAll('[role=tabpanel]')].filter(p => p.offsetParent).length"
+        )
+        == 1
+    )
+
+
+@pytest.mark.parametrize("width", [PHONE, 1280])
+@pytest.mark.parametrize("library", [None, ""], ids=["interactive", "pictures"])
+def test_no_number_of_an_axis_is_cut(tab: Browser, tmp_path: Path, width: int, library: str | None):
+    if library is None and plot_library() is None:
+        pytest.skip("mpld3 is not installed.")
+    x = np.linspace(0.0, 1.2e5, 50)
+    plot = Plot("", "time [s]", "y", (Curve("a", x, x),))
+    told = PageContent("Page", "", "", (Card("", "Kind", "", False, (Section("", (plot,)),)),), ())
+    tab.open(written(tmp_path, told, library), width=width)
+    cut = tab.evaluate("""[...document.querySelectorAll('.plot svg')].flatMap(svg => {
+        const box = svg.getBoundingClientRect();
+        return [...svg.querySelectorAll('text')].map(t => t.getBoundingClientRect())
+            .filter(t => t.right > box.right + 0.5 || t.left < box.left - 0.5)
+            .map(t => [t.left - box.left, t.right - box.left, box.width]);
+    })""")
+    assert cut == []
 
 
 def test_a_long_title_is_broken(tab: Browser, tmp_path: Path):

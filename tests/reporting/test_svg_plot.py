@@ -55,7 +55,9 @@ def test_a_logarithmic_axis_leaves_out_what_is_not_positive() -> None:
 
 
 def test_a_band_and_steps() -> None:
-    text = small_plot([curve([1, 2, 3], sigma=np.full(3, 0.1)), curve([1, 2, 3], steps=True)])
+    text = small_plot(
+        [curve([1, 2, 3], bounds=(np.zeros(3), np.full(3, 4.0))), curve([1, 2, 3], steps=True)]
+    )
     assert "fill-opacity" in text
     assert "H" in text
 

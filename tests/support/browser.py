@@ -147,6 +147,11 @@ class Browser:
         found = self._ask("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
         path.write_bytes(base64.b64decode(found["data"]))
 
+    def pdf(self, path: Path) -> None:
+        """Print the page to a file."""
+        found = self._ask("Page.printToPDF", printBackground=True)
+        path.write_bytes(base64.b64decode(found["data"]))
+
     # -- the protocol ----------------------------------------------------------------------------------
 
     def _ask(self, method: str, **params: Any) -> dict[str, Any]:

@@ -158,7 +158,11 @@ def test_the_page_shows_bands(tmp_path: Path):
     text = trained().report(tmp_path, "Three").read_text(encoding="utf-8")
     for word in ("Three", "extra.net", "mass.m", "mass.a"):
         assert word in text
-    assert text.count("data:image/png;base64,") == 3
+    (plot,) = (p for p in trained().page_content().plots if p.ylabel.startswith("mass.a"))
+    mean = plot.curves[1]
+    band = trained().predicted["mass.a"]
+    np.testing.assert_allclose(mean.y, np.interp(mean.x, band.x, band.law), rtol=1e-12)
+    assert mean.sigma is not None
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,8 @@ def test_a_record_outside_of_the_trainings_range_says_so():
     assert "'d' is outside of the training's range: 'push.f' is from" in said
     assert "N (in training" in said
     assert "mass.s" not in said
-    blocks = list(record_blocks(fit, {"c": inside, "d": outside}, {}, "held out, "))
+    told = {r.name: out_of_range(r, fit) for r in (inside, outside)}
+    blocks = list(record_blocks(fit, {"c": inside, "d": outside}, {}, "held out, ", told))
     at = blocks.index(Text(said))
     shown = blocks[at + 2]
     assert isinstance(shown, Plot)

@@ -49,7 +49,8 @@ class Curve:
         label: what it is.
         x, y: its points; NaN breaks the curve.
         role: decides on its colour.
-        sigma: standard deviation of ``y``: a band of two of them is drawn to either side.
+        sigma: standard deviation of ``y``: a band of two of them is drawn to either side, or
+        bounds: of the band.
         dots: whether points are marked.
         steps: whether each value holds until the next.
     """
@@ -61,6 +62,14 @@ class Curve:
     sigma: Numbers | None = None
     dots: bool = False
     steps: bool = False
+    bounds: tuple[Numbers, Numbers] | None = None
+
+    @property
+    def band(self) -> tuple[Numbers, Numbers] | None:
+        """The lower and the upper end of its band, if it has one."""
+        if self.bounds is not None or self.sigma is None:
+            return self.bounds
+        return self.y - 2 * self.sigma, self.y + 2 * self.sigma
 
 
 @dataclass(frozen=True, eq=False)

@@ -112,7 +112,7 @@ function nearest(xs, x) {
 
 function drawPlot(figure) {
   const spec = data.plots[figure.dataset.plot];
-  const curves = spec.curves.map(c => ({ ...c, xs: read(c.x), ys: read(c.y), s: read(c.sigma), shown: true }));
+  const curves = spec.curves.map(c => ({ ...c, xs: read(c.x), ys: read(c.y), s: read(c.sigma), ends: c.band.map(read), shown: true }));
   const height = spec.low ? 150 : 270;
   const bar = d3.select(figure).insert("div", "figcaption").attr("class", "bar");
   const svg = d3.select(figure).insert("svg", "figcaption").attr("tabindex", 0).attr("role", "img")
@@ -130,7 +130,7 @@ function drawPlot(figure) {
       .on("click", () => { c.shown = !c.shown; c.key.attr("aria-pressed", c.shown); redraw(); });
     c.key.append("span").text(c.label);
     c.value = c.key.append("output");
-    if (c.s) c.band = inside.append("path").attr("class", "band " + c.color);
+    if (c.ends.length) c.strip = inside.append("path").attr("class", "band " + c.color);
     c.path = inside.append("path").attr("class", "curve " + c.color);
     if (c.dots) c.dotted = inside.append("g").attr("class", c.color);
     c.spot = svg.append("circle").attr("class", "dot " + c.color).attr("r", 3.5).attr("visibility", "hidden");
@@ -181,7 +181,8 @@ function drawPlot(figure) {
     y.domain(extent());
     const [a, b] = xs.domain();
     const right = width - MARGIN.right, bottom = height - MARGIN.bottom;
-    xAxis.attr("transform", `translate(0,${bottom})`).call(d3.axisBottom(xs).ticks(Math.max(3, width / 90)).tickSizeOuter(0));
+    xAxis.attr("transform", `translate(0,${bottom})`).call(d3.axisBottom(xs).ticks(Math.max(3, width / 90)).tickSizeOuter(0))
+      .selectAll("text").attr("dx", function (v) { return Math.min(0, width - 1 - this.getComputedTextLength() / 2 - xs(v)); });
     const largest = Math.max(...y.domain().map(Math.abs));
     const ticks = d3.axisLeft(y).ticks(spec.low ? 3 : 6, spec.log ? "~g" : largest < 1e-3 || largest >= 1e6 ? ".3~e" : undefined)
       .tickSizeOuter(0);
@@ -202,8 +203,8 @@ function drawPlot(figure) {
       const there = i => c.ys[i] !== null && (!spec.log || c.ys[i] > 0);
       const line = d3.line().defined(there).x(i => xs(c.xs[i])).y(i => y(c.ys[i]));
       c.path.attr("d", (c.steps ? line.curve(d3.curveStepAfter) : line)(rows));
-      if (c.band) c.band.attr("d", d3.area().defined(i => there(i) && c.s[i] !== null).x(i => xs(c.xs[i]))
-        .y0(i => y(c.ys[i] - 2 * c.s[i])).y1(i => y(c.ys[i] + 2 * c.s[i]))(rows));
+      if (c.strip) c.strip.attr("d", d3.area().defined(i => there(i) && c.ends.every(e => e[i] !== null)).x(i => xs(c.xs[i]))
+        .y0(i => y(c.ends[0][i])).y1(i => y(c.ends[1][i]))(rows));
       if (c.dotted) matched(c.dotted, "circle", rows.filter(there)).attr("class", "dot").attr("r", 2.2)
         .attr("cx", i => xs(c.xs[i])).attr("cy", i => y(c.ys[i]));
     }
@@ -268,17 +269,24 @@ function drawPlot(figure) {
 }
 
 const drawn = new Map();
-function drawVisible() {
+function drawVisible(everywhere) {
   if (!d3) return;
   for (const figure of all(".plot")) {
     if (!figure.offsetParent) continue;
     if (drawn.has(figure)) drawn.get(figure).resize();
     else {
       const box = figure.getBoundingClientRect();
-      if (box.top < innerHeight + 600) drawn.set(figure, drawPlot(figure));
+      if (everywhere || box.top < innerHeight + 600) drawn.set(figure, drawPlot(figure));
     }
   }
 }
+// On paper all parts are shown, and their plots are drawn, as wide as the paper.
+const paper = on => () => {
+  document.documentElement.classList.toggle("paper", on);
+  drawVisible(on);
+};
+addEventListener("beforeprint", paper(true));
+addEventListener("afterprint", paper(false));
 let waiting = false;
 for (const type of ["scroll", "resize"]) addEventListener(type, () => {
   if (waiting) return;

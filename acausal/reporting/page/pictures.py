@@ -7,13 +7,14 @@ import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from jaxtyping import Float
 
 from acausal.reporting.page.colors import colors
-from acausal.reporting.page.content import Curve, Plot
+from acausal.reporting.page.content import Curve, Numbers, Plot
 
 WIDTH, HEIGHT, LOW = 760.0, 270.0, 150.0
 LEFT, RIGHT, TOP, BOTTOM = 72.0, 746.0, 8.0, 38.0
+DIGIT = 8.0
+"""How wide a digit is at most."""
 
 Scale = Callable[[float], float]
 
@@ -56,8 +57,10 @@ def picture(plot: Plot) -> str:
     )
     parts.append(f'viewBox="{LEFT:g} {TOP:g} {RIGHT - LEFT:g} {bottom - TOP:g}">')
     for curve, color in zip(plot.curves, colors(plot.curves), strict=True):
-        if curve.sigma is not None:
-            parts.append(f'<path class="band {color}" d="{_band(curve, x, clipped)}"/>')
+        if curve.band is not None:
+            parts.append(
+                f'<path class="band {color}" d="{_band(curve, *curve.band, x, clipped)}"/>'
+            )
         parts.append(f'<path class="curve {color}" d="{_line(curve, x, clipped)}"/>')
     parts.append("</svg>")
     middle = (TOP + bottom) / 2
@@ -113,6 +116,8 @@ def _decades(low: float, high: float) -> list[float]:
 
 
 def _tick(x: float, y: float, value: float, anchor: str) -> str:
+    """A number at an axis; the last one below it is moved inwards where it would be cut."""
+    x = min(x, WIDTH - DIGIT * len(f"{value:.5g}") / 2)
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{value:.5g}</text>'
 
 
@@ -136,15 +141,14 @@ def _line(curve: Curve, x: Scale, y: Scale) -> str:
     return "".join(points)
 
 
-def _band(curve: Curve, x: Scale, y: Scale) -> str:
-    assert curve.sigma is not None
-    known = np.isfinite(curve.y) & np.isfinite(curve.sigma)
-    xs, ys, sigma = (a[known] for a in (curve.x, curve.y, curve.sigma))
+def _band(curve: Curve, low: Numbers, high: Numbers, x: Scale, y: Scale) -> str:
+    known = np.isfinite(low) & np.isfinite(high)
+    xs, low, high = (a[known] for a in (curve.x, low, high))
     if not len(xs):
         return ""
 
-    def side(x_values: Float[np.ndarray, " n"], values: Float[np.ndarray, " n"]) -> str:
+    def side(x_values: Numbers, values: Numbers) -> str:
         pairs = zip(x_values.tolist(), values.tolist(), strict=True)
         return "L".join(f"{x(a):.1f},{y(b):.1f}" for a, b in pairs)
 
-    return f"M{side(xs, ys + 2 * sigma)}L{side(xs[::-1], (ys - 2 * sigma)[::-1])}Z"
+    return f"M{side(xs, high)}L{side(xs[::-1], low[::-1])}Z"

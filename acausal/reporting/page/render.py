@@ -161,6 +161,7 @@ class _Writer:
                         "x": self.pool.add(curve.x, fine=True),
                         "y": self.pool.add(curve.y),
                         "sigma": self.pool.add(curve.sigma),
+                        "band": [self.pool.add(end) for end in curve.band or ()],
                         "dots": curve.dots,
                         "steps": curve.steps,
                     }

@@ -4,7 +4,8 @@ A law may change by small bumps over the range of its argument in training; trai
 may what each record has for itself: a trained initial state, parameters of its own. The sensitivity of the whole
 simulation to all of them gives the Fisher information, whose inverse is their covariance: a Laplace approximation in
 the space of functions, independent of the number of weights of a network. It does not resolve details of a law that are
-narrower than a bump, half a standard deviation of its input. Samples with correlated residuals count for less than one
+narrower than a bump, half a standard deviation of its input. The changes keep what the law promises: zero at zero, odd
+or even, and bands stay where the sign is promised. Samples with correlated residuals count for less than one
 each.
 """
 
@@ -24,7 +25,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
-from acausal.networks import law_of, output_scale
+from acausal.networks import kept_promises, law_of, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior, law_at
 from acausal.training.objective.problem import Problem
@@ -65,15 +66,26 @@ class Band:
     Attributes:
         x: the argument or the time.
         law, sigma: mean and standard deviation there; other arguments of a law are held at their mean.
+        sign: of the law where its promises settle it, 1 or −1; else 0. `bounds` are within it.
     """
 
     x: Float[np.ndarray, " points"]
     law: Float[np.ndarray, " points"]
     sigma: Float[np.ndarray, " points"]
+    sign: Float[np.ndarray, " points"] | float = 0.0
+
+    @property
+    def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
+        """Two standard deviations to either side, as far as the law's promises allow."""
+        low, high = self.law - 2 * self.sigma, self.law + 2 * self.sigma
+        low = np.where(self.sign > 0, np.maximum(low, 0.0), low)
+        return low, np.where(self.sign < 0, np.minimum(high, 0.0), high)
 
     def times(self, factor: float) -> Band:
         """The band of a multiple."""
-        return Band(self.x, factor * self.law, abs(factor) * self.sigma)
+        return Band(
+            self.x, factor * self.law, abs(factor) * self.sigma, np.sign(factor) * self.sign
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,11 +192,10 @@ def confidence(
     def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
         bumps, changes, own, along = jnp.split(scale * z, ends)
         nets = {
-            n: Bumped(
-                params[n] if move is None else move(along[a:b]),
-                bumps[k * BUMPS : (k + 1) * BUMPS],
-                bumped[n].centres,
-                bumped[n].width,
+            n: replace(
+                bumped[n],
+                net=params[n] if move is None else move(along[a:b]),
+                heights=bumps[k * BUMPS : (k + 1) * BUMPS],
             )
             for k, (n, (_, move), (a, b)) in enumerate(
                 zip(laws, ways, itertools.pairwise(bounds), strict=True)
@@ -413,5 +424,11 @@ def _band(
     law = jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x))
     shapes = np.asarray(jax.vmap(bumped.bumps)(jnp.asarray(x)))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
-    law = np.asarray(law)
-    return Band(x, law if law.ndim == 1 else law[:, 0], np.sqrt(np.maximum(variance, 0.0)))
+    law, kept = np.asarray(law), kept_promises(network)
+    sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
+    return Band(
+        x,
+        law if law.ndim == 1 else law[:, 0],
+        np.sqrt(np.maximum(variance, 0.0)),
+        1.0 if "positive" in kept else sign,
+    )

@@ -35,4 +35,4 @@ def confidence_view(
 
 
 def _drawn(band: UncertainCurve) -> str:
-    return small_plot([SmallCurve("", band.x, band.law, band.sigma)], size=SIZE)
+    return small_plot([SmallCurve("", band.x, band.law, band.bounds)], size=SIZE)

@@ -1,0 +1,102 @@
+"""The page of several trainings of one model: an ensemble, or the folds of a cross-validation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from acausal.pages import Known, Law, component_cards, labelled, schematic, summary
+from acausal.reporting import (
+    Block,
+    Curve,
+    PageContent,
+    Plot,
+    Tab,
+    Table,
+    Text,
+    broken_at_gaps,
+    kept_rows,
+    titled_sections,
+)
+from acausal.training.history import History
+from acausal.training.page_laws import SURE, law_blocks
+from acausal.training.page_records import RECORDS_SHOWN
+from acausal.training.page_subject import Trained
+from acausal.training.record_fit import RecordFit
+from acausal.training.uncertainty.confidence import Band
+
+POINTS = 4000
+"""Points in a plot."""
+
+
+def several_content(
+    fit: Trained,
+    title: str,
+    lead: str,
+    overview: Table,
+    records: Mapping[str, Sequence[Block]],
+    laws: Mapping[str, Band],
+    histories: Mapping[str, History],
+    parameters: Table | None,
+) -> PageContent:
+    """All that the page shows.
+
+    Arguments:
+        fit: the training with whose values the model is shown.
+        title, lead: headline, and a sentence below it.
+        overview: a row for each training.
+        records: sections on records, by title.
+        laws: by network, what was learned on average.
+        histories: by training.
+        parameters: that were trained.
+    """
+    known = {name: law_blocks(fit, name, law) for name, law in fit.with_bands(laws).items()}
+    parts: dict[str, Mapping[str, Sequence[Block | None]]] = {
+        "Result": {"": [overview], "Trained parameters": [parameters]},
+        "Records": records,
+        "Laws": {"Learned laws": [Text(SURE), *(b for law in known.values() for b in law)] if known else []},
+        "Training": {"Losses": [_losses(histories)]},
+    }  # fmt: skip
+    tabs = [Tab(name, titled_sections(blocks)) for name, blocks in parts.items()]
+    told = Known(fit.system.pack(fit.params), laws=[Law(n, tuple(b)) for n, b in known.items()])
+    return PageContent(
+        title,
+        lead,
+        schematic(fit.system.model),
+        component_cards(fit.system, told),
+        tuple(tab for tab in tabs if tab.sections),
+        f"{fit.system.flat.name}: {summary(fit.system)}",
+    )
+
+
+def _losses(histories: Mapping[str, History]) -> Plot:
+    curves = [
+        Curve(label, *history.full_loss.T.astype(float), dots=True)
+        for label, history in histories.items()
+    ]
+    positive = all(bool((curve.y > 0).all()) for curve in curves)
+    caption = "The losses over the whole record, update by update."
+    return Plot(caption, "epoch", "loss", tuple(curves), log=positive)
+
+
+def prediction_blocks(
+    records: Mapping[str, RecordFit],
+    predicted: Mapping[str, Mapping[str, Band]],
+    units: Mapping[str, str],
+) -> Iterable[Block]:
+    """Targets as measured, and as the members of an ensemble predict them on average; by record."""
+    for record, bands in list(predicted.items())[:RECORDS_SHOWN]:
+        where = "" if len(predicted) == 1 else f" of '{record}'"
+        for i, (name, band) in enumerate(bands.items()):
+            measured = records[record].measured[:, i]
+            low, high = band.bounds
+            rows = kept_rows([measured, low, high], POINTS)
+            samples = broken_at_gaps(records[record].time[rows], measured[rows])
+            mean = Curve(
+                "mean of the members", band.x[rows], band.law[rows], "after", band.sigma[rows]
+            )
+            yield Plot(
+                f"'{name}'{where}, two standard deviations of the members to either side.",
+                "time [s]",
+                labelled(name, units[name]),
+                (Curve("measured", *samples, "measured"), mean),
+            )

@@ -1,0 +1,68 @@
+"""The changes that a confidence allows a law keep what the law promises."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.networks import EnergyLaw, Even, kept_promises
+from acausal.training.uncertainty.bumps import Bumped, bumped_law
+from acausal.training.uncertainty.confidence import Band
+
+SEEN = np.random.default_rng(0).normal(0.1, 0.4, (500, 1))
+LAWS: dict[str, Any] = {
+    "plain": ac.networks.Law(),
+    "zero": ac.networks.Law(zero_crossing="offset"),
+    "passive": ac.networks.Law(passive=True),
+    "odd": ac.networks.Law(odd=True),
+    "energy": ac.networks.Energy(),
+    "odd energy": ac.networks.Energy(odd=True),
+    "passive energy": ac.networks.Energy(passive=True),
+    "even": lambda key: Even(ac.networks.MLP(1, key=jax.random.key(key))),
+}
+
+
+def changed(name: str) -> Bumped:
+    """A law with bumps of some height."""
+    law = bumped_law(LAWS[name](0), SEEN)
+    heights = jnp.asarray(np.random.default_rng(1).normal(size=len(law.centres)))
+    return Bumped(law.net, heights, law.centres, law.width, law.hole, law.mirrored)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_a_changed_law_keeps_its_promises(name: str) -> None:
+    law, kept = changed(name), kept_promises(LAWS[name](0))
+    x = jnp.asarray([0.05, 0.3, 0.9, -0.4])
+    here, there = jax.vmap(law.law)(x), jax.vmap(law.law)(-x)
+    if "zero" in kept:
+        assert abs(float(law.law(jnp.zeros(())))) < 1e-12
+    if "odd" in kept:
+        np.testing.assert_allclose(there, -here, atol=1e-12)
+    if "even" in kept:
+        np.testing.assert_allclose(there, here, atol=1e-12)
+    shapes = jax.vmap(law.bumps)(x)
+    assert float(jnp.abs(shapes).max()) > 0.5
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_areas_are_the_energies_of_bumps(name: str) -> None:
+    law = changed(name)
+    for x in (-0.7, 0.02, 0.5):
+        slope = jax.jacfwd(law.areas)(jnp.asarray(x))
+        np.testing.assert_allclose(slope, law.bumps(jnp.asarray(x)), atol=1e-12)
+    if isinstance(law.net, EnergyLaw):
+        force = jax.grad(law)(jnp.asarray(0.3))
+        assert float(force) == pytest.approx(float(law.law(jnp.asarray(0.3))))
+
+
+def test_a_band_stays_on_the_side_that_is_promised() -> None:
+    x = np.linspace(-2.0, 2.0, 5)
+    band = Band(x, 0.5 * x, np.full(5, 0.75), np.sign(x))
+    low, high = band.bounds
+    np.testing.assert_allclose(low, [-2.5, -2.0, -1.5, 0.0, 0.0])
+    np.testing.assert_allclose(high, [0.0, 0.0, 1.5, 2.0, 2.5])
+    for once, twice in zip(band.bounds, reversed(band.times(-1.0).bounds), strict=True):
+        np.testing.assert_allclose(once, -twice)
