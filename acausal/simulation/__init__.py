@@ -27,6 +27,8 @@ from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
     BDF as BDF,
     EXPLICIT as EXPLICIT,
+    STAGE_STEPS as STAGE_STEPS,
+    STAGE_TOLERANCE as STAGE_TOLERANCE,
     Scheme as Scheme,
     Solver as Solver,
     for_adaptive_steps as for_adaptive_steps,
@@ -34,6 +36,7 @@ from acausal.simulation.solvers import (
     solver_named as solver_named,
 )
 from acausal.simulation.stability import long_steps as long_steps
+from acausal.simulation.stages import KAPPA as KAPPA, SLOW as SLOW
 from acausal.simulation.steps import (
     Adaptive as Adaptive,
     check_tolerances as check_tolerances,

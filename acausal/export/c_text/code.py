@@ -143,6 +143,16 @@ def write_code(
         block = known.split(trace(excess, *zeros))
         arguments = known.arguments(block, _arguments(shapes))
         functions[EXCESS] = write_function(block, arguments, [(Buffer(EXCESS, "real", 1), 0)], file)
+    if system.edges:
+
+        def ahead(t: Any, x: Any, u: Any, p: Any, d: Any, apart: Any) -> Any:
+            found = system.edges.ahead(vector.packed(p), t, apart, d if n_discrete else None)
+            return jnp.stack([found.jump, found.bend])
+
+        block = known.split(trace(ahead, *zeros, zeros[0]))
+        own = [*_arguments(shapes), Argument(Buffer("apart", "real", None), ())]
+        into = [(Buffer("edge", "real", 2), 0)]
+        functions["ahead"] = write_function(block, known.arguments(block, own), into, file)
     if (events := system.events) is not None:
         buffers = event_buffers(events, len(system.states), len(system.inputs))
         for name, function in event_functions(events, vector).items():

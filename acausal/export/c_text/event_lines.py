@@ -239,8 +239,9 @@ STEP = """    const real begin = m->time, end = begin + h;
         find_due(m, m->e.u_from);
         for (int i = 0; i < GUARDS; i++)
             if (m->e.due[i] > t + apart && m->e.due[i] < soonest) soonest = m->e.due[i];
-        const int is_timed = soonest <= stop + apart;
+        int is_timed = soonest <= stop + apart;
         if (is_timed) stop = soonest;
+        EDGE
         for (int i = 0; i < GUARDS; i++) {
             if (!(m->e.due[i] > t + apart)) m->e.due[i] = INFINITY;
             m->e.rounding[i] = 2 * apart * fabs(m->e.rate[i]);
@@ -317,6 +318,7 @@ void NAME_completed(NAME *m) {
 
 NAME_real NAME_next_event(NAME *m) {
     real soonest = INFINITY;
+    NEXT_EDGE
     find_due(m, m->u);
     for (int i = 0; i < GUARDS; i++)
         if (m->e.due[i] > m->time + R(1e-12) * fabs(m->time) && m->e.due[i] < soonest) soonest = m->e.due[i];
@@ -348,13 +350,22 @@ NO_INPUTS = {
 }
 
 
-def filled(text: str, name: str, inputs: bool) -> Iterator[str]:
+EDGES = {
+    "EDGE": """find_edge(m, apart);
+        if (m->until < stop - apart) stop = m->until, is_timed = 0;""",
+    "NEXT_EDGE": """find_edge(m, APART(fabs(m->time)));
+    soonest = m->until;""",
+}
+
+
+def filled(text: str, name: str, inputs: bool, edges: bool) -> Iterator[str]:
     """The lines of one of these texts for a model.
 
     Arguments:
-        name: of the model. inputs: whether it has any.
+        name: of the model. inputs: whether it has any. edges: whether its rates jump or bend at known times.
     """
-    for word, lines in (INPUTS if inputs else NO_INPUTS).items():
+    words = (INPUTS if inputs else NO_INPUTS) | (EDGES if edges else dict.fromkeys(EDGES, ""))
+    for word, lines in words.items():
         text = text.replace(f"    {word}\n", f"    {lines}\n" if lines else "")
     text = text.replace("NAME", name).replace("UPPER", name.upper())
     if not inputs:

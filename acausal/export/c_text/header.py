@@ -99,9 +99,15 @@ def header(text: Text) -> str:
         *(
             [
                 f"    {name}_real matrix[{sizes.states**2}], from[{sizes.states}], scratch[{sizes.states}];",
+                f"    {name}_real seed[{sizes.states}];",
                 f"    int pivots[{sizes.states}];",
             ]
             if implicit
+            else []
+        ),
+        *(
+            [f"    {name}_real since, until; /* the edges around a step */"]
+            if text.has_edges
             else []
         ),
         f"    {name}_real work[{least(sizes.work)}];",
@@ -128,6 +134,13 @@ def header(text: Text) -> str:
         f"{name}_status {name}_step({name} *m, {name}_real h, const {name}_real *u_end);",
         *([text.directional_head() + ";"] if text.has_tangent else []),
         *([outside_head(name) + ";"] if text.watches else []),
+        *(
+            [
+                f"{name}_real {name}_next_event({name} *m); /* the next time at which the rates jump or bend */"
+            ]
+            if text.has_edges and not text.has_events
+            else []
+        ),
         *(_EVENT_HEADS.replace("NAME", name).splitlines() if text.has_events else []),
         "",
         "#endif",

@@ -22,10 +22,25 @@ from acausal.export.c_text.outside import (
     outside_lines,
 )
 from acausal.export.c_text.prelude import PRELUDE
-from acausal.export.c_text.steps import LU, NEWTON, attempt_lines, step_lines
-from acausal.export.c_text.text import Text, least
+from acausal.export.c_text.steps import attempt_lines, step_lines
+from acausal.export.c_text.text import Text, least, written
+from acausal.simulation import KAPPA, SLOW, STAGE_STEPS, STAGE_TOLERANCE
 
-NUMBERS = ("t", "seed_t", "initial")
+IN_PIECES = """    const real begin = m->time, end = begin + h, apart = APART(fabs(end) > h ? fabs(end) : h);
+    real from[INPUTS + 1], to[INPUTS + 1];
+    for (int i = 0; i < INPUTS; i++) from[i] = m->u[i];
+    while (m->time < end) {
+        find_edge(m, apart);
+        const real stop = m->until < end - apart ? m->until : end, share = (stop - begin) / h;
+        for (int i = 0; i < INPUTS; i++) to[i] = from[i] + share * ((u_end ? u_end[i] : from[i]) - from[i]);
+        const Status status = piece(m, stop - m->time, to);
+        m->time = stop;
+        if (status) return status;
+    }
+    return STATUS_OK;"""
+"""A step that is divided at edges."""
+
+NUMBERS = ("t", "seed_t", "initial", "apart")
 """Arguments that are single numbers."""
 
 
@@ -36,11 +51,13 @@ def source(text: Text) -> str:
     bodies = "\n".join(_without_comments(f.lines) for f in text.code.functions.values())
     lines = [
         f'#include "{name}.h"',
-        *(["#include <float.h>"] if text.has_events else []),
+        *(["#include <float.h>"] if text.has_events or text.has_edges else []),
         "#include <stddef.h>",
         "#include <tgmath.h>",
         "",
         f"typedef {name}_real real;",
+        f"typedef {name} Model;",
+        f"typedef {name}_status Status;",
         f"#define R(number) number{'##f' if text.precision == 'float' else ''}",
         f"enum {{ STATES = {text.code.sizes.states}, INPUTS = {text.code.sizes.inputs} }};",
         "",
@@ -65,6 +82,7 @@ def source(text: Text) -> str:
     if text.has_starts:
         lines += _function(text, "starts", ["t", "u"], ["x"])
     lines += _function(text, EXCESS, ["t", "x", "u"], [EXCESS]) if text.watches else []
+    lines += _edges(text)
     if text.scheme.implicit:
         lines += _implicit(text)
     lines += _events(text)
@@ -73,14 +91,16 @@ def source(text: Text) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _function(text: Text, name: str, arguments: list[str], results: list[str]) -> Iterator[str]:
+def _function(
+    text: Text, name: str, arguments: list[str], results: list[str], called: str = ""
+) -> Iterator[str]:
     """A function of the file: arguments, pointers to what it reads of the struct, statements."""
     function = text.code.functions[name]
     body = _without_comments(function.lines)
     head = [f"{text.name} *m"]
     head += [f"const real {'' if a in NUMBERS else '*'}{a}" for a in arguments]
     head += [f"real *restrict {r}" for r in results]
-    yield f"static void {name}({', '.join(head)}) {{"
+    yield f"static void {called or name}({', '.join(head)}) {{"
     for field in ("p", "known", "d"):
         if _mentions(body, field):
             const = "" if name == "recalibrate" and field == "known" else "const "
@@ -111,53 +131,37 @@ def _events(text: Text) -> Iterator[str]:
     yield ""
     for function, (own, result) in OF_EVENTS.items():
         yield from _function(text, function, ["t", "x", "u", *own], [result])
-    yield from filled(EVENT, text.name, inputs)
+    yield from filled(EVENT, text.name, inputs, text.has_edges)
     yield ""
     yield f"static {text.name}_status attempt({text.name} *m, const real t, const real h) {{"
     yield from _scheme_lines(text, attempt_lines(text.scheme, inputs))
     yield "}"
     yield ""
-    yield from filled(SEARCH, text.name, inputs)
+    yield from filled(SEARCH, text.name, inputs, text.has_edges)
     yield ""
 
 
 def _implicit(text: Text) -> Iterator[str]:
-    loose, tolerance = ("1e-3", "1e-6") if text.precision == "float" else ("1e-6", "1e-13")
-    yield f"#define TOLERANCE R({tolerance})"
-    yield f"#define LOOSE R({loose})"
-    yield from LU.splitlines()
-    yield ""
-    yield f"""/* Factors of 1 - h J. */
-static int factor({text.name} *m, const real h) {{
-    for (int j = 0; j < STATES; j++) {{
-        for (int i = 0; i < STATES; i++) m->stage[i] = 0;
-        m->stage[j] = 1;
-        jacobian_column(m, m->stage, m->scratch);
-        for (int i = 0; i < STATES; i++) m->matrix[i * STATES + j] = (i == j) - h * m->scratch[i];
-    }}
-    return lu_factor(m->matrix, m->pivots, STATES);
-}}""".replace("/* Factors", _column(text) + "\n/* Factors", 1)
-    yield ""
-    yield from NEWTON.replace("NAME", text.name).splitlines()
+    precision = "float64" if text.precision == "double" else "float32"
+    yield f"#define TOLERANCE R({STAGE_TOLERANCE[precision]!r})"
+    yield f"#define KAPPA R({KAPPA!r})"
+    yield f"#define SLOW R({SLOW!r})"
+    yield f"enum {{ STAGE_STEPS = {STAGE_STEPS} }};"
+    yield from _function(text, "column", ["t", "x", "u", "seed_x"], ["ddx"], "jacobian_column")
+    yield from written("newton.c")
     yield ""
 
 
-def _column(text: Text) -> str:
-    """A column of the Jacobian, by the derivative of the rates along a state."""
-    function = text.code.functions["column"]
-    lines = [
-        f"static void jacobian_column({text.name} *m, const real *seed_x, real *restrict ddx) {{"
-    ]
-    body = _without_comments(function.lines)
-    fields = {"p": "m->p", "known": "m->known", "d": "m->d", "x": "m->x", "u": "m->u"}
-    lines += [f"    const real *const {a} = {b};" for a, b in fields.items() if _mentions(body, a)]
-    if _mentions(body, "t"):
-        lines.append("    const real t = m->time;")
-    if not re.search(r"\bm\b", "\n".join([*lines[1:], body])):
-        lines.append("    (void)m;")
-    if not _mentions(body, "seed_x"):
-        lines.append("    (void)seed_x;")
-    return "\n".join([*lines, *function.lines, "}", ""])
+def _edges(text: Text) -> Iterator[str]:
+    """The next time at which the rates jump or bend, and on which side of it they are evaluated."""
+    if not text.has_edges:
+        yield "#define SIDED(t) (t)"
+        return
+    limits = "FLT" if text.precision == "float" else "DBL"
+    yield f"#define APART(size) (16 * {limits}_EPSILON * (size))"
+    yield from _function(text, "ahead", ["t", "apart"], ["edge"])
+    yield from written("edges.c")
+    yield ""
 
 
 def _public(text: Text, name: str, upper: str) -> Iterator[str]:
@@ -178,6 +182,8 @@ def _public(text: Text, name: str, upper: str) -> Iterator[str]:
     lines += fill_d
     yield f"void {name}_init({name} *m) {{"
     yield "    m->time = 0;"
+    if text.has_edges:
+        yield "    m->since = m->until = INFINITY;"
     yield from lines
     yield from starts
     if text.code.sizes.inputs:
@@ -205,21 +211,37 @@ def _public(text: Text, name: str, upper: str) -> Iterator[str]:
         ("outputs", "outputs", "y", text.code.sizes.outputs),
     ):
         yield f"{name}_status {name}_{what}({name} *m) {{"
-        yield f"    {call}(m, m->time, m->x, m->u, m->{field});"
+        time = "SIDED(m->time)" if call == "rates" else "m->time"
+        yield f"    {call}(m, {time}, m->x, m->u, m->{field});"
         yield f"    return all_finite(m->{field}, {size}) {finite}"
         yield "}"
         yield ""
-    yield f"{name}_status {name}_step({name} *m, const real h, const real *u_end) {{"
     inputs = bool(text.code.sizes.inputs)
+    head = f"{name}_status {name}_step({name} *m, const real h, const real *u_end) {{"
     if text.has_events:
-        yield from filled(STEP, name, inputs)
+        yield head
+        yield from filled(STEP, name, inputs, text.has_edges)
+    elif text.has_edges:
+        yield f"static {name}_status piece({name} *m, const real h, const real *u_end) {{"
+        yield from _scheme_lines(text, step_lines(text.scheme, inputs))
+        yield "}"
+        yield ""
+        yield head
+        yield from _scheme_lines(text, iter(IN_PIECES.splitlines()))
     else:
+        yield head
         yield from _scheme_lines(text, step_lines(text.scheme, inputs))
     yield "}"
+    if text.has_edges and not text.has_events:
+        yield ""
+        yield f"{name}_real {name}_next_event({name} *m) {{"
+        yield "    find_edge(m, APART(fabs(m->time)));"
+        yield "    return m->until;"
+        yield "}"
     if text.has_events:
         yield ""
         public = PUBLIC.replace("    START_D", "\n".join(fill_d))
-        yield from filled(public, name, inputs)
+        yield from filled(public, name, inputs, text.has_edges)
     if text.has_tangent:
         yield ""
         yield text.directional_head() + " {"

@@ -68,65 +68,6 @@ def scheme_named(name: str) -> Scheme:
     return Scheme(name, a, np.asarray(diagonal), b, c)
 
 
-NEWTON = """static int solve_stage(
-    NAME *m, const real t, const real *u, const real h, const real *from, real *k, real *x) {
-    /* k = rates(t, from + h k), by Newton's method with the factors of 1 - h J of this step */
-    real previous = INFINITY;
-    for (int n = 0; n < 50; n++) {
-        real size = 0;
-        for (int i = 0; i < STATES; i++) x[i] = from[i] + h * k[i];
-        rates(m, t, x, u, m->scratch);
-        for (int i = 0; i < STATES; i++) m->scratch[i] -= k[i];
-        lu_solve(m->matrix, m->pivots, m->scratch, STATES);
-        for (int i = 0; i < STATES; i++) {
-            k[i] += m->scratch[i];
-            const real part = h * m->scratch[i] / (R(1e-9) + fabs(x[i]));
-            size = size > fabs(part) || size != size ? size : fabs(part);
-        }
-        if (!isfinite(size)) return 0;
-        if (size <= TOLERANCE || (size >= previous && size < LOOSE)) return 1;
-        previous = size;
-    }
-    return 0;
-}"""
-
-LU = """static int lu_factor(real *a, int *p, const int n) {
-    for (int k = 0; k < n; k++) {
-        int r = k;
-        for (int i = k + 1; i < n; i++)
-            if (fabs(a[i * n + k]) > fabs(a[r * n + k])) r = i;
-        p[k] = r;
-        if (!(fabs(a[r * n + k]) > 0)) return 0;
-        if (r != k)
-            for (int j = 0; j < n; j++) {
-                const real swapped = a[k * n + j];
-                a[k * n + j] = a[r * n + j];
-                a[r * n + j] = swapped;
-            }
-        for (int i = k + 1; i < n; i++) {
-            const real f = a[i * n + k] /= a[k * n + k];
-            if (f != 0)
-                for (int j = k + 1; j < n; j++) a[i * n + j] -= f * a[k * n + j];
-        }
-    }
-    return 1;
-}
-
-static void lu_solve(const real *a, const int *p, real *b, const int n) {
-    for (int k = 0; k < n; k++) {
-        const real swapped = b[p[k]];
-        b[p[k]] = b[k];
-        b[k] = swapped;
-    }
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < i; j++) b[i] -= a[i * n + j] * b[j];
-    for (int i = n - 1; i >= 0; i--) {
-        for (int j = i + 1; j < n; j++) b[i] -= a[i * n + j] * b[j];
-        b[i] /= a[i * n + i];
-    }
-}"""
-
-
 def step_lines(scheme: Scheme, inputs: bool) -> Iterator[str]:
     """The body of a step: ``m->x`` and ``m->time`` move on by ``h``; inputs run from ``m->u`` to ``u_end``.
 
@@ -160,8 +101,8 @@ def attempt_lines(scheme: Scheme, inputs: bool) -> Iterator[str]:
         yield f"    const real *const end = {end};"
     yield from _stages(scheme, inputs)
     yield f"    for (int i = 0; i < STATES; i++) m->e.x_end[i] = m->x[i]{_combination(scheme.b)};"
-    yield f"    rates(m, t, m->x, {begin}, m->e.dx_begin);"
-    yield f"    rates(m, t + h, m->e.x_end, {end}, m->e.dx_end);"
+    yield f"    rates(m, SIDED(t), m->x, {begin}, m->e.dx_begin);"
+    yield f"    rates(m, SIDED(t + h), m->e.x_end, {end}, m->e.dx_end);"
     yield "    return all_finite(m->e.x_end, STATES) ? STATUS_OK : STATUS_NOT_FINITE;"
 
 
@@ -176,11 +117,9 @@ def _stages(scheme: Scheme, inputs: bool) -> Iterator[str]:
     else:
         yield "    const real *const u = m->u;"
     if scheme.implicit:
-        yield (
-            "    if (!factor(m, h * "
-            + literal(float(scheme.diagonal[-1]), "real")
-            + ")) return STATUS_SINGULAR;"
-        )
+        part = literal(float(scheme.diagonal[-1]), "real")
+        at = "SIDED(t), m->x, begin" if inputs else "SIDED(t), m->x, u"
+        yield f"    if (!factor(m, {at}, h * {part})) return STATUS_SINGULAR;"
     for s in range(scheme.stages):
         time = "t" if scheme.c[s] == 0 else f"t + {literal(float(scheme.c[s]), 'real')} * h"
         if inputs and (s == 0 or scheme.c[s] != scheme.c[s - 1]):
@@ -195,9 +134,9 @@ def _stages(scheme: Scheme, inputs: bool) -> Iterator[str]:
             yield f"    if (!solve_stage(m, {time}, u, {gamma} * h, m->from, k{s}, x)) return STATUS_NO_CONVERGENCE;"
         elif moved:
             yield f"    for (int i = 0; i < STATES; i++) x[i] = m->x[i]{moved};"
-            yield f"    rates(m, {time}, x, u, k{s});"
+            yield f"    rates(m, SIDED({time}), x, u, k{s});"
         else:
-            yield f"    rates(m, {time}, m->x, u, k{s});"
+            yield f"    rates(m, SIDED({time}), m->x, u, k{s});"
 
 
 def _combination(row: np.ndarray) -> str:

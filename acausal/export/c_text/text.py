@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.resources import files
 
 import numpy as np
 
@@ -49,6 +50,11 @@ class Text:
         return self.code.events is not None
 
     @property
+    def has_edges(self) -> bool:
+        """Whether the rates jump or bend at times that are known."""
+        return "ahead" in self.code.functions
+
+    @property
     def has_starts(self) -> bool:
         """Whether start values follow from time, inputs and parameters."""
         return "starts" in self.code.functions
@@ -91,3 +97,8 @@ class Text:
 def least(size: int) -> int:
     """C has no empty arrays."""
     return max(size, 1)
+
+
+def written(file: str) -> list[str]:
+    """The lines of a file of C in this folder."""
+    return files("acausal.export.c_text").joinpath(file).read_text("utf-8").splitlines()

@@ -213,9 +213,14 @@ static void give_start(Instance *c, Place place) {
         c->now.given[place.at - c->now.m.x + k * place.stride] = 1;
 }
 static int update(Instance *c, int *changed, int *has_next, double *next) {
-    (void)c;
     *changed = *has_next = 0;
     *next = 0;
+    calibrate(c);
+#if EDGES
+    moved(c);
+    *next = model_next_event(&c->now.m);
+    *has_next = isfinite(*next) != 0;
+#endif
     return OK;
 }
 static int find_indicators(Instance *c) { return (void)c, OK; }

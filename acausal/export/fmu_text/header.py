@@ -58,7 +58,13 @@ def model_header(
         "};",
         "",
         *(f"#define model_{f} {name}_{f}" for f in FUNCTIONS),
-        *(f"#define model_{f} {name}_{f}" for f in OF_EVENTS if text.code.events is not None),
+        *(f"#define model_{f} {name}_{f}" for f in OF_EVENTS if text.has_events),
+        *(
+            [f"#define model_next_event {name}_next_event"]
+            if text.has_edges and not text.has_events
+            else []
+        ),
+        f"#define EDGES {int(text.has_edges)} /* whether rates jump or bend at known times */",
         *(f"#define {t}_table {name}_{t}_table" for t in TABLES),
         f"#define WATCHES {int(text.watches)} /* whether it tells that a network leaves its range in training */",
         *(

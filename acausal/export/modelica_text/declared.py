@@ -11,12 +11,17 @@ import numpy as np
 import sympy as sp
 
 from acausal.export.modelica_text.spelling import class_name, comment, identifier, modifiers, unit
-from acausal.modeling import Component, Connector, Flow, Start, references
+from acausal.modeling import Component, Connector, Discrete, Flow, Output, Start, references
 
 Flat = dict[tuple[str, ...], str]
 """Texts of modifiers, by the names on the way to them."""
 
 ELEMENT = re.compile(r"(.+)\[[0-9,]+\]")
+
+
+def is_integer(declared: Any) -> bool:
+    """Whether a variable has the type Integer."""
+    return isinstance(declared, Discrete) and declared.kind != "real"
 
 
 def lies_within(value: Any, component: Component) -> bool:
@@ -43,10 +48,10 @@ def unused(wanted: str, taken: set[str]) -> str:
     return name
 
 
-def names_in_class(node: Any) -> tuple[dict[str, str], set[str]]:
-    """Names of a component's parts in its class, and all names that are taken there.
+def names_in_class(node: Any) -> tuple[dict[str, str], dict[str, str], set[str]]:
+    """Names of a component's parts in its class, of its discrete outputs, and all that are taken there.
 
-    An element of a list ``m[2]`` is ``m_2``.
+    An element of a list ``m[2]`` is ``m_2``. A discrete output ``y`` is a signal, and ``y_held``, which it equals.
     """
     taken = {name for name, _ in node.declarations()}
     taken |= {name for name in node.children if not ELEMENT.fullmatch(name)}
@@ -56,7 +61,22 @@ def names_in_class(node: Any) -> tuple[dict[str, str], set[str]]:
         else name
         for name in node.children
     }
-    return parts, taken
+    held = {
+        name: unused(f"{name}_held", taken)
+        for name, declared in node.declarations()
+        if isinstance(declared, Discrete) and isinstance(declared, Output)
+    }
+    return parts, held, taken
+
+
+def names_in_tree(model: Component) -> set[str]:
+    """All names of elements of the classes of a model; none may be that of a class, which it would hide."""
+    found: set[str] = set()
+    nodes = [model._node]
+    for node in nodes:
+        found |= names_in_class(node)[2]
+        nodes += [child._node for child in node.children.values()]
+    return found
 
 
 def connector_class(name: str, kind: type[Connector]) -> str:

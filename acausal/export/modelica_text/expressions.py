@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -10,8 +11,9 @@ from sympy.core.relational import Relational
 from sympy.printing.str import StrPrinter
 
 from acausal.errors import ModelError
+from acausal.export.modelica_text.discrete import cases, is_discrete, is_whole
 from acausal.export.modelica_text.spelling import number
-from acausal.modeling import HALF, INITIAL, Eq, Reinit, Tick, When
+from acausal.modeling import HALF, INITIAL, Eq, Floored, Reinit, Tick, When
 
 FUNCTIONS = {
     "Abs": "abs", "acos": "acos", "asin": "asin", "atan": "atan", "atan2": "atan2", "cos": "cos", "cosh": "cosh",
@@ -21,20 +23,33 @@ FUNCTIONS = {
 """Functions of Modelica by their names in equations."""
 
 
-class Printer(StrPrinter):
-    """Prints expressions for one class.
+@dataclass(frozen=True)
+class Names:
+    """What a class calls things; each that has no name yet gets one, with its equations.
 
-    Arguments:
-        name: the text of a reference. call: the text of a network that is applied.
+    Attributes:
+        reference: the text of a reference. call: of a network that is applied, by the printer of its arguments.
+        variable: of a variable that equals a text. tick: of the condition that is true at some instants only.
     """
+
+    reference: Callable[[Any], str]
+    call: Callable[[Any, Callable[[Any], str]], str]
+    variable: Callable[[str], str]
+    tick: Callable[[Tick], str]
+
+
+class Printer(StrPrinter):
+    """Prints expressions for one class."""
 
     printmethod = "_modelica"  # that of `str` would print names within their own components
 
-    def __init__(
-        self, name: Callable[[Any], str], call: Callable[[Any, Callable[[Any], str]], str]
-    ) -> None:
+    def __init__(self, names: Names) -> None:
         super().__init__({"order": "none"})
-        self.name, self.call = name, call
+        self.names = names
+
+    def literally(self, text: str) -> str:
+        """Something whose conditions are no events."""
+        return f"noEvent({text})"
 
     def print(self, expression: Any) -> str:
         """The text of an expression; of a condition, that of a number."""
@@ -56,6 +71,8 @@ class Printer(StrPrinter):
                 return f"not ({self.condition(expression.args[0])})"
             case Relational():
                 return self._relation(expression)
+            case Tick() | sp.Symbol(name=INITIAL.name):
+                return self.condition(sp.Gt(expression, HALF))
             case _ if expression.func is sp.ITE:
                 first, yes, no = map(self.condition, expression.args)
                 return f"(if {first} then {yes} else {no})"
@@ -64,9 +81,9 @@ class Printer(StrPrinter):
 
     def _relation(self, relation: Any) -> str:
         left, right = relation.args
-        if right == HALF and (left is INITIAL or isinstance(left, Tick)):
-            raised = isinstance(relation, sp.Gt | sp.Ge)
-            return self._print(left) if raised else f"not {self._print(left)}"
+        if right in (HALF, 0.5) and (left == INITIAL or isinstance(left, Tick)):
+            happens = "initial()" if left == INITIAL else self.names.tick(left)
+            return happens if isinstance(relation, sp.Gt | sp.Ge) else f"not {happens}"
         truth = right == HALF and left.is_Symbol  # a number that is 1 or 0
         half = "0.5" if truth else self.print(right)
         first = self.print(left)
@@ -88,26 +105,30 @@ class Printer(StrPrinter):
         )
 
     def _print_Reference(self, expr: Any) -> str:
-        return self.name(expr)
+        return self.names.reference(expr)
 
     def _print_Previous(self, expr: Any) -> str:
-        return f"pre({self.name(expr.reference)})"
+        return f"pre({self.names.reference(expr.reference)})"
 
     def _print_Tick(self, expr: Any) -> str:
-        return f"sample({self.print(expr.start)}, {self.print(expr.period)})"
+        return f"(if {self.condition(sp.Gt(expr, HALF))} then 1 else 0)"
 
     def _print_Symbol(self, expr: Any) -> str:
-        return str(expr.name)
+        return self._print_Tick(expr) if expr == INITIAL else str(expr.name)
 
     def _print_ModuleCall(self, expr: Any) -> str:
-        return self.call(expr, self.print)
+        return self.names.call(expr, self.print)
 
     def _print_Prescribed(self, expr: Any) -> str:
         return self.print(expr.args[2 + int(expr.args[0])])
 
     def _print_Watched(self, expr: Any) -> str:
         condition, value, otherwise, _ = expr.args
-        return f"(if {self.condition(condition)} then {self.print(value)} else {self.print(otherwise)})"
+        text = (
+            f"if {self.condition(condition)} then {self.print(value)} else {self.print(otherwise)}"
+        )
+        changes = all(is_whole(s) for s in condition.free_symbols)  # at events of others only
+        return self.literally(text) if changes else f"({text})"
 
     def _print_Piecewise(self, expr: Any) -> str:
         *cases, (last, always) = expr.args
@@ -118,21 +139,23 @@ class Printer(StrPrinter):
         chain = "".join(
             f"if {self.condition(holds)} then {self.print(value)} else " for value, holds in cases
         )
-        return f"noEvent({chain}{self.print(last)})" if cases else self.print(last)
+        return self.literally(f"{chain}{self.print(last)}") if cases else self.print(last)
 
     def _print_floor(self, expr: Any) -> str:
-        return f"noEvent(floor({self.print(expr.args[0])}))"
+        return self.literally(f"floor({self.print(expr.args[0])})")
 
     def _print_Floored(self, expr: Any) -> str:
         return f"floor({self.print(expr.args[0])})"
 
     def _print_ceiling(self, expr: Any) -> str:
-        return f"noEvent(ceil({self.print(expr.args[0])}))"
+        return self.literally(f"ceil({self.print(expr.args[0])})")
 
     def _print_Function(self, expr: Any) -> str:
         name = FUNCTIONS.get(type(expr).__name__)
         if name is None:
             return self.emptyPrinter(expr)
+        if name == "der" and not expr.args[0].is_Symbol:
+            return f"der({self.names.variable(self.print(expr.args[0]))})"
         return f"{name}({', '.join(self.print(a) for a in expr.args)})"
 
     _print_Abs = _print_sign = _print_Function
@@ -143,7 +166,7 @@ class Printer(StrPrinter):
 
     def _print_Mod(self, expr: Any) -> str:
         first, second = map(self.print, expr.args)
-        return f"noEvent(mod({first}, {second}))"
+        return self.literally(f"mod({first}, {second})")
 
     def _print_Max(self, expr: Any) -> str:
         return self._nested("max", expr.args)
@@ -158,7 +181,7 @@ class Printer(StrPrinter):
         return found
 
     def _print_Heaviside(self, expr: Any) -> str:
-        return f"noEvent(if {self.print(expr.args[0])} > 0 then 1 else 0)"
+        return self.literally(f"if {self.print(expr.args[0])} > 0 then 1 else 0")
 
     def _print_Pow(self, expr: Any, rational: bool = False) -> str:
         base, exponent = expr.args
@@ -188,27 +211,97 @@ class Printer(StrPrinter):
     _print_Half = _print_Rational
 
 
-def equation(printer: Printer, stated: Any, indent: str) -> list[str]:
+class AtEvents(Printer):
+    """Prints what is evaluated at events, where every condition is one."""
+
+    def literally(self, text: str) -> str:
+        """In parentheses, if need be."""
+        return f"({text})" if text.startswith("if ") else text
+
+    def whole(self, expression: Any) -> str:
+        """The text of an Integer, rounded branch by branch where it is real."""
+        if is_whole(expression):
+            return self.print(expression)
+        if isinstance(expression, sp.floor | Floored):
+            return f"integer({self.print(expression.args[0])})"
+        pairs, otherwise = cases(expression)
+        if not pairs:
+            return f"integer({self.print(expression)} + 0.5)"
+        chain = "".join(
+            f"if {self.condition(holds)} then {self.whole(value)} else " for holds, value in pairs
+        )
+        return f"({chain}{self.whole(otherwise)})"
+
+    def value(self, variable: Any, expression: Any) -> str:
+        """The text of what a variable becomes."""
+        whole = is_discrete(variable, "int", "bool")
+        return self.whole(expression) if whole else self.print(expression)
+
+
+def equation(names: Names, stated: Any, indent: str) -> list[str]:
     """The lines of an equation, or of what happens at an event."""
     match stated:
+        case Eq() if is_discrete(stated.lhs):
+            value = AtEvents(names).value(stated.lhs, stated.rhs)
+            return [f"{indent}{names.reference(stated.lhs)} = {value};"]
         case Eq():
-            return [f"{indent}{printer.print(stated.lhs)} = {printer.print(stated.rhs)};"]
+            left, right = map(Printer(names).print, (stated.lhs, stated.rhs))
+            if not stated.lhs.is_Symbol and any(map(is_whole, stated.lhs.free_symbols)):
+                return [
+                    f"{indent}0 = {right} - ({left});"
+                ]  # rumoca would solve it for what is discrete
+            return [f"{indent}{left} = {right};"]
         case When():
-            return _when(printer, stated, indent)
+            return _when(names, stated, indent)
         case _:
             raise ModelError(f"export.modelica: {type(stated).__name__} is no equation")
 
 
-def _when(printer: Printer, stated: When, indent: str) -> list[str]:
-    lines: list[str] = []
+def _when(names: Names, stated: When, indent: str) -> list[str]:
+    """All branches assign the same variables, each array as a whole (Modelica 3.6, section 8.3.5)."""
+    printer, lines = AtEvents(names), list[str]()
+    every = {s.lhs: None for link in stated.chain() for s in link.statements if isinstance(s, Eq)}
     for link in stated.chain():
-        conditions = list(map(printer.condition, link.conditions))
-        either = conditions[0] if len(conditions) == 1 else "{" + ", ".join(conditions) + "}"
+        texts = [
+            t for given in link.conditions for c in instants(given) for t in _comes(printer, c)
+        ]
+        either = texts[0] if len(texts) == 1 else "{" + ", ".join(texts) + "}"
         lines.append(f"{indent}{'elsewhen' if lines else 'when'} {either} then")
+        becomes = {v: f"pre({names.reference(v)})" for v in every}
         for statement in link.statements:
             if isinstance(statement, Reinit):
-                jump = f"reinit({printer.name(statement.state)}, {printer.print(statement.value)})"
-                lines.append(f"{indent}  {jump};")
+                state, value = names.reference(statement.state), printer.print(statement.value)
+                lines.append(f"{indent}  reinit({state}, {value});")
             else:
-                lines += equation(printer, statement, indent + "  ")
+                becomes[statement.lhs] = printer.value(statement.lhs, statement.rhs)
+        named = {names.reference(v): text for v, text in becomes.items()}
+        lines += [f"{indent}  {name} = {text};" for name, text in _arrays(named).items()]
     return [*lines, f"{indent}end when;"]
+
+
+def instants(condition: Any) -> tuple[Any, ...]:
+    """The parts of a condition that are joined by "or", if one of them is true at instants only."""
+    return condition.args if isinstance(condition, sp.Or) and condition.has(Tick) else (condition,)
+
+
+def _comes(printer: Printer, condition: Any) -> list[str]:
+    """The text of a condition of a when-clause; of a counted instant another one, which is true at the start."""
+    text = printer.condition(condition)
+    if not condition.has(Tick) or text.startswith("sample("):
+        return [text]
+    start = printer.print(next(iter(condition.atoms(Tick))).start)
+    return [text, f"initial() and time >= {start} and time <= {start}"]
+
+
+def _arrays(texts: Mapping[str, str]) -> dict[str, str]:
+    """Elements ``x[1]``, ``x[2]`` ... as one array, ``x``; all of them are there."""
+    found: dict[str, str] = {}
+    groups: dict[str, list[str]] = {}
+    for name, text in texts.items():
+        array, bracket, _ = name.rpartition("[")
+        if bracket and name.endswith("]") and "," not in name[len(array) :]:
+            groups.setdefault(array, []).append(text)
+            found[array] = "{" + ", ".join(groups[array]) + "}"
+        else:
+            found[name] = text
+    return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,12 +14,15 @@ from acausal.errors import ModelError
 from acausal.export.modelica_text.declared import (
     Flat,
     connector_class,
+    is_integer,
     lies_within,
     names_in_class,
+    names_in_tree,
     numbered,
     unused,
 )
-from acausal.export.modelica_text.expressions import Printer, equation
+from acausal.export.modelica_text.discrete import is_discrete, stated
+from acausal.export.modelica_text.expressions import AtEvents, Names, Printer, equation, instants
 from acausal.export.modelica_text.network import block_of
 from acausal.export.modelica_text.spelling import (
     array,
@@ -34,13 +38,17 @@ from acausal.modeling import (
     Component,
     Connector,
     Discrete,
+    Eq,
     InitialParameter,
     Input,
     Output,
     Parameter,
     Start,
+    Tick,
     Variable,
+    When,
     owner_and_name,
+    references,
 )
 
 
@@ -51,7 +59,7 @@ class Package:
     Attributes:
         networks: by dotted name. standard: Modelica's name and modifiers of a part that the standard library has, or
             None. connector: its name of a connector, by class and name, or None. texts: of the classes, by name.
-        named: see `names`, by the identity of a component's node.
+        elements: names that no class may have. named: see `names`, by the identity of a component's node.
     """
 
     networks: Mapping[str, Any]
@@ -59,10 +67,11 @@ class Package:
     connector: Callable[[type, str], str | None]
     texts: dict[str, str] = field(default_factory=dict)
     blocks: dict[tuple[int, tuple[int, ...]], str] = field(default_factory=dict)
-    named: dict[int, tuple[dict[str, str], set[str]]] = field(default_factory=dict)
+    elements: set[str] = field(default_factory=set)
+    named: dict[int, tuple[dict[str, str], dict[str, str], set[str]]] = field(default_factory=dict)
 
-    def names(self, node: Any) -> tuple[dict[str, str], set[str]]:
-        """Names of a component's parts in its class, and all that are taken there; see `names_in_class`."""
+    def names(self, node: Any) -> tuple[dict[str, str], dict[str, str], set[str]]:
+        """Names of a component's parts and discrete outputs, and all that are taken; see `names_in_class`."""
         if id(node) not in self.named:
             self.named[id(node)] = names_in_class(node)
         return self.named[id(node)]
@@ -78,8 +87,10 @@ class Package:
     def add(self, wanted: str, write: Callable[[str], str]) -> str:
         """The name of a class; classes of equal text are one."""
         for name in numbered(class_name(wanted)):
-            text = write(name)
-            if self.texts.setdefault(name, text) == text:
+            if (
+                name not in self.elements
+                and self.texts.setdefault(name, text := write(name)) == text
+            ):
                 return name
         raise AssertionError
 
@@ -119,10 +130,16 @@ class Model:
     ) -> None:
         self.package, self.component, self.inputs = package, component, inputs or ()
         self.node = component._node
-        self.taken = set(package.names(self.node)[1])
+        self.taken = set(package.names(self.node)[2])
         self.calls: dict[tuple[str, str], str] = {}
+        self.added: dict[
+            str, tuple[str, str]
+        ] = {}  # variables by what they are, and their declarations
+        self.final: set[str] = set()  # parameters whose value the equations have taken in
         self.feeds: list[str] = []
-        self.printer = Printer(self.path, self._call)
+        self.printing = Names(self.path, self._call, self._variable, self._tick)
+        self.counts = any(map(_is_mixed, component.equations()))
+        self.printer = Printer(self.printing)
         self.given: Flat = {}  # what was set in the whole model itself: no class around it says so
         if inputs is not None:
             for name, value in self.node.modifiers.items():
@@ -131,16 +148,14 @@ class Model:
     def text(self, name: str) -> str:
         """The whole class."""
         doc = (type(self.component).__doc__ or "").strip().split("\n")[0].replace("`", "")
-        declared = [line for n, d in self.node.declarations() for line in self._declaration(n, d)]
         parts = self._parts()
-        stated = [
-            line for e in self.component.equations() for line in equation(self.printer, e, "  ")
-        ]
-        start = [
-            line
-            for e in self.component.initial_equations()
-            for line in equation(self.printer, e, "  ")
-        ]
+        label = self.node.label
+        stated_here = stated([self._without_zeros(e) for e in self.component.equations()], label)
+        lines_of = partial(equation, self.printing, indent="  ")
+        flow = [line for e in stated_here for line in lines_of(e)]
+        declared = [line for n, d in self.node.declarations() for line in self._declaration(n, d)]
+        start = [line for e in self.component.initial_equations() for line in lines_of(e)]
+        self.feeds += [f"{identifier(y)} = {identifier(d)};" for y, d in self._held.items()]
         pairs = [f"connect({self._end(a)}, {self._end(b)});" for a, b in self.node.connections]
         for given in self.inputs:
             own = unused(class_name(given), self.taken)
@@ -151,13 +166,14 @@ class Model:
                 f"connect({own}, {target});" if given.count(".") == 1 else f"{target} = {own};"
             )
         blocks = [f"{kind} {own};" for (kind, _), own in self.calls.items()]
+        blocks += [declaration for _, declaration in self.added.values()]
         lines = [f"model {name}{comment(doc)}", *(f"  {line}" for line in [*declared, *parts])]
         if blocks:
             lines += ["protected", *(f"  {line}" for line in blocks)]
         if start:
             lines += ["initial equation", *start]
-        if stated or self.feeds or pairs:
-            lines += ["equation", *stated, *(f"  {line}" for line in [*self.feeds, *pairs])]
+        if flow or self.feeds or pairs:
+            lines += ["equation", *flow, *(f"  {line}" for line in [*self.feeds, *pairs])]
         return "\n".join([*lines, f"end {name};"])
 
     # -- names and values ----------------------------------------------------------------------------
@@ -170,7 +186,59 @@ class Model:
                 f"export.modelica: {self.node.label} refers to '{reference.path}' of another component; "
                 "give it by a parameter or a connector"
             )
-        return dotted([*self.package.way(self.node, route), *reference.path.split(".")])
+        held = self.package.names(reference.owner)[1]
+        name, bracket, index = reference.path.partition("[")
+        local = held.get(name, name) + bracket + index
+        return dotted([*self.package.way(self.node, route), *local.split(".")])
+
+    def _without_zeros(self, stated: Any) -> Any:
+        """Without derivatives whose factor is a parameter that is left at zero, as acausal folds it."""
+        if not isinstance(stated, Eq) or not (found := _derivatives(stated)):
+            return stated
+        for r in [r for side in (stated.lhs, stated.rhs) for r in references(side)]:
+            is_zero = r.owner is self.node and getattr(r.declaration, "default", None) == 0
+            if is_zero and r.path not in self.node.modifiers:
+                folded = Eq(*(s.xreplace({r: sp.S.Zero}) for s in (stated.lhs, stated.rhs)))
+                if _derivatives(folded) < found:
+                    self.final.add(r.path)
+                    stated, found = folded, _derivatives(folded)
+        return stated
+
+    @property
+    def _held(self) -> dict[str, str]:
+        return self.package.names(self.node)[1]
+
+    def _variable(self, text: str) -> str:
+        """A variable that equals a text."""
+        if text not in self.added:
+            name = unused("part", self.taken)
+            self.added[text] = name, f"Real {name};"
+            self.feeds.append(f"{name} = {text};")
+        return self.added[text][0]
+
+    def _tick(self, tick: Tick) -> str:
+        """The condition of an instant after the start.
+
+        It is counted, not sampled, if it begins where a variable says or shares a when-clause with other conditions:
+        rumoca has one clock for all that a when-clause assigns.
+        """
+        start, period = self.printer.print(tick.start), self.printer.print(tick.period)
+        if not (self.counts or any(is_discrete(r) for r in references(tick.start))):
+            return f"sample({start}, {period})"
+        text = f"instant {start}, {period}"
+        if text not in self.added:
+            name = unused("instant", self.taken)
+            self.added[text] = (
+                name,
+                f'Integer {name} "number of the next instant {start} + k*{period}";',
+            )
+            first = f"max(0, integer((time - ({start}))/({period})) + 1)"
+            self.feeds += [
+                f"when initial() then {name} = {first};",
+                f"elsewhen time >= {start} + pre({name})*{period} then {name} = pre({name}) + 1;",
+                "end when;",
+            ]
+        return f"time >= {start} + pre({self.added[text][0]})*{period}"
 
     def _end(self, end: Any) -> str:
         owner, local = owner_and_name(end)
@@ -234,8 +302,10 @@ class Model:
             if callable(default) and not isinstance(default, sp.Basic):
                 default = default(self.component)
             value = given.pop((), None if default is None else self.value(default, shape))
-            kind = "parameter Real"
+            kind = "final parameter Real" if name in self.final else "parameter Real"
         else:
+            if is_integer(declared):
+                attributes = {}
             attributes |= self._attributes(declared, each)
             kind, value = self._kind(declared), given.pop((), None)
         flat: Flat = {(key,): v for key, v in attributes.items()}
@@ -243,16 +313,21 @@ class Model:
             flat.pop((f"each {key}",), None)
             flat[key,] = text
         binding = "" if value is None else f" = {value}"
-        return [
-            f"{kind} {identifier(name)}{size}{modifiers(flat)}{binding}{comment(declared.doc)};"
-        ]
+        about = f"{binding}{comment(declared.doc)};"
+        signal: list[str] = []
+        if name in self._held:
+            signal, name = (
+                [f"{self.package.signal(Output())} {identifier(name)}{size};"],
+                self._held[name],
+            )
+        return [*signal, f"{kind} {identifier(name)}{size}{modifiers(flat)}{about}"]
 
     def _kind(self, declared: Variable) -> str:
         match declared:
             case InitialParameter():
                 return "parameter Real"
             case Discrete():
-                return "discrete Real" if declared.kind == "real" else "Integer"
+                return "Integer" if is_integer(declared) else "discrete Real"
             case Input() | Output():
                 return self.package.signal(declared)
             case _:
@@ -271,7 +346,7 @@ class Model:
             state = settled(state)
         if isinstance(start, sp.Basic | list | tuple | np.ndarray) or start != 0 or fixed:
             bare = isinstance(start, list | tuple | np.ndarray)
-            found["start" if bare else f"{each}start"] = self.value(start)
+            found["start" if bare else f"{each}start"] = self._start(declared, start)
         if isinstance(declared, InitialParameter):
             return {**found, "fixed": "false"}
         if isinstance(declared, Discrete) and not fixed:
@@ -283,6 +358,12 @@ class Model:
         if state != "default":
             found[f"{each}stateSelect"] = f"StateSelect.{state}"
         return found
+
+    def _start(self, declared: Variable, given: Any, shape: tuple[int, ...] | None = None) -> str:
+        """A start value, whole where the variable is."""
+        if is_integer(declared) and isinstance(given, sp.Basic):
+            return AtEvents(self.printing).whole(given)
+        return self.value(given, shape)
 
     # -- parts ---------------------------------------------------------------------------------------
 
@@ -305,7 +386,9 @@ class Model:
         for name, value in part._node.modifiers.items():
             if not lies_within(value, self.component) or (path and lies_within(value, top)):
                 continue
-            place = (*self.package.way(top._node, path[1:]), *name.split("."))
+            first, *rest = name.split(".")
+            held = self.package.names(part._node)[1]
+            place = (*self.package.way(top._node, path[1:]), held.get(first, first), *rest)
             found |= self._modifier(part, name, value, place)
         own = path or (part._node.name,)
         for name, child in part._node.children.items():
@@ -313,14 +396,20 @@ class Model:
         return found
 
     def _modifier(self, part: Component, name: str, value: Any, place: tuple[str, ...]) -> Flat:
-        declared = part._node.declaration(name.partition(".")[0])
-        known = isinstance(declared, Parameter | Variable)
-        shape = part._node.shape(name, declared) if known else None
+        declared = dict(part._node.declarations()).get(name.partition(".")[0])
+        if not isinstance(
+            declared, Parameter | Variable
+        ):  # also what the options of the part leave out
+            return {}
+        shape = part._node.shape(name, declared)
         if not isinstance(value, Start):
-            return {place: self.value(value, shape)} if known else {}
+            return {place: self.value(value, shape)}
         found: Flat = {}
         if value.value is not None:
-            found[*place, "start"] = self.value(value.value, shape)
+            start = (
+                self.value if isinstance(declared, Parameter) else partial(self._start, declared)
+            )
+            found[*place, "start"] = start(value.value, shape)
         if value.nominal is not None:
             found[*place, "nominal"] = self.value(value.nominal, shape)
         each = "each " if shape else ""
@@ -331,6 +420,20 @@ class Model:
         return found
 
 
+def _is_mixed(stated: Any) -> bool:
+    """Whether a when-clause has both instants that are known and other conditions."""
+    if not isinstance(stated, When):
+        return False
+    every = [c for link in stated.chain() for given in link.conditions for c in instants(given)]
+    return 0 < sum(c.has(Tick) for c in every) < len(every)
+
+
+def _derivatives(stated: Eq) -> int:
+    """How many derivatives an equation has."""
+    sides = (stated.lhs, stated.rhs)
+    return sum(type(f).__name__ == "der" for side in sides for f in side.atoms(sp.Function))
+
+
 def package_of(
     model: Component, title: str, about: str, package: Package, inputs: Sequence[str]
 ) -> str:
@@ -339,6 +442,7 @@ def package_of(
     Arguments:
         title: name of the package. about: its description. inputs: dotted names of the model's open inputs.
     """
+    package.elements |= names_in_tree(model)
     open_inputs = [name for name in inputs if "." in name and not name.startswith("der(")]
     package.model(model, model._node.title or type(model).__name__, open_inputs)
     indented = ["  " + line for text in package.texts.values() for line in [*text.split("\n"), ""]]
