@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
@@ -18,13 +19,15 @@ from acausal.training.objective.records import Places
 class Divergence:
     """Sequences that diverged in an update and were left out, or an update that was rejected.
 
+    A trial that L-BFGS or Gauss-Newton turns down is none: a search for the best length of a step tries longer ones.
+
     Attributes:
         epoch: the update.
         time: where the first such sequence starts, in seconds; ``record``: in which record, if there are several.
         count: how many there were; 0 where the gradient was not finite though no sequence diverged.
         exploded: how many of them had a finite loss, but a gradient that exploded: their steps are too long for the
             solver.
-        rejected: whether the whole update was rejected, or a trial of L-BFGS taken back.
+        rejected: whether the whole update was rejected.
     """
 
     epoch: int
@@ -56,15 +59,18 @@ class History:
     """A training, update by update.
 
     Attributes:
-        loss: mean loss of each update's batch, before the update.
-        penalties: by regularizer.
-        modifiers: by parameter, its change before the update, as of `acausal.Fit.modifiers`.
+        loss: mean loss of each update's batch, before the update. Where an optimizer goes back from trials by itself,
+            as L-BFGS and Gauss-Newton do, that of the best point up to then.
+        penalties: by regularizer, at the same point.
+        modifiers: by parameter, its change there, as of `acausal.Fit.modifiers`.
         seconds: time since the start of the training at the end of each update.
         full_loss: loss over the whole record, (epochs done, loss) in rows.
         validation_loss: loss over the held-out samples, likewise; no rows without validation.
         divergences: what diverged and was left out.
         events: of a model with events, by record, how many conditions change in it, at each evaluation of
             ``full_loss``.
+        tried: loss where each update was tried: as ``loss``, but for trials that were turned down, whose loss may be
+            of any size or not a number.
     """
 
     loss: Float[np.ndarray, " epochs"]
@@ -75,6 +81,7 @@ class History:
     validation_loss: Float[np.ndarray, "k 2"]
     divergences: tuple[Divergence, ...]
     events: dict[str, Int[np.ndarray, " k"]] = field(default_factory=dict[str, np.ndarray])
+    tried: Float[np.ndarray, " epochs"] = field(default_factory=lambda: np.zeros(0))
 
     @property
     def event_changes(self) -> tuple[EventChange, ...]:
@@ -160,6 +167,11 @@ class LogEntry(Protocol):
         ...
 
     @property
+    def turned_down(self) -> Bool[Array, " n"]:
+        """Whether it was a trial that its optimizer turned down."""
+        ...
+
+    @property
     def penalties(self) -> Mapping[str, Float[Array, " n"]]:
         """By regularizer."""
         ...
@@ -188,7 +200,9 @@ class Log:
         whole = {n: np.zeros(0, int) for n in ("diverged", "exploded", "first")}
         names = ("loss", "seconds", *map(_penalty, penalties), *map(_modifier, modifiers))
         numbers = {n: np.zeros(0) for n in names}
-        self._chunks = [{**numbers, **whole, "rejected": np.zeros(0, bool)}]
+        flags = {n: np.zeros(0, bool) for n in ("rejected", "turned_down")}
+        self._chunks = [{**numbers, **whole, **flags}]
+        self._loss = math.nan
         self.evaluations: list[Evaluation] = []
         self.divergences: list[Divergence] = []
         self.epochs = 0
@@ -201,6 +215,7 @@ class Log:
             "exploded": entry.exploded,
             "first": entry.first,
             "rejected": entry.rejected,
+            "turned_down": entry.turned_down,
             **{_penalty(n): entry.penalties[n] for n in self._penalties},
             **{_modifier(n): entry.logged[n] for n in self._modifiers},
         }
@@ -209,8 +224,8 @@ class Log:
         return self._append({**rows, "seconds": seconds})
 
     def _append(self, chunk: dict[str, np.ndarray]) -> list[Divergence]:
-        diverged, exploded, first, rejected = (
-            chunk[n] for n in ("diverged", "exploded", "first", "rejected")
+        diverged, exploded, first, rejected, turned_down = (
+            chunk[n] for n in ("diverged", "exploded", "first", "rejected", "turned_down")
         )
         new = [
             Divergence(
@@ -221,9 +236,11 @@ class Log:
                 int(exploded[i]),
                 self._places.record(first[i]),
             )
-            for i in np.flatnonzero(rejected | (diverged > 0)).tolist()
+            for i in np.flatnonzero((rejected | (diverged > 0)) & ~turned_down).tolist()
         ]
         self._chunks.append(chunk)
+        if len(kept := chunk["loss"][~turned_down]):
+            self._loss = float(kept[-1])
         self.divergences += new
         self.epochs += len(rejected)
         return new
@@ -234,9 +251,8 @@ class Log:
 
     @property
     def loss(self) -> float:
-        """The loss of the last update."""
-        last = self._chunks[-1]["loss"]
-        return float(last[-1]) if len(last) else float("nan")
+        """The loss of the last update that was not turned down."""
+        return self._loss
 
     def rows(self) -> Rows:
         """What was collected up to now."""
@@ -249,8 +265,11 @@ class Log:
             DataError: if they are not the columns of such a log.
         """
         chunk = {n: column for n, column in columns.items() if n != EVALUATIONS}
-        if "diverged" in chunk:  # logs of earlier versions do not count gradients that exploded
+        if (
+            "diverged" in chunk
+        ):  # logs of earlier versions tell neither exploded gradients nor trials
             chunk.setdefault("exploded", np.zeros_like(chunk["diverged"]))
+            chunk.setdefault("turned_down", np.zeros(len(chunk["diverged"]), bool))
         if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)
@@ -264,15 +283,18 @@ class Log:
         """What was collected."""
         columns = self.rows().columns()
         evaluations = columns[EVALUATIONS]
+        rows = np.arange(self.epochs)
+        best = np.maximum.accumulate(np.where(columns["turned_down"], 0, rows))
         return History(
-            columns["loss"],
-            {n: columns[_penalty(n)] for n in self._penalties},
-            {n: columns[_modifier(n)] for n in self._modifiers},
+            columns["loss"][best],
+            {n: columns[_penalty(n)][best] for n in self._penalties},
+            {n: columns[_modifier(n)][best] for n in self._modifiers},
             columns["seconds"],
             evaluations[:, :2],
             evaluations[~np.isnan(evaluations[:, 2])][:, [0, 2]],
             tuple(self.divergences),
             dict(zip(self._places.names, evaluations[:, 3:].T.astype(int), strict=False)),
+            columns["loss"],
         )
 
 

@@ -21,7 +21,6 @@ from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import of_first_process, on_default_device, replicate
 from acausal.training.objective.trainable import Trainable
-from acausal.training.optimizers.descent import Descent
 from acausal.training.optimizers.gradients import Objective
 from acausal.training.optimizers.trainer import (
     UPDATES_PER_CALL,
@@ -29,7 +28,7 @@ from acausal.training.optimizers.trainer import (
     State,
     advance,
     begin,
-    best_known,
+    candidates,
     converged,
     epochs_of,
 )
@@ -74,7 +73,8 @@ def train(
     run = _Run(problem, legs, keys, observers, keep, held, halving)
     interrupted = False
     if stored is None:
-        run.evaluate(replicate(stacked(starts), problem.mesh))
+        run.candidates = (replicate(stacked(starts), problem.mesh),)
+        run.evaluate()
         first, state = 0, None
     else:
         first, state = run.resume(stored, starts)
@@ -84,9 +84,10 @@ def train(
             state = None
     except KeyboardInterrupt:
         interrupted = True
-        run.evaluate(run.last)
+        run.evaluate()
     seconds = time.perf_counter() - run.began
-    rows = zip(run.members, unstacked(run.last, len(run.members)), run.finished, strict=True)
+    ends = unstacked(run.candidates[0], len(run.members))
+    rows = zip(run.members, ends, run.finished, strict=True)
     return tuple(
         Trained(
             m.best,
@@ -103,9 +104,13 @@ def train(
 
 
 class _Run:
-    """Trainings while they run."""
+    """Trainings while they run.
 
-    last: Trainable
+    Attributes:
+        candidates: for the best: what is trained, and what else the optimizer knows.
+    """
+
+    candidates: tuple[Trainable, ...]
 
     def __init__(
         self,
@@ -146,7 +151,7 @@ class _Run:
         for member, columns, best in zip(self.members, stored.columns, snapshot.bests, strict=True):
             member.log.go_on(columns)
             member.best = Best(*best, member.problem.simulate(best.trainable))
-        self.last = snapshot.state.trainable
+        self.candidates = candidates(snapshot.state)
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         epochs = epochs_of(snapshot.state)
         self.done = self.before + max(epochs)
@@ -204,7 +209,7 @@ class _Run:
             self.updating += ended - clock
             size = max(1, min(UPDATES_PER_CALL, int(REPORT_EVERY / per_epoch)))
             if done + count == due:
-                self._evaluate_all(state)
+                self.evaluate()
             self._choose(i)
             self._keep(i, state)
             progress = Progress(
@@ -219,7 +224,7 @@ class _Run:
             )
             for observe in self.observers:
                 observe(progress)
-        self._evaluate_all(state)
+        self.evaluate()
         self._keep(i, state)
 
     def _events(self) -> int | None:
@@ -257,7 +262,7 @@ class _Run:
                 new += log.add(entry, counts[k], started, ended)
                 check_rejections(log, rejected[k])
         self.done += max(counts)
-        self.last = state.trainable
+        self.candidates = candidates(state)
         return new
 
     def _keep(self, leg: int, state: State) -> None:
@@ -269,29 +274,14 @@ class _Run:
         )
         self.keep(snapshot, tuple(m.log.rows() for m in self.members))
 
-    def evaluate(self, trainable: Trainable) -> None:
-        """Evaluate the trainable of every member, which keeps it if it is the best so far."""
+    def evaluate(self) -> None:
+        """Evaluate the candidates of every member, which keeps one if it is the best so far."""
         if self.evaluated == self.done:
             return
         self.evaluated = self.done
-        self._evaluate(trainable)
-        self.last = trainable
-
-    def _evaluate_all(self, state: State) -> None:
-        """Evaluate the trainable of every training, and where some of them end the best point known, too.
-
-        A trial after which a training ends may be worse than the point from which it was tried.
-        """
-        if self.evaluated == self.done:
-            return
-        self.evaluate(state.trainable)
-        if self.halving.rungs and isinstance(state.optimizer, Descent):
-            self._evaluate(jax.vmap(best_known)(state))
-
-    def _evaluate(self, trainable: Trainable) -> None:
-        rows = unstacked(trainable, len(self.members))
+        rows = [unstacked(c, len(self.members)) for c in self.candidates]
         for k in self.going:
-            self.members[k].evaluate(rows[k])
+            self.members[k].evaluate([row[k] for row in rows])
 
     def _is_over(self, leg: Leg, state: State) -> bool:
         """Whether a leg has converged, or has not improved for too long, for all members."""

@@ -86,21 +86,24 @@ class Member:
         self.problem, self.held, self.key = problem, held, key
         self.log = Log(problem.records.places, tuple(problem.regularizers), problem.modifiers.names)
 
-    def evaluate(self, trainable: Trainable) -> None:
-        """Evaluate a trainable, and keep it if it is better than the best so far."""
-        simulated = self.problem.simulate(trainable)
-        validation = None if self.held is None else _finite_or_inf(self.held.loss(trainable))
-        new = Best(
-            _finite_or_inf(simulated.loss), validation, self.log.epochs, trainable, simulated
-        )
-        events = events_in(self.problem.records, simulated.log)
-        self.log.evaluated(new.loss, math.nan if validation is None else validation, events)
+    def evaluate(self, candidates: Sequence[Trainable]) -> None:
+        """Evaluate some trainables, log the best of them, and keep it if it is better than the best so far."""
+        new = min(map(self._evaluated, candidates), key=self._deciding)
+        events = events_in(self.problem.records, new.simulated.log)
+        validation = math.nan if new.validation is None else new.validation
+        self.log.evaluated(new.loss, validation, events)
         if (
             self.log.epochs == 0
             or self._deciding(new) < self._deciding(self.best)
             or math.isinf(self.best.score)
         ):
             self.best = new
+
+    def _evaluated(self, trainable: Trainable) -> Best:
+        simulated = self.problem.simulate(trainable)
+        validation = None if self.held is None else _finite_or_inf(self.held.loss(trainable))
+        loss = _finite_or_inf(simulated.loss)
+        return Best(loss, validation, self.log.epochs, trainable, simulated)
 
     def _deciding(self, best: Best) -> float:
         """The score, weighed by what an earlier training knew where nothing is held out."""

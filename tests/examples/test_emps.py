@@ -74,9 +74,6 @@ def test_the_published_model_follows_the_record() -> None:
 
 @REAL
 @pytest.mark.slow
-@pytest.mark.filterwarnings(
-    "ignore:Something diverged"
-)  # a rejected trial is no fault, and depends on rounding
 def test_the_friction_is_learned() -> None:
     training, test = load(DATA, "EMPS", FILES)
     white = study.judge(model.KINDS["white box, published parameters"], {}, test)

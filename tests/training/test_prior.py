@@ -137,7 +137,6 @@ def test_what_a_record_alone_determines_knows_no_prior(first: ac.Fit, second: ac
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore:Something diverged")
 def test_a_law_is_kept_where_new_data_do_not_reach():
     """First a large motion, then a small one, with a hardening spring to learn."""
     system = ac.compile(Oscillator(cubic=80.0))

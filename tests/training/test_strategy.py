@@ -18,6 +18,8 @@ from acausal.training.objective.records import Places
 from acausal.training.objective.sequences import Batch
 from acausal.training.objective.smoothing import smoothed
 from acausal.training.objective.whole_record import over_whole_record
+from acausal.training.optimizers.gradients import Evaluated
+from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.options import FitOptions
 from tests.support.oscillator import learned, record
@@ -67,8 +69,27 @@ def test_lbfgs_says_when_it_finds_nothing_better():
     assert float(state.value) == pytest.approx(0.0, abs=1e-20)
 
 
-class Bowl(eqx.Module):
-    """A parabola with its minimum at 1; beyond ``edge`` there is no loss, or no gradient."""
+SCALES = np.logspace(0, 2, 10)
+
+
+@pytest.mark.parametrize("times", [1.01, 1.1, 2.0, 10.0, 100.0])
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+def test_lbfgs_does_not_ruin_a_good_start(times: float, unit: float):
+    """A root mean square over stiff and loose directions alike, as of networks; at best it is 0.02 of its unit."""
+
+    def loss(x: Any) -> Any:
+        return unit * jnp.sqrt(jnp.sum((jnp.asarray(SCALES) * x) ** 2) + 0.02**2)
+
+    away = np.random.default_rng(3).standard_normal(len(SCALES)) / SCALES
+    start = jnp.asarray(0.02 * np.sqrt(times**2 - 1) * away / np.linalg.norm(SCALES * away))
+    trial, _ = descend(loss, start, 1)
+    assert float(loss(trial)) < 1.1 * float(loss(start))
+    _, state = descend(loss, start, 150)
+    assert float(state.value) < 1.001 * 0.02 * unit
+
+
+class Valley(eqx.Module):
+    """A kinked valley with its minimum at 1; beyond ``edge`` there is no loss, or no gradient."""
 
     edge: float
     value: bool
@@ -82,7 +103,7 @@ class Bowl(eqx.Module):
             spoilt = jnp.where(beyond, jnp.inf, 0.0)
         else:  # zero, with an infinite derivative
             spoilt = jnp.where(beyond, jnp.sqrt(jnp.where(beyond, x - x, 1.0)), 0.0)
-        return ((x - 1) ** 2 + spoilt)[None]
+        return (jnp.sqrt(1 + (50 * (x - 1)) ** 2) + spoilt)[None]
 
     def weighed(self, loss: Any, x: Any) -> Any:
         return loss
@@ -94,22 +115,46 @@ class Bowl(eqx.Module):
         return {}
 
 
-@pytest.mark.parametrize(
-    ("value", "expected"),
-    [
-        (True, "epoch 1: the sequence from t = 0 s diverged; update rejected"),
-        (False, "epoch 1: the gradient is not finite; update rejected"),
-    ],
-)
-def test_lbfgs_survives_a_trial_that_fails_and_tells_it(value: bool, expected: str):
-    """The first step, of length 0.1, leads beyond the edge."""
+@pytest.mark.parametrize("value", [True, False])
+def test_lbfgs_survives_a_trial_that_fails(value: bool):
+    """The slope far from the kink lets the second trial be long, so that it leads beyond the edge."""
     trainer = Trainer(ac.lbfgs(), 1e3, lambda objective, x: {})
     state = begin(trainer, jnp.asarray(0.95), jax.random.key(0))
-    state, rows = advance(Bowl(1.02, value), trainer, state, jnp.asarray(20))
+    state, rows = advance(Valley(1.004, value), trainer, state, jnp.asarray(20))
     log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
-    assert [str(d) for d in log.add(rows, 20, 0.0, 1.0)] == [expected]
+    assert log.add(rows, 20, 0.0, 1.0) == []
     assert int(state.rejected) == 0
     assert float(state.optimizer.point[0]) == pytest.approx(1.0, abs=1e-9)
+    history = log.history()
+    assert bool(rows.turned_down[2])
+    assert history.loss[2] == history.loss[0]
+    if value:
+        assert history.tried[2] == np.inf
+    assert (np.diff(history.loss) <= 0).all()
+    assert log.loss == history.loss[-1]
+
+
+@pytest.mark.parametrize("times", [1.01, 2.0, 10.0, 100.0])
+def test_trials_that_gauss_newton_turns_down_are_no_divergence(times: float):
+    """Where the model is so curved that the first step leads beyond where it has a loss."""
+    start = jnp.asarray([1.0 + np.sqrt(times**2 - 1)])
+
+    def evaluate(objective: Any, x: Any, batch: Any) -> Evaluated:
+        slope = (x - 1) / jnp.sqrt(1 + (x - 1) ** 2)
+        loss = jnp.where(x > -50, jnp.sqrt(1 + (x - 1) ** 2), jnp.inf)
+        none = jnp.zeros(1, bool)
+        return Evaluated(loss, {}, loss[0], slope, none, (1 / (1 + (x - 1) ** 2) ** 1.5)[None])
+
+    trainer = Trainer(levenberg_marquardt(), 1e3, lambda objective, x: {}, evaluate)
+    state = begin(trainer, start, jax.random.key(0))
+    state, rows = advance(Valley(np.inf, True), trainer, state, jnp.asarray(60))
+    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
+    made = int(state.epoch)
+    assert log.add(rows, made, 0.0, 1.0) == []
+    history = log.history()
+    assert bool(rows.turned_down[:made].any()) == (times > 1.5)
+    assert (np.diff(history.loss) <= 0).all()
+    assert history.loss[-1] == pytest.approx(1.0, rel=1e-6)
 
 
 class Explosive(eqx.Module):
@@ -123,16 +168,15 @@ class Explosive(eqx.Module):
 
 def test_a_leg_over_the_whole_record_survives_a_trial_that_diverges():
     params = learned().parameters() | {"extra.net": Explosive(jnp.asarray(0.0))}
-    with pytest.warns(
-        UserWarning, match=r"Something diverged in \d+ of \d+ epochs and was left out"
-    ):
-        fit = ac.fit(
-            learned(), record(end=5.0), "mass.a", params=params, strategy="whole_record", epochs=40, **QUIET
-        )  # fmt: skip
-    assert {d.time for d in fit.history.divergences} == {0.0}
-    assert all(d.rejected for d in fit.history.divergences)
+    fit = ac.fit(
+        learned(), record(end=5.0), "mass.a", params=params, strategy="whole_record", epochs=40, **QUIET
+    )  # fmt: skip
+    assert not fit.history.divergences
+    assert not (fit.history.tried <= 10 * fit.history.loss[0]).all()
+    assert (np.diff(fit.history.loss) <= 0).all()
+    assert (np.diff(fit.history.full_loss[:, 1]) <= 1e-9).all()
     assert float(fit.params["extra.net"].weight) * 1e6 == pytest.approx(80.0, rel=0.02)
-    assert "diverged" in repr(fit)
+    assert "diverged" not in repr(fit)
 
 
 # -- equation error ----------------------------------------------------------------------------------

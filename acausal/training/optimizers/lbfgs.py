@@ -31,8 +31,14 @@ TRIALS = 20
 STALLED = 1e-12
 """Relative decrease of the loss below which the search has converged."""
 
-FIRST = 0.1
-"""Length of the very first step."""
+FIRST, SHARE = 1e-3, 0.01
+"""Length of the very first trial, and the share of the loss by which the slope lets it fall there, at most.
+
+So it does no harm at a good start. The slopes at its two ends tell the curvature, which makes the second trial as long
+as the loss permits."""
+
+STRETCH = 100.0
+"""The most by which the trial after the very first one is longer than that; a later one is twice as long."""
 
 
 class Search(Descent):
@@ -106,7 +112,7 @@ def _after_trial(
         (
             lambda: _new_line(_accept(state, point, value, gradient)),
             lambda: _new_line(_restart(state)),
-            lambda: _next_trial(state, value, low_enough, tried),
+            lambda: _next_trial(state, value, gradient @ state.direction, low_enough, tried),
         ),
     )
 
@@ -147,7 +153,11 @@ def _restart(state: Search) -> Search:
 
 
 def _next_trial(
-    state: Search, value: Float[Array, ""], low_enough: Bool[Array, ""], tried: Int[Array, ""]
+    state: Search,
+    value: Float[Array, ""],
+    slope: Float[Array, ""],
+    low_enough: Bool[Array, ""],
+    tried: Int[Array, ""],
 ) -> Search:
     """Another trial on the same line: a longer step, or one between the two places that enclose the minimum."""
     low = jnp.where(low_enough, state.step, state.low)
@@ -157,8 +167,13 @@ def _next_trial(
     from_start = jnp.clip(
         jnp.where((excess > 0) & jnp.isfinite(excess), parabola, 0.0), 0.1 * high, 0.5 * high
     )
-    inside = jnp.where(low == 0, from_start, 0.5 * (low + high))
-    step = jnp.where(jnp.isfinite(high), inside, 2 * low)
+    between = jnp.where(high > 4 * low, jnp.sqrt(low * high), 0.5 * (low + high))
+    inside = jnp.where(low == 0, from_start, between)
+    flattened = slope / state.derivative
+    secant = jnp.where(flattened < 1, low / jnp.where(flattened < 1, 1 - flattened, 1.0), jnp.inf)
+    very_first = (state.count == 0) & (state.low == 0)
+    longer = jnp.where(very_first, jnp.clip(secant, 2 * low, STRETCH * low), 2 * low)
+    step = jnp.where(jnp.isfinite(high), inside, longer)
     return eqx.tree_at(lambda s: (s.step, s.low, s.high, s.trials), state, (step, low, high, tried))
 
 
@@ -167,8 +182,9 @@ def _new_line(state: Search) -> Search:
     direction = -_times_inverse_hessian(state)
     derivative = direction @ state.gradient
     scaled = state.count > 0
-    length = jnp.sqrt(direction @ direction)
-    step = jnp.where(scaled, 1.0, FIRST / jnp.maximum(length, jnp.finfo(length.dtype).tiny))
+    length = jnp.maximum(jnp.sqrt(direction @ direction), jnp.finfo(direction.dtype).tiny)
+    share = jnp.where(state.value > 0, SHARE * state.value / length, jnp.inf)
+    step = jnp.where(scaled, 1.0, jnp.minimum(FIRST, share) / length)
     zero = jnp.zeros_like(step)
     return eqx.tree_at(
         lambda s: (s.direction, s.derivative, s.step, s.low, s.high, s.trials),

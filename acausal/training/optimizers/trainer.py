@@ -60,7 +60,8 @@ class Entry(eqx.Module):
         logged: the values logged from the trainable, see `Trainer`.
         diverged: how many sequences were left out; ``exploded``: those of them with a finite loss; ``first``: where the
             first of them starts (a sample's index).
-        rejected: whether the update was rejected, or was a trial that L-BFGS takes back.
+        rejected: whether the update was rejected.
+        turned_down: whether the update was a trial that a descent turned down, whose loss may be of any size.
     """
 
     loss: Float[Array, "*updates"]
@@ -70,6 +71,7 @@ class Entry(eqx.Module):
     exploded: Int[Array, "*updates"]
     first: Int[Array, "*updates"]
     rejected: Bool[Array, "*updates"]
+    turned_down: Bool[Array, "*updates"]
 
 
 class Trainer(NamedTuple):
@@ -106,8 +108,16 @@ def epochs_of(state: State) -> list[int]:
     return np.atleast_1d(np.asarray(state.epoch)).tolist()
 
 
-def best_known(state: State) -> PyTree:
-    """Of a descent the best point up to now, before the first update its start."""
+def candidates(state: State) -> tuple[PyTree, ...]:
+    """What is trained; and of a descent, whose present trial may be of any kind, the best point that it knows."""
+    if not isinstance(state.optimizer, Descent):
+        return (state.trainable,)
+    known = jax.vmap(_best_known)(state) if state.epoch.ndim else _best_known(state)
+    return state.trainable, known
+
+
+def _best_known(state: State) -> PyTree:
+    """The best point of a descent; before the first update its start."""
     point, unravel = ravel_pytree(state.trainable)
     known = jnp.isfinite(state.optimizer.value)
     return unravel(jnp.where(known, state.optimizer.point, point))
@@ -181,17 +191,19 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
     usable = _finite((found.total, derivatives)) & ~_diverged(found, trainer).any()
     zeros = jax.tree.map(jnp.zeros_like, derivatives)
     gradient, hessian = _select(usable, derivatives, zeros)
+    value = jnp.where(usable, found.total, jnp.inf)
     steps, optimizer = trainer.optimizer.update(
         gradient,
         state.optimizer,
         state.trainable,
-        value=jnp.where(usable, found.total, jnp.inf),
+        value=value,
         grad=gradient,
         value_fn=lambda trainable: total(objective, trainable, batch)[0],
         **({} if hessian is None else {"hessian": hessian}),
     )
     moved = optax.apply_updates(state.trainable, steps)
-    accepted = _finite(moved) & (usable | _takes_back(optimizer))
+    turned_down = _turned_down(optimizer, value)
+    accepted = _finite(moved) & (usable | turned_down)
     trainable, optimizer = _select(accepted, (moved, optimizer), (state.trainable, state.optimizer))
     rejected = jnp.where(accepted, 0, state.rejected + 1)
     entry = Entry(
@@ -201,7 +213,8 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
         bad.sum(),
         exploded,
         drawn.start[jnp.argmax(bad)],
-        ~(accepted & usable),
+        ~accepted,
+        turned_down,
     )
     return State(trainable, optimizer, state.epoch + 1, rejected, state.key), entry
 
@@ -253,9 +266,11 @@ def evaluate_healthy(
     return batch, found, bad, exploded
 
 
-def _takes_back(optimizer: PyTree) -> Bool[Array, ""] | bool:
-    """Whether the optimizer itself goes back from a point that diverges, to a better one it knows."""
-    return jnp.isfinite(optimizer.value) if isinstance(optimizer, Descent) else False
+def _turned_down(optimizer: PyTree, value: Float[Array, ""]) -> Bool[Array, ""]:
+    """Whether a descent, by its state after a trial of this value, has gone back to a point that it knew before."""
+    if not isinstance(optimizer, Descent):
+        return jnp.zeros((), bool)
+    return jnp.isfinite(optimizer.value) & (optimizer.value != value)
 
 
 def _diverged(found: Evaluated, trainer: Trainer) -> Bool[Array, " batch"]:
