@@ -79,7 +79,11 @@ def record(measured: Measured, span: tuple[int, int] = ALL) -> ac.Data:
 
 
 def train(
-    kind: Kind, data: ac.Data | Mapping[str, ac.Data], seed: int = 0, **options: Any
+    kind: Kind,
+    data: ac.Data | Mapping[str, ac.Data],
+    seed: int = 0,
+    epochs: tuple[int, int] = (400, 120),
+    **options: Any,
 ) -> ac.Fit:
     """Train by accelerations first, which need no simulation, then by simulations of whole records.
 
@@ -89,12 +93,18 @@ def train(
         kind: of the model.
         data: smoothed records.
         seed: of the networks.
+        epochs: updates by accelerations, and by simulations.
         options: others of `acausal.fit`, of the simulations those that the first part has not: `delays`.
     """
     params, delays = None, options.pop("delays", None)
-    for strategy, parameters, epochs, more in (
-        ("equation_error", kind.trained, 400, {}),
-        ("whole_record", tuple(n for n in kind.trained if n != "motor.J"), 120, {"delays": delays}),
+    for strategy, parameters, updates, more in (
+        ("equation_error", kind.trained, epochs[0], {}),
+        (
+            "whole_record",
+            tuple(n for n in kind.trained if n != "motor.J"),
+            epochs[1],
+            {"delays": delays},
+        ),
     ):
         fit = ac.fit(
             kind.build(model.Axis),
@@ -105,7 +115,7 @@ def train(
             gamma=0.9,
             parameter_spread=kind.parameter_spread,
             strategy=strategy,
-            epochs=epochs,
+            epochs=updates,
             seed=seed,
             progress=False,
             **more,

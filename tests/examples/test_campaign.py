@@ -90,7 +90,7 @@ def test_folds_share_the_program_of_the_training() -> None:
     assert compiled.count("jit(advance)") == 1
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_laws_parameters_and_offsets_are_found() -> None:
     found = study.study(progress=False)
     assert study.errors_of_laws(found.fit)["friction"] < 0.01

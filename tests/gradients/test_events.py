@@ -82,7 +82,7 @@ class Subject:
         return {"dt": self.case.end / self.case.steps, "solver": "rk4"}
 
 
-def compare(subject: Subject, kind: str, record_property: Any, *, forward: bool = True) -> None:
+def compare(subject: Subject, kind: str, record_property: Any) -> None:
     """Reverse mode, and forward mode, beside differences."""
     steps, zero = subject.steps(kind), jnp.zeros(len(subject.names))
 
@@ -98,9 +98,8 @@ def compare(subject: Subject, kind: str, record_property: Any, *, forward: bool 
     scale = np.maximum(np.abs(at_zero), 1e-3 * np.abs(at_zero).max())
     weights = jnp.asarray(np.random.default_rng(2).uniform(0.5, 1.5, len(scale)) / scale)
     found = {"reverse": np.asarray(reverse(zero, weights)[0])}
-    if forward:
-        along = jax.jit(lambda d: jax.jvp(values, (zero,), (d,))[1], compiler_options=QUICK)
-        found["forward"] = np.array([weights @ along(one) for one in jnp.eye(len(zero))])
+    along = jax.jit(lambda d: jax.jvp(values, (zero,), (d,))[1], compiler_options=QUICK)
+    found["forward"] = np.array([weights @ along(one) for one in jnp.eye(len(zero))])
     wanted = central(lambda s: float(weights @ reverse(jnp.asarray(s), weights)[1]), len(zero))
     size = np.maximum(np.abs(wanted), SMALL * np.abs(wanted).max())
     for mode, gradient in found.items():
@@ -113,14 +112,24 @@ def compare(subject: Subject, kind: str, record_property: Any, *, forward: bool 
         assert error < BAR, f"{kind}, {mode}, {error:.1e}:\n" + "\n".join(table)
 
 
+def in_turn(name: str) -> str:
+    """One kind of steps of a model: they alternate from model to model."""
+    kinds = HYBRIDS[name].kinds
+    return kinds[list(HYBRIDS).index(name) % len(kinds)]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", HYBRIDS)
 def test_gradients(name: str, record_property: Any) -> None:
-    """Each model in reverse mode on its paths, and in forward mode on one of them."""
+    """Each model in reverse and in forward mode, in one kind of steps."""
     subject = Subject(name)
-    run = subject.run(np.zeros(len(subject.names)), **subject.steps("fixed"))
+    run = subject.run(np.zeros(len(subject.names)), **subject.steps(in_turn(name)))
     assert len(run.events) >= subject.case.events
-    kinds = subject.case.kinds
-    turn = list(HYBRIDS).index(name) % len(kinds)
-    for k, kind in enumerate(kinds):
-        compare(subject, kind, record_property, forward=k == turn)
+    compare(subject, in_turn(name), record_property)
+
+
+@pytest.mark.machines
+@pytest.mark.parametrize("name", [n for n, case in HYBRIDS.items() if len(case.kinds) > 1])
+def test_gradients_in_the_other_steps(name: str, record_property: Any) -> None:
+    (other,) = {*HYBRIDS[name].kinds} - {in_turn(name)}
+    compare(Subject(name), other, record_property)
