@@ -22,6 +22,7 @@ from acausal._jax import check_time, floating, is_real, need_double_precision
 from acausal.by_name import Name, names_in
 from acausal.caches import LeavesCaches
 from acausal.codegen import (
+    Edges,
     Events,
     Field,
     Packed,
@@ -233,6 +234,11 @@ class System(LeavesCaches):
     def events(self) -> Events | None:
         """What holds at events; None for a model without."""
         return generate_events(self.reduced, self.program, self.layout)
+
+    @cached_property
+    def edges(self) -> Edges:
+        """The times, known ahead, at which the derivatives of the states jump or bend."""
+        return Edges(self.program)
 
     @cached_property
     def state_jacobian(self) -> StateJacobian:

@@ -5,6 +5,7 @@ It knows nothing of initial values, time integration or data.
 """
 
 from acausal.codegen.description import described as described
+from acausal.codegen.edges import Ahead as Ahead, Edges as Edges
 from acausal.codegen.equations import explicit_equations as explicit_equations
 from acausal.codegen.event_values import (
     due as due,

@@ -35,21 +35,22 @@ class ModuleValue:
 
     def __call__(self, orders: tuple[int, ...], *args: Any) -> Any:
         """The module, or a partial derivative of it, for scalars or for arrays over instances."""
+        return self.mapped(lambda m, *a: _derivative(_scalar(m), orders)(*a), *args)
+
+    def mapped(self, function: Callable[..., Any], *args: Any) -> Any:
+        """``function(module, *args)`` for scalars, or for each instance; it may give several values."""
         if isinstance(self.module, tuple):
             n = len(self.module)
             each = zip(self.module, *(jnp.broadcast_to(a, (n,)) for a in args), strict=True)
-            return jnp.stack([_derivative(_scalar(m), orders)(*a) for m, *a in each])
+            return jax.tree.map(lambda *v: jnp.stack(v), *(function(m, *a) for m, *a in each))
         if self.stacked:
             arrays, rest = eqx.partition(self.module, eqx.is_array)
             n = jax.tree.leaves(arrays)[0].shape[0]
             batched = [jnp.broadcast_to(a, (n,)) for a in args]
-            call = lambda m, *a: _derivative(_scalar(eqx.combine(m, rest)), orders)(*a)  # noqa: E731
-            return jax.vmap(call)(arrays, *batched)
-        function = _derivative(_scalar(self.module), orders)
+            return jax.vmap(lambda m, *a: function(eqx.combine(m, rest), *a))(arrays, *batched)
         shape = jnp.broadcast_shapes(*(jnp.shape(a) for a in args))
-        if not shape:
-            return function(*args)
-        return jax.vmap(function)(*(jnp.broadcast_to(a, shape) for a in args))
+        own = lambda *a: function(self.module, *a)  # noqa: E731
+        return jax.vmap(own)(*(jnp.broadcast_to(a, shape) for a in args)) if shape else own(*args)
 
 
 def collect(modules: Sequence[Any]) -> ModuleValue:

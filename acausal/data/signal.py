@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike
 
 from acausal._jax import array, is_real, traced
 from acausal.data.band_limited import (
+    DEGREE,
     FRACTIONS,
     between,
     deviation_from_line,
@@ -37,6 +38,15 @@ Beyond = Literal["refuse", "hold", "linear", "periodic"]
 
 DERIVATIVES: dict[str, int] = {"previous": 0, "linear": 1, "cubic": 2, "band-limited": 2}
 """How often each interpolation can be differentiated. Beyond that, derivatives are impulses or dominated by noise."""
+
+DEGREES: dict[str, int] = {"previous": 0, "linear": 1, "cubic": 3, "band-limited": DEGREE}
+"""Of the polynomials between two samples, at most."""
+
+SIGHT = 4
+"""So many samples of a smooth signal are looked at by one step."""
+
+CLOSE = 1e-14
+"""Samples that are so close, relative to the largest time, are a jump."""
 
 ORDINALS = ("first", "second", "third", "higher")
 
@@ -162,6 +172,41 @@ class Signal(eqx.Module):
             value = changed.get(field.name, getattr(self, field.name))
             object.__setattr__(found, field.name, value)
         return found
+
+    @property
+    def is_line(self) -> bool:
+        """Whether it is a line between two samples, or constant."""
+        return DEGREES[self.interpolation] <= self.derivative + 1
+
+    def ahead(self, t: Scalar) -> tuple[Array, Array, Array]:
+        """What lies beyond a time: the next at which it jumps, or bends, and up to which one step may look.
+
+        A cubic or band-limited signal does neither, but a step that leaps over `SIGHT` samples might miss a peak.
+        Infinite where there is nothing. Where two samples are next to each other, it jumps.
+        """
+        n, first, last = len(self.ts), self.ts[0], self.ts[-1]
+        t = jnp.asarray(t, self.ts.dtype)
+        period, shift = last - first, jnp.zeros_like(t)
+        whole = jnp.floor((t - first) / period) * period
+        repeats = jnp.zeros_like(t, dtype=bool)
+        for choice, side in ((self.before_start, t < first), (self.after_end, t >= last)):
+            if choice == "periodic":
+                shift, repeats = jnp.where(side, whole, shift), repeats | side
+        begins = self.after_end == "periodic"
+        k = jnp.searchsorted(self.ts, t - shift, side="right")
+        at = lambda i: jnp.where(i < n, self.ts[jnp.clip(i, 0, n - 1)] + shift, jnp.inf)  # noqa: E731
+        following = at(k)
+        if DEGREES[self.interpolation] > 1:
+            end = (k == n - 1) & (repeats | begins)
+            return jnp.where(end, following, jnp.inf), jnp.inf + t, at(k + SIGHT - 1)
+        close = at(k + 1) - following <= CLOSE * jnp.maximum(jnp.abs(first), jnp.abs(last))
+        ends = (k == n - 1) & (repeats | begins)
+        jumps = jnp.array(self.jumps) | close | ends
+        return (
+            jnp.where(jumps, following, jnp.inf),
+            jnp.where(jumps, jnp.inf, following),
+            jnp.inf + t,
+        )
 
     def __call__(self, t: Scalar) -> Float[Array, ""]:
         """The value at time ``t`` (a scalar, in seconds); use `jax.vmap` for many times."""

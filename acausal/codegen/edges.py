@@ -1,0 +1,266 @@
+"""Edges: the times, known ahead, at which a right-hand side jumps or bends, and how long a step may be meanwhile.
+
+They are read from the formulas of a program; `acausal.codegen.lines` walks each of them. Lines are followed from one
+formula to the next, so a threshold behind a ramp is found, too. Nothing is listed ahead: the next edge is computed from
+the present time, with traced parameters, and it can be differentiated by them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import sympy as sp
+from jax import Array
+from jax.typing import ArrayLike
+
+from acausal.caches import LeavesCaches
+from acausal.codegen.gather import Gather
+from acausal.codegen.instructions import Accumulate, Evaluate, Instruction, SolveTornLoop
+from acausal.codegen.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk
+from acausal.codegen.program import DISCRETE, ZERO, Program
+from acausal.codegen.reading import chosen_module, read_elements
+from acausal.codegen.values import Packed
+from acausal.modeling import time
+
+
+@dataclass(frozen=True, eq=False)
+class _Formula:
+    """An expression, what fills its slots, and the array that it fills; its other symbols are unknown."""
+
+    expression: sp.Expr
+    variables: tuple[tuple[sp.Symbol, Gather], ...]
+    parameters: tuple[tuple[sp.Symbol, Gather], ...]
+    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+    size: int
+    fills: int | None = None
+
+    @property
+    def sources(self) -> set[int]:
+        """The arrays that are read."""
+        return {s for _, g in self.variables for s in g.sources}
+
+    def is_known(self, known: set[int]) -> bool:
+        """Whether the value follows from time, parameters and known arrays."""
+        filled = {s for part in (self.variables, self.parameters, self.modules) for s, _ in part}
+        return self.sources <= known and self.expression.free_symbols <= {time, *filled}
+
+
+@dataclass(frozen=True, eq=False)
+class _Sum:
+    """A sum, as `Accumulate` forms it."""
+
+    instruction: Accumulate
+    fills: int
+
+    @property
+    def sources(self) -> set[int]:
+        """The arrays that are read."""
+        return self.instruction.sources
+
+    def is_known(self, known: set[int]) -> bool:
+        """Whether all terms are known."""
+        return self.sources <= known
+
+
+_Part = _Formula | _Sum
+
+
+@dataclass(frozen=True, eq=False)
+class Edges(LeavesCaches):
+    """Those of a program: true if there are any.
+
+    Attributes:
+        program: whose derivatives of the states are looked at.
+    """
+
+    program: Program
+
+    def __bool__(self) -> bool:
+        return bool(self._watched)
+
+    def ahead(
+        self, packed: Packed, t: ArrayLike, apart: ArrayLike, d: Array | None = None
+    ) -> Ahead:
+        """What lies beyond a time by more than ``apart``, all in seconds.
+
+        Arguments:
+            packed: parameters. t: the time.
+            apart: how far two times must be apart to count as two; derivatives by the time itself are zero.
+            d: discrete variables, which are held; None: those at the start.
+        """
+        t = jax.lax.stop_gradient(t)
+        point = _Point(packed, t, t + apart, self.program, d)
+        found = NOTHING
+        for part in self._plan:
+            if isinstance(part, _Sum):
+                point.add(part)
+                continue
+            walk = point.walk(part)
+            if part in self._watched:
+                found = found.joined(Ahead(*map(jnp.min, walk.visit(part.expression))))
+            if part.fills is not None and part.is_known(self._known):
+                value, line = walk.value(part.expression), walk.line(part.expression)
+                point.fill(part.fills, part.size, value, line)
+        return found
+
+    @cached_property
+    def bends(self) -> bool:
+        """Whether the right-hand side jumps or bends somewhere that depends on states or inputs."""
+        for part in self._parts:
+            if not isinstance(part, _Formula):
+                continue
+            settled = {time, *(s for s, _ in part.parameters), *(s for s, _ in part.modules)}
+            settled |= {s for s, g in part.variables if set(g.sources) <= self._known}
+            if any(n.free_symbols - settled for n in part.expression.atoms(*BENT)):
+                return True
+        return False
+
+    @cached_property
+    def _parts(self) -> tuple[_Part, ...]:
+        """All formulas that the derivatives of the states need, in order."""
+        program = self.program
+        needed = program.needed(program.rate_sources)
+        return tuple(
+            part for i in needed for part in _parts(program.instructions[i], program.first[i])
+        )
+
+    @cached_property
+    def _known(self) -> set[int]:
+        """The arrays that follow from time, parameters and discrete variables alone."""
+        known = {ZERO, DISCRETE}
+        for part in self._parts:
+            if part.fills is not None and part.is_known(known):
+                known.add(part.fills)
+        return known
+
+    @cached_property
+    def _timed(self) -> set[int]:
+        """Those that depend on time, too."""
+        timed: set[int] = set()
+        for part in self._parts:
+            by_time = isinstance(part, _Formula) and part.expression.has(time)
+            if part.fills is not None and (by_time or part.sources & timed):
+                timed |= {part.fills} & self._known
+        return timed
+
+    @cached_property
+    def _watched(self) -> tuple[_Formula, ...]:
+        """The formulas that may have edges."""
+        found: list[_Formula] = []
+        for part in self._parts:
+            if isinstance(part, _Formula):
+                timed = {time, *(s for s, g in part.variables if self._timed & set(g.sources))}
+                nodes = sp.preorder_traversal(part.expression)
+                if any(isinstance(n, EDGED) and n.free_symbols & timed for n in nodes):
+                    found.append(part)
+        return tuple(found)
+
+    @cached_property
+    def _plan(self) -> tuple[_Part, ...]:
+        """These, and those that give what they read, in order."""
+        wanted: set[int] = set()
+        plan: list[_Part] = []
+        for part in reversed(self._parts):
+            gives = part.fills is not None and part.fills in wanted & self._known
+            if gives or part in self._watched:
+                plan.append(part)
+                wanted |= part.sources
+        return tuple(reversed(plan))
+
+
+def _parts(instruction: Instruction, first: int) -> Iterator[_Part]:
+    """The formulas of an instruction; unknowns of loops stay unknown."""
+    if isinstance(instruction, Evaluate):
+        a = instruction.arguments
+        yield _Formula(
+            instruction.expression, a.variables, a.parameters, a.modules, instruction.size, first
+        )
+    elif isinstance(instruction, Accumulate):
+        yield _Sum(instruction, first)
+    elif isinstance(instruction, SolveTornLoop):
+        a = instruction.arguments
+        outer, numbers = ([v for _, v in p] for p in (a.variables, a.parameters))
+        modules = [v for _, v in a.modules]
+        for f in instruction.equations:
+            yield _Formula(
+                f.expression,
+                tuple((s, outer[-1 - n]) for s, n in f.variables if n < 0),
+                tuple((s, numbers[n]) for s, n in f.parameters),
+                tuple((s, modules[n]) for s, n in f.modules),
+                instruction.size,
+            )
+    else:
+        for f in instruction.formulas:
+            a = f.arguments
+            yield _Formula(f.residual, a.variables, a.parameters, a.modules, f.size)
+
+
+class _Point:
+    """A time, and what is known of a program's arrays there."""
+
+    def __init__(
+        self, packed: Packed, t: Any, later: Any, program: Program, d: Array | None
+    ) -> None:
+        self.packed, self.t, self.later = packed, t, later
+        self.values: list[Any] = [None] * len(program.nodes)
+        self.lines: list[Line | None] = [None] * len(program.nodes)
+        held = program.discrete_start if d is None else d
+        for array, value in ((ZERO, jnp.zeros(())), (DISCRETE, jnp.asarray(held))):
+            self.values[array], self.lines[array] = value, Line(value, 0.0)
+
+    def walk(self, formula: _Formula) -> Walk:
+        """A walk through a formula."""
+        numbers = {s: read_elements(g, [self.packed.values]) for s, g in formula.parameters}
+        now: dict[sp.Symbol, Any] = {time: self.later, **numbers}
+        lines: dict[Any, Line | None] = {time: Line(0.0, 1.0)}
+        lines |= {s: Line(v, 0.0) for s, v in numbers.items()}
+        for symbol, gather in formula.variables:
+            if all(self.values[s] is not None for s in gather.sources):
+                now[symbol] = read_elements(gather, self.values)
+                lines[symbol] = self._line(gather)
+        now |= {s: chosen_module(self.packed, chosen) for s, chosen in formula.modules}
+        return Walk(now, lines, self.t, self.later)
+
+    def add(self, part: _Sum) -> None:
+        """Compute a sum."""
+        one = part.instruction
+
+        def total(terms: Any) -> Any:
+            terms = jnp.broadcast_to(terms, (one.terms * one.size,)).reshape(one.terms, one.size)
+            found = (terms * jnp.asarray(one.weights)).sum(axis=0)
+            return found[0] if one.size == 1 else found
+
+        line = self._line(one.values)
+        if line is not None:
+            rate = line.rate if line.constant else total(line.rate)
+            line = Line(total(line.at_zero), rate)
+        self.fill(part.fills, one.size, total(read_elements(one.values, self.values)), line)
+
+    def fill(self, array: int, size: int, value: Any, line: Line | None) -> None:
+        """Keep a value, and its line."""
+        shape = () if size == 1 else (size,)
+        if line is not None:
+            rate = line.rate if line.constant else jnp.broadcast_to(line.rate, shape)
+            line = Line(jnp.broadcast_to(line.at_zero, shape), rate)
+        self.values[array], self.lines[array] = jnp.broadcast_to(value, shape), line
+
+    def _line(self, gather: Gather) -> Line | None:
+        """The line of what is read."""
+        own = {s: self.lines[s] for s in gather.sources}
+        lines = {s: line for s, line in own.items() if line is not None}
+        if len(lines) < len(own):
+            return None
+        empty: list[Any] = [None] * len(self.values)
+        at_zero, rate = empty.copy(), empty.copy()
+        for s, line in lines.items():
+            at_zero[s] = line.at_zero
+            rate[s] = jnp.zeros_like(line.at_zero) if line.constant else line.rate
+        constant = all(line.constant for line in lines.values())
+        return Line(
+            read_elements(gather, at_zero), 0.0 if constant else read_elements(gather, rate)
+        )

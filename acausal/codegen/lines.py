@@ -1,0 +1,332 @@
+"""Walk through a formula of time: what is a line until the next edge, and where the edges are.
+
+Between two edges, what a source computes is often a line ``at_zero + rate * t``: of its comparisons, whole numbers and
+tables the next change is then known. A sine gives no edge, but bounds the steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import sympy as sp
+from jax.typing import ArrayLike
+from sympy.core.relational import Relational
+
+from acausal.codegen.lower import ModuleValue, evaluate
+from acausal.modeling import ModuleCall, time
+
+SHARE = 0.125
+"""The longest step, as a part of the period of a sine."""
+
+WAVES = (sp.sin, sp.cos, sp.tan)
+STEPS = (sp.floor, sp.ceiling, sp.Mod)
+SIGNS = (sp.Abs, sp.sign, sp.Heaviside)
+EXTREMES = (sp.Max, sp.Min)
+ROUNDING = 4.0
+"""So many rounding errors is the argument of a table uncertain."""
+
+EDGED = (Relational, ModuleCall, *WAVES, *STEPS, *SIGNS, *EXTREMES)
+"""What gives an edge or a bound where its arguments depend on time."""
+
+BENT = (Relational, *STEPS, *SIGNS, *EXTREMES)
+"""What bends or jumps where its arguments are variables."""
+
+
+class Ahead(NamedTuple):
+    """What is known of the time to come.
+
+    Attributes:
+        jump: the next time at which the right-hand side may jump, in seconds. bend: at which its slope may.
+        longest: how long a step may be until then.
+    """
+
+    jump: Any
+    bend: Any
+    longest: Any
+
+    def joined(self, other: Ahead) -> Ahead:
+        """The earlier and shorter of two."""
+        return Ahead(*(jnp.minimum(a, b) for a, b in zip(self, other, strict=True)))
+
+    def where(self, holds: Any) -> Ahead:
+        """This if something holds, else nothing."""
+        return Ahead(*(jnp.where(holds, a, jnp.inf) for a in self))
+
+    def bent(self) -> Ahead:
+        """The same with bends in place of jumps."""
+        return Ahead(jnp.inf, jnp.minimum(self.jump, self.bend), self.longest)
+
+
+NOTHING = Ahead(jnp.inf, jnp.inf, jnp.inf)
+"""Nothing is known."""
+
+
+class Line(NamedTuple):
+    """A value until the next edge: ``at_zero + rate * t``. The rate is the float 0.0 where it is constant."""
+
+    at_zero: Any
+    rate: Any
+
+    @property
+    def constant(self) -> bool:
+        """Whether it is so for any parameters."""
+        return isinstance(self.rate, float) and self.rate == 0.0
+
+    def at(self, t: ArrayLike) -> Any:
+        """The value at a time."""
+        return self.at_zero if self.constant else self.at_zero + self.rate * t
+
+
+class Walk:
+    """Through a formula, just behind a time.
+
+    Arguments:
+        now: the values that fill its slots, as far as they are known. lines: their lines, as far as they have some.
+        t: the time. later: just behind.
+    """
+
+    def __init__(
+        self, now: dict[sp.Symbol, Any], lines: dict[Any, Line | None], t: Any, later: Any
+    ) -> None:
+        self.now, self.t, self.later = now, t, later
+        self.lines = lines
+        self.found: dict[sp.Basic, Ahead] = {}
+
+    def known(self, node: sp.Basic) -> bool:
+        """Whether the value is."""
+        return node.free_symbols <= self.now.keys()
+
+    def value(self, node: Any) -> Any:
+        """It, just behind the time."""
+        return jnp.asarray(evaluate(node, self.now))
+
+    # -- edges ---------------------------------------------------------------------------------------
+
+    def visit(self, node: Any) -> Ahead:
+        """What lies ahead in an expression."""
+        if node not in self.found:
+            self.found[node] = self._visit(node)
+        return self.found[node]
+
+    def _visit(self, node: Any) -> Ahead:
+        if not node.args:
+            return NOTHING
+        if isinstance(node, sp.Piecewise):
+            return self._cases(node)
+        found = NOTHING
+        for argument in node.args:
+            found = found.joined(self.visit(argument))
+        for kinds, rule in _EDGES:
+            if isinstance(node, kinds):
+                found = found.joined(rule(self, node))
+        return found
+
+    def _cases(self, node: Any) -> Ahead:
+        """The conditions in order, and the case that holds just behind the time; all where that is not known."""
+        found, open_ = NOTHING, jnp.array(True)
+        for value, condition in node.args:
+            found = found.joined(self.visit(condition).where(open_))
+            if self.known(condition):
+                holds = jnp.asarray(evaluate(condition, self.now))
+                found = found.joined(self.visit(value).where(open_ & holds))
+                open_ = open_ & ~holds
+            else:
+                found = found.joined(self.visit(value).where(open_))
+        return found
+
+    def _meeting(self, one: Any, other: Any) -> Ahead:
+        """Where two values are equal."""
+        a, b = self.line(one), self.line(other)
+        if a is None or b is None or (a.constant and b.constant):
+            return NOTHING
+        return self._at(a.at_zero - b.at_zero, a.rate - b.rate)
+
+    def _at(self, at_zero: Any, rate: Any) -> Ahead:
+        """Where a line is zero."""
+        root = -at_zero / jnp.where(rate == 0, 1.0, rate)
+        ahead = (rate != 0) & (root > self.later)
+        return Ahead(jnp.where(ahead, root, jnp.inf), jnp.inf, jnp.inf)
+
+    def _relation(self, node: Any) -> Ahead:
+        return self._meeting(node.lhs, node.rhs)
+
+    def _sign(self, node: Any) -> Ahead:
+        found = self._meeting(node.args[0], sp.S.Zero)
+        return found.bent() if isinstance(node, sp.Abs) else found
+
+    def _extreme(self, node: Any) -> Ahead:
+        found = NOTHING
+        for i, one in enumerate(node.args):
+            for other in node.args[i + 1 :]:
+                found = found.joined(self._meeting(one, other).bent())
+        return found
+
+    def _whole(self, node: Any) -> Ahead:
+        number = node.args[0]
+        if isinstance(node, sp.Mod):
+            number = number / node.args[1]
+        line = self.line(number)
+        if line is None or line.constant:
+            return NOTHING
+        below = jnp.floor(self.value(number))
+        following = jnp.where(line.rate > 0, below + 1, jnp.ceil(self.value(number)) - 1)
+        return self._at(line.at_zero - following, line.rate)
+
+    def _wave(self, node: Any) -> Ahead:
+        phase = node.args[0]
+        line = self.line(phase)
+        if line is not None:
+            rate: Any = line.rate
+        elif self.known(phase):
+            one = jnp.ones_like(self.later)
+            at = lambda t: jnp.asarray(evaluate(phase, {**self.now, time: t}))  # noqa: E731
+            rate = jax.jvp(at, (self.later,), (one,))[1]
+        else:
+            return NOTHING
+        moves = jnp.abs(rate) > 0
+        period = 2 * jnp.pi / jnp.where(moves, jnp.abs(rate), 1.0)
+        return Ahead(jnp.inf, jnp.inf, jnp.where(moves, SHARE * period, jnp.inf))
+
+    def _table(self, node: Any) -> Ahead:
+        called = self._called(node)
+        if called is None:
+            return NOTHING
+        module, line = called
+        if line.constant:
+            return NOTHING
+
+        def following(m: Any, argument: Any, forward: Any) -> tuple[Any, Any, Any]:
+            jump, bend, beyond = (jnp.where(forward, v, jnp.inf) for v in m.ahead(argument))
+            return (
+                jump,
+                bend,
+                beyond,
+            )  # of a table that is read backwards, samples are not looked for
+
+        forward = line.rate > 0
+        rounding = ROUNDING * jnp.finfo(jnp.result_type(self.later)).eps
+        behind = line.at(self.later) + rounding * jnp.abs(line.at_zero)
+        found = module.mapped(following, behind, forward)
+        jump, bend, beyond = (
+            jnp.where(jnp.isfinite(v), self._at(line.at_zero - v, line.rate).jump, jnp.inf)
+            for v in found
+        )
+        return Ahead(jump, bend, beyond - self.t)
+
+    def _called(self, node: Any) -> tuple[ModuleValue, Line] | None:
+        """The table that is read at a line, and the line."""
+        module, orders, *arguments = node.args
+        value = self.now[module]
+        modules = value.module if isinstance(value.module, tuple) else (value.module,)
+        if len(arguments) != 1 or not all(hasattr(m, "ahead") for m in modules):
+            return None
+        line = self.line(arguments[0])
+        return None if line is None else (_differentiated(value, int(orders[0])), line)
+
+    # -- lines ---------------------------------------------------------------------------------------
+
+    def line(self, node: Any) -> Line | None:
+        """An expression as a line until the next edge; None if it is none, or not known."""
+        if node not in self.lines:
+            self.lines[node] = self._line(node)
+        return self.lines[node]
+
+    def _line(self, node: Any) -> Line | None:
+        if not self.known(node):
+            return None
+        if node.is_Number or node.is_NumberSymbol:
+            return Line(float(node), 0.0)
+        if isinstance(node, sp.Piecewise):
+            return self._line_of_cases(node)
+        if isinstance(node, STEPS[:2]) and self.line(node.args[0]) is not None:
+            return Line(self.value(node), 0.0)
+        if isinstance(node, sp.sign | sp.Heaviside) and self.line(node.args[0]) is not None:
+            return Line(self.value(node), 0.0)
+        if isinstance(node, ModuleCall):
+            return self._line_of_table(node)
+        lines = [self.line(a) for a in node.args]
+        some = [line for line in lines if line is not None]
+        if len(some) < len(lines):
+            return None
+        if all(line.constant for line in some):
+            return Line(self.value(node), 0.0)
+        if isinstance(node, sp.Add):
+            return Line(sum(a.at_zero for a in some), sum(a.rate for a in some))
+        if isinstance(node, sp.Mul):
+            moving = [line for line in some if not line.constant]
+            if len(moving) > 1:
+                return None
+            factor: Any = 1.0
+            for line in some:
+                factor = factor * line.at_zero if line.constant else factor
+            return Line(moving[0].at_zero * factor, moving[0].rate * factor)
+        if isinstance(node, EXTREMES):
+            return self._line_of_extreme(node, some)
+        if isinstance(node, sp.Abs):
+            sign = jnp.where(some[0].at(self.later) < 0, -1.0, 1.0)
+            return Line(sign * some[0].at_zero, sign * some[0].rate)
+        if isinstance(node, sp.Mod) and some[1].constant:
+            whole = some[1].at_zero * jnp.floor(some[0].at(self.later) / some[1].at_zero)
+            return Line(some[0].at_zero - whole, some[0].rate)
+        return None
+
+    def _line_of_cases(self, node: Any) -> Line | None:
+        cases = [(self.line(value), condition) for value, condition in node.args]
+        some = [(line, condition) for line, condition in cases if line is not None]
+        if len(some) < len(cases):
+            return None
+        (at_zero, rate), _ = some[-1]
+        for line, condition in reversed(some[:-1]):
+            holds = evaluate(condition, self.now)
+            at_zero = jnp.where(holds, line.at_zero, at_zero)
+            rate = jnp.where(holds, line.rate, rate)
+        constant = all(line.constant for line, _ in some)
+        return Line(at_zero, 0.0 if constant else rate)
+
+    def _line_of_extreme(self, node: Any, lines: list[Line]) -> Line:
+        found = lines[0]
+        for line in lines[1:]:
+            one, other = found.at(self.later), line.at(self.later)
+            takes = other > one if isinstance(node, sp.Max) else other < one
+            found = Line(*(jnp.where(takes, b, a) for a, b in zip(found, line, strict=True)))
+        return found
+
+    def _line_of_table(self, node: Any) -> Line | None:
+        called = self._called(node)
+        if called is None:
+            return None
+        module, line = called
+        modules = module.module if isinstance(module.module, tuple) else (module.module,)
+        if line.constant:
+            return Line(self.value(node), 0.0)
+        if not all(m.is_line for m in modules):
+            return None
+
+        def tangent(m: Any, argument: Any) -> tuple[Any, Any]:
+            return jax.jvp(m, (argument,), (jnp.ones_like(argument),))
+
+        value, rate = module.mapped(tangent, line.at(self.later))
+        rate = rate * line.rate
+        return Line(value - rate * self.later, rate)
+
+
+def _differentiated(value: ModuleValue, times: int) -> ModuleValue:
+    if not times:
+        return value
+    if isinstance(value.module, tuple):
+        return ModuleValue(tuple(m.differentiated(times) for m in value.module))
+    return ModuleValue(value.module.differentiated(times), value.stacked)
+
+
+_EDGES: tuple[tuple[Any, Callable[[Walk, Any], Ahead]], ...] = (
+    (Relational, Walk._relation),
+    (SIGNS, Walk._sign),
+    (EXTREMES, Walk._extreme),
+    (STEPS, Walk._whole),
+    (WAVES, Walk._wave),
+    (ModuleCall, Walk._table),
+)
+"""By kind of expression, its own edges."""
