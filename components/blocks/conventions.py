@@ -21,6 +21,11 @@ SMALL = 1e-60
 """Least value of what must be positive, as `Modelica.Constants.small`."""
 
 
+def part_of(elapsed: Any, duration: Any) -> Any:
+    """How much of a duration has elapsed, from 0 to 1; a duration of zero is over in an `INSTANT`."""
+    return ac.maximum(ac.minimum(elapsed / ac.maximum(duration, INSTANT), 1), 0)
+
+
 def truth(condition: Any, *, events: bool | None = False) -> Any:
     """1 where a condition holds, else 0.
 

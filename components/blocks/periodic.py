@@ -6,7 +6,7 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .conventions import INSTANT, SMALL, period_at
+from .conventions import SMALL, part_of, period_at
 from .interfaces import SignalSource
 
 __modelica__ = "Modelica.Blocks.Sources"
@@ -68,8 +68,8 @@ class Trapezoid(_Periodic):
     def _curve(self, t: Any) -> Any:
         top, fall = self.rising, self.rising + self.width
         end = fall + self.falling
-        up = self.amplitude * t / ac.maximum(self.rising, INSTANT)
-        down = self.amplitude * (end - t) / ac.maximum(self.falling, INSTANT)
+        up = self.amplitude * part_of(t, self.rising)
+        down = self.amplitude * part_of(end - t, self.falling)
         falling = ac.where(t < end, down, 0, events=None)
         high = ac.where(t < fall, self.amplitude, falling, events=None)
         return ac.where(t < top, up, high, events=None)

@@ -6,7 +6,7 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .conventions import INSTANT
+from .conventions import SMALL, part_of
 from .interfaces import SO, SignalSource
 
 __modelica__ = "Modelica.Blocks.Sources"
@@ -72,7 +72,7 @@ class Ramp(SignalSource):
 
     def equations(self) -> Iterator[ac.Eq]:
         t = ac.time - self.startTime
-        rise = self.height * t / ac.maximum(self.duration, INSTANT)
+        rise = self.height * part_of(t, self.duration)
         risen = ac.where(t < self.duration, rise, self.height, events=None)
         ramp = ac.where(t < 0, 0, risen, events=None)
         yield ac.Eq(self.y, self.offset + ramp)
@@ -89,7 +89,6 @@ class LogFrequencySweep(SO):
     duration = ac.Parameter(unit="s", min=0, doc="duration of the sweep; 0 gives a step")
 
     def equations(self) -> Iterator[ac.Eq]:
-        elapsed = (ac.time - self.startTime) / ac.maximum(self.duration, INSTANT)
-        share = ac.maximum(ac.minimum(elapsed, 1), 0)
-        low, high = ac.log(self.wMin), ac.log(self.wMax)
+        share = part_of(ac.time - self.startTime, self.duration)
+        low, high = (ac.log(ac.maximum(w, SMALL)) for w in (self.wMin, self.wMax))
         yield ac.Eq(self.y, ac.exp(low + (high - low) * share))

@@ -94,7 +94,7 @@ class Sinc(SignalSource):
 
     def equations(self) -> Iterator[ac.Eq]:
         t = ac.time - self.startTime
-        x = 2 * ac.pi * self.f * ac.maximum(t, INSTANT)
+        x = 2 * ac.pi * ac.maximum(ac.Abs(self.f), INSTANT) * ac.maximum(t, INSTANT)
         sinc = self.amplitude * ac.sin(x) / x
         yield ac.Eq(self.y, self.offset + ac.where(t < 0, 0, sinc, events=None))
 
@@ -135,6 +135,7 @@ class Exponentials(SignalSource):
 
     def equations(self) -> Iterator[ac.Eq]:
         t = ac.maximum(ac.time - self.startTime, 0)
-        risen = self.outMax * (1 - ac.exp(-ac.minimum(t, self.riseTime) / self.riseTimeConst))
-        fall = ac.exp(-ac.maximum(t - self.riseTime, 0) / self.fallTimeConst)
+        rise, fall = (ac.maximum(T, INSTANT) for T in (self.riseTimeConst, self.fallTimeConst))
+        risen = self.outMax * (1 - ac.exp(-ac.minimum(t, self.riseTime) / rise))
+        fall = ac.exp(-ac.maximum(t - self.riseTime, 0) / fall)
         yield ac.Eq(self.y, self.offset + risen * fall)

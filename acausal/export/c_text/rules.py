@@ -324,6 +324,7 @@ ON_ELEMENTS: Mapping[str, Rule] = {
     "max": _real_or_int("maximum", "maximum_int", 2), "min": _real_or_int("minimum", "minimum_int", 2),
     "abs": _real_or_int("fabs", "absolute_int", 1), "sign": _real_or_int("signum", "signum_int", 2),
     "eq": _relation("=="), "ne": _relation("!="), "lt": _relation("<"), "le": _relation("<="),
+    "lt_to": _relation("<"), "le_to": _relation("<="),
     "gt": _relation(">"), "ge": _relation(">="),
     "and": _logical("&&"), "or": _logical("||"), "xor": _relation("!="),
     "not": _on_elements(lambda a: Apply("!", (a,), "bool")),
