@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -54,6 +54,13 @@ class Paced(eqx.Module):
         h = jnp.full_like(t, jnp.inf)
         zero = jnp.zeros((), jnp.int32)
         return Memory(h, x, self._first(problem, t, x), zero, zero), Counts.of(rates=1)
+
+    chooses: ClassVar[bool] = False
+    """Its steps are given."""
+
+    def resumed(self, memory: Memory, before: Memory) -> Memory:
+        """What is known behind a jump."""
+        return memory
 
     def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
         """Make a step of length h from t."""
