@@ -19,7 +19,7 @@ from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, shown, user_level
 from acausal.simulation import solvers
-from acausal.simulation.fixed import simulate_fixed
+from acausal.simulation.fixed import are_split, simulate_fixed
 from acausal.simulation.inputs import (
     TimeFunction,
     announce_derivatives,
@@ -70,7 +70,8 @@ def simulate(
     Arguments:
         system: a compiled model.
         t: start and end, in seconds; one number is the end of a simulation that starts at 0.
-        dt: fixed step in seconds; it must divide the span.
+        dt: fixed step in seconds; it must divide the span. A jump or bend of a source within a step divides it, where
+            its time is known and JAX does not compile or map the whole.
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
             steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time. One that JAX
@@ -136,11 +137,11 @@ def simulate(
     steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
-    if ends is not None and system.events is None:
+    if ends is not None and system.events is None and not are_split(run, ends, adjoint):
         scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
-    if adjoint is not None and not forward and system.events is None:
+    if adjoint is not None and not forward and system.events is None and ends is None:
         warnings.warn(
             "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
             DeprecationWarning,

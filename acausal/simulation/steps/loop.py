@@ -310,9 +310,10 @@ def _edge(problem: Problem, ahead: Ahead, stop: between_events.Stop) -> between_
     edge, apart = jnp.minimum(ahead.jump, ahead.bend), problem.apart(stop.t)
     sooner = edge < stop.t - apart
     kind = jnp.where(ahead.jump <= ahead.bend + apart, EDGE, BEND)
+    there = sooner | ((edge <= stop.t + apart) & (stop.kind == STOP))
     stop = stop._replace(
         t=jnp.where(sooner, edge, stop.t),
-        kind=jnp.where(sooner, kind, stop.kind).astype(jnp.int32),
+        kind=jnp.where(there, kind, stop.kind).astype(jnp.int32),
     )
     if stop.band is None:
         return stop

@@ -71,6 +71,8 @@ class Paced(eqx.Module):
         never = jnp.array(False)
         return Attempt(done, made.x, after, made.dense, (), never, made.counts)
 
+    adjoint, at_start, back = OneStep.adjoint, OneStep.at_start, OneStep.back
+
     def _first(self, problem: Problem, t: Array, x: Array) -> Any:
         h = jnp.ones_like(t)
         return self.first(problem.field, t, h, x, problem.field(t, x))
