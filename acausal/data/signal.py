@@ -245,7 +245,8 @@ class Signal(eqx.Module):
         """The polynomial between the samples i and i + 1."""
         match self.interpolation:
             case "previous":
-                return self.values[i + (t >= self.ts[i + 1])]
+                early = t < self.ts[i]  # the interval is found by arithmetic, which rounds
+                return self.values[jnp.maximum(i + (t >= self.ts[i + 1]) - early, 0)]
             case "linear":
                 return self.values[i] + self._secant(i) * (t - self.ts[i])
             case "cubic":

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import diffrax as dfx
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 from numpy.typing import NDArray
 
 from acausal._jax import cast, known, traced
-from acausal.codegen import Values
+from acausal.codegen import Packed, Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
-from acausal.simulation.fixed_steps import Steps, integrate
-from acausal.simulation.inputs import evaluate_all
+from acausal.simulation.fixed_steps import SIDE, Steps, integrate
+from acausal.simulation.inputs import breaks, evaluate_all
 from acausal.simulation.run import Run
 from acausal.simulation.sampled_inputs import over_steps
 from acausal.simulation.solution import Solution
 from acausal.simulation.stability import warn_of_long_steps
-from acausal.simulation.step_grid import rows_of
+from acausal.simulation.step_grid import ON_GRID, rows_of
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -63,11 +65,50 @@ def simulate_fixed(
     if any(f is not None for f in samples.functions):
         u = evaluate_all(run.inputs, t)
     else:
-        u = jnp.concatenate([samples.start, samples.end[-1:]])[rows]
+        last = evaluate_all(
+            run.inputs, t[-1:] * 0 + ends[-1]
+        )  # an input that is held has jumped there
+        u = jnp.concatenate([samples.start, last])[rows]
     if traced(x) and isinstance(solver, solvers.EXPLICIT):
         _check_derivatives(run.system, start._replace(t=t, x=x[rows], u=u), float(h))
     t, x, u = cast((t, x[rows], u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
+
+
+def are_split(run: Run, ends: Float[np.ndarray, " n_ends"], adjoint: object) -> bool:
+    """Whether edges of sources, or jumps of inputs, lie within fixed steps, and divide them.
+
+    They do not where JAX compiles or maps, as it is not known then, or where `DirectAdjoint` asks for a plain scan.
+    """
+    packed = known(run.start.packed)
+    if packed is None or isinstance(adjoint, dfx.DirectAdjoint):
+        return False
+    ts, jumps = breaks(run.inputs, run.begin, run.end)
+    at = ts[jumps]
+    near = ends[
+        np.clip(np.searchsorted(ends, at - ON_GRID * (ends[1] - ends[0])), 0, len(ends) - 1)
+    ]
+    if np.any(np.abs(near - at) > ON_GRID * (ends[1] - ends[0])):
+        return True
+    return bool(run.system.edges) and bool(_off_grid(run.system, packed, jnp.asarray(ends)))
+
+
+@eqx.filter_jit
+def _off_grid(system: System, packed: Packed, ends: Float[Array, " n_ends"]) -> Bool[Array, ""]:
+    """Whether an edge is not at the end of a step."""
+    last = ends[-1]
+    apart = SIDE * jnp.finfo(ends.dtype).eps * jnp.maximum(jnp.abs(last), last - ends[0])
+
+    def following(t: Array) -> Array:
+        ahead = system.edges.ahead(packed, t, apart)
+        return jnp.minimum(ahead.jump, ahead.bend)
+
+    def is_on(t: Array) -> Array:
+        i = jnp.clip(jnp.searchsorted(ends, t), 1, len(ends) - 1)
+        return jnp.minimum(jnp.abs(ends[i] - t), jnp.abs(ends[i - 1] - t)) <= apart
+
+    goes_on = lambda t: (t < last - apart) & is_on(t)  # noqa: E731
+    return jax.lax.while_loop(goes_on, following, ends[0]) < last - apart
 
 
 @eqx.filter_jit

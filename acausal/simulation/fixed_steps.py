@@ -18,7 +18,7 @@ from jaxtyping import Array, Float, PyTree
 
 from acausal._jax import Restarts, stored_scan
 from acausal.codegen import Values
-from acausal.data import deviation_from_line
+from acausal.data import Signal, deviation_from_line
 from acausal.simulation.inputs import TimeFunction
 from acausal.simulation.log import Log
 from acausal.simulation.sampled_inputs import Samples
@@ -26,6 +26,9 @@ from acausal.simulation.solvers import EXPLICIT, Scheme
 
 if TYPE_CHECKING:
     from acausal.system import System
+
+SIDE = 16.0
+"""So many rounding errors is each stage within its step, where a source may jump at the ends."""
 
 State: TypeAlias = Float[Array, " n_states"]
 
@@ -64,13 +67,16 @@ class Step(eqx.Module):
         return self.t if _is_zero(fraction) else self.t + fraction * self.h
 
     def inputs(
-        self, fraction: ArrayLike, functions: tuple[TimeFunction | None, ...]
+        self,
+        fraction: ArrayLike,
+        functions: tuple[TimeFunction | None, ...],
+        t: Array | None = None,
     ) -> Float[Array, " n_inputs"]:
-        """The inputs at a fraction of the step."""
+        """The inputs at a fraction of the step; functions of time as they are at ``t``, if that is given."""
         u = self._sampled(fraction)
         if all(f is None for f in functions):
             return u
-        t = self.time(fraction)
+        t = self.time(fraction) if t is None else t
         return jnp.stack([v if f is None else f(t) for v, f in zip(u, functions, strict=True)])
 
     def _sampled(self, fraction: ArrayLike) -> Array:
@@ -93,17 +99,25 @@ class Within(NamedTuple):
         values: the values that are constant over the step; time, states and inputs are replaced.
         functions: the inputs that are functions of time.
         step: the step.
+        sided: whether something may jump at its ends, so that time stays a little within.
     """
 
     values: Values
     functions: tuple[TimeFunction | None, ...]
     step: Step
+    sided: bool = False
 
-    def at(self, fraction: ArrayLike, x: State) -> Values:
-        """The values of the model at a fraction of the step."""
+    def at(
+        self, fraction: ArrayLike, x: State, part: tuple[ArrayLike, ArrayLike] = (0.0, 1.0)
+    ) -> Values:
+        """The values of the model at a fraction of the step, in a part of it: between two fractions."""
         step = self.step
-        t, u = step.time(fraction), step.inputs(fraction, self.functions)
-        return self.values._replace(t=t, x=x, u=u)
+        t, low, high = (step.time(f) for f in (fraction, *part))
+        if self.sided:
+            eps = SIDE * jnp.finfo(jnp.result_type(low)).eps
+            apart = eps * jnp.maximum(jnp.abs(low), jnp.abs(high))
+            t = jnp.clip(t, low + apart, high - apart)
+        return self.values._replace(t=t, x=x, u=step.inputs(fraction, self.functions, t))
 
 
 class Runs(eqx.Module):
@@ -173,13 +187,18 @@ def integrate(
     constant = start._replace(t=None, x=None, u=None)
     constants, fixed = eqx.partition((constant, steps.inputs.functions, equal), eqx.is_array)
 
+    sided = bool(system.edges) or any(
+        isinstance(f, Signal) and f.jumps for f in steps.inputs.functions
+    )
+
     def field(fraction: ArrayLike, x: State, within: Within) -> State:
         return system.rates(within.at(fraction, x))
 
     def part(x: State, j: ArrayLike, within: Within, first_stage: State | None) -> State:
         def part_field(fraction: ArrayLike, x: State, args: tuple[ArrayLike, Within]) -> State:
             j, within = args
-            return field((j + fraction) / substeps, x, within)
+            own = j / substeps, (j + 1) / substeps
+            return system.rates(within.at((j + fraction) / substeps, x, own))
 
         return advance(part_field, x, within.step.h / substeps, (j, within), first_stage)
 
@@ -204,7 +223,7 @@ def integrate(
         length = equal if h is None else h
         if own is not None:
             values = values._replace(packed=values.packed.replaced(places, own))
-        within = Within(values, functions, Step(t, length, start, end, coefficients))
+        within = Within(values, functions, Step(t, length, start, end, coefficients), sided)
         first_stage, y = observe(x, within)
         return whole(x, within, first_stage), y
 

@@ -19,7 +19,7 @@ from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, shown, user_level
 from acausal.simulation import solvers
-from acausal.simulation.fixed import simulate_fixed
+from acausal.simulation.fixed import are_split, simulate_fixed
 from acausal.simulation.inputs import (
     TimeFunction,
     announce_derivatives,
@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 LOGGER = logging.getLogger(__name__)
+
+SHARE = 50
+"""Adaptive steps are not longer than this part of the span."""
 
 POINTS = 500
 """Points that an adaptive simulation saves by default."""
@@ -54,6 +57,7 @@ def simulate(
     rtol: Tolerance = 1e-6,
     atol: Tolerance = 1e-8,
     max_steps: int = 100_000,
+    max_step: float | None = None,
     adjoint: dfx.AbstractAdjoint | None = None,
     dtype: DTypeLike = np.float64,
 ) -> Solution:
@@ -66,7 +70,8 @@ def simulate(
     Arguments:
         system: a compiled model.
         t: start and end, in seconds; one number is the end of a simulation that starts at 0.
-        dt: fixed step in seconds; it must divide the span.
+        dt: fixed step in seconds; it must divide the span. A jump or bend of a source within a step divides it, where
+            its time is known and JAX does not compile or map the whole.
         saveat: times to save, in seconds. By default every step, or 500 equal points without ``dt``.
         inputs: by name, for every input of the model: a number; an array of samples at the ends of the fixed
             steps; a pair (times, samples), interpolated linearly; a `Signal`; a function of time. One that JAX
@@ -83,7 +88,11 @@ def simulate(
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
         rtol: relative tolerance of an adaptive step.
         atol: absolute tolerance of an adaptive step, in the states' units.
-        max_steps: limit of adaptive steps.
+        max_steps: limit of adaptive steps. Each edge of a source allows eight more.
+        max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
+            where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
+            checked at two points within. What is shorter than 0.4 % of the span and known to none of these, as in a
+            function of time, may still be leapt over: give a shorter ``max_step`` then.
         adjoint: ``diffrax.ForwardMode()`` allows derivatives in forward mode (`jax.jvp`, `jax.jacfwd`) for fixed steps,
             and second ones for adaptive steps, which have first ones in both modes without it. Any other is of no use
             for adaptive steps, and deprecated there.
@@ -111,6 +120,7 @@ def simulate(
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
     _check_limit(max_steps)
+    longest = _longest(max_step, end - start)
     _check_adjoint(adjoint)
     width = 2 + len(system.states) + 3 * len(system.inputs)
     ends = None if dt is None else step_ends(start, end, dt, width)
@@ -127,11 +137,11 @@ def simulate(
     steps = "adaptive steps" if ends is None else f"{len(ends) - 1} steps"
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
-    if ends is not None and system.events is None:
+    if ends is not None and system.events is None and not are_split(run, ends, adjoint):
         scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
-    if adjoint is not None and not forward and system.events is None:
+    if adjoint is not None and not forward and system.events is None and ends is None:
         warnings.warn(
             "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
             DeprecationWarning,
@@ -144,7 +154,16 @@ def simulate(
         with_events = system.events is not None
         chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
     return simulate_in_steps(
-        run, saved, chosen, rtol, atol, max_steps, kind, ends=ends, forward=forward
+        run,
+        saved,
+        chosen,
+        rtol,
+        atol,
+        max_steps,
+        kind,
+        ends=ends,
+        forward=forward,
+        max_step=longest,
     )
 
 
@@ -168,6 +187,17 @@ def _span(t: float | tuple[float, float]) -> tuple[float, float]:
 def _check_limit(max_steps: object) -> None:
     if isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer) or max_steps < 1:
         raise DataError(f"max_steps={shown(max_steps)} is not a limit of steps; give 1 or more.")
+
+
+def _longest(max_step: object, span: float) -> float | None:
+    """The longest step; None: no limit."""
+    if max_step is None:
+        return span / SHARE
+    if not is_real(max_step) or np.ndim(max_step) or traced(max_step) or not float(max_step) > 0:  # pyright: ignore[reportArgumentType]
+        raise DataError(
+            f"max_step={shown(max_step)} is not a length of steps; give seconds, or inf for no limit."
+        )
+    return None if np.isinf(float(max_step)) else float(max_step)  # pyright: ignore[reportArgumentType]
 
 
 def _check_adjoint(adjoint: object) -> None:

@@ -25,7 +25,7 @@ from acausal.simulation.steps.multistep import (
     weights,
 )
 from acausal.simulation.steps.newton_matrix import NewtonMatrix
-from acausal.simulation.steps.one_step import first_length
+from acausal.simulation.steps.one_step import defect, first_length, look_inside
 from acausal.simulation.steps.problem import Attempt, Counts, Problem
 
 State = Float[Array, " n_states"]
@@ -46,6 +46,9 @@ LEFT = 0.1
 
 DIVERGED = 2.0
 """The ratio of two corrections at which Newton's method is given up."""
+
+INSIDE, OF_DEFECT = (0.36, 0.69), 0.002
+"""Where in a step the right-hand side is looked at once more, and what a defect there counts as an error."""
 
 WORTH = 1.5
 """A longer step is taken if it is so many times longer."""
@@ -146,6 +149,13 @@ class BDF(eqx.Module):
         )
         return memory, Counts.of(rates=2)
 
+    chooses: ClassVar[bool] = True
+    """It chooses the lengths of its steps."""
+
+    def resumed(self, memory: Memory, before: Memory) -> Memory:
+        """What is known behind a jump."""
+        return memory
+
     def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
         """Try a step of length h from t."""
         m, end = memory, t + h
@@ -172,7 +182,19 @@ class BDF(eqx.Module):
         x = newton.x
         error = constant * problem.size(x - predicted, x_before, x)
         error = jnp.where(newton.done, error, jnp.inf)
-        accepted = error < 1
+        inside = _fixed(Dense(jnp.concatenate([x[None], m.states]), _with_end(s), q))
+
+        def defects() -> Array:
+            sizes: list[Array] = []
+            fixed, begin, length, found = _fixed((matrix, t, h, x))
+            for share in INSIDE:  # solved with the matrix, as fast modes would count else
+                _, r = defect(self, problem, inside, begin, length, share)
+                sizes.append(problem.size(self.matrix.solve(fixed, r), x_before, found))
+            return jnp.max(jnp.stack(sizes))
+
+        look = look_inside(problem, error, defects, OF_DEFECT)
+        looked = (error < 1) & (look.error >= 1)
+        error, accepted = look.error, look.error < 1
         if self.tangents:
             x = self._with_tangent(whole, end, x, c, all_known)
         dense = Dense(jnp.concatenate([x[None], memory.states]), _with_end(s), q)
@@ -180,7 +202,8 @@ class BDF(eqx.Module):
         after = self._after(problem, solved, h, end, _fixed(dense), error)
         after = after._replace(states=dense.states[:-1])
         before = self._before(solved, newton, renew, h, error)._replace(states=memory.states)
-        counts = Counts.of(rates=newton.made, jacobians=renew, corrections=newton.made)
+        made = newton.made
+        counts = Counts.of(rates=made + look.rates, jacobians=renew, corrections=made, looks=looked)
         return Attempt(
             accepted,
             x,

@@ -16,7 +16,7 @@ from acausal.simulation.log import Log
 from acausal.simulation.steps.coinciding import follow_in_turn
 from acausal.simulation.steps.locate import POINTS, Hunt, look, no_hunt
 from acausal.simulation.steps.problem import Attempt, Counts, Problem
-from acausal.simulation.steps.rows import JUMP, STATE, TIMED, Reach, Row, follow, reach
+from acausal.simulation.steps.rows import EDGE, JUMP, STATE, TIMED, Reach, Row, follow, reach
 
 CROWD = 12
 """So many events in sequence, each within `NEAR` of the one before: the model slides, or bounces for ever."""
@@ -186,7 +186,10 @@ def land(
             end = reach(method, problem, row, row.t, row.x, row.d, is_event=True)
         in_turn = follow_in_turn if forward and problem.watched.n_guards > 1 else None
         t, after = follow(problem, row, end, row.d, in_turn)
-        begun, cost = method.begin(problem.held(after.d), t, after.x)
+        behind = problem.held(after.d)
+        if problem.field.has_edges:
+            behind = behind.sided(t, jnp.full_like(t, jnp.inf))
+        begun, cost = method.begin(behind, t, after.x)
         there = (end.dense, end.h) if forward else None
         return Landing(t, after.x, begun, cost, after.d, after.settled, there)
 
@@ -194,7 +197,20 @@ def land(
         pairs = memory, made.memory
         kept = jax.tree.map(lambda a, b: jnp.where(seen.hunt.active, a, b), *pairs)
         within = (made.dense, h) if forward else None
-        return plain._replace(memory=kept, d=row.d, settled=jnp.array(True), within=within)
+        cost = plain.cost
+        if problem.field.has_edges:
+            there = problem.held(row.d)
+            behind = there.sided(plain.t, jnp.full_like(plain.t, jnp.inf))
+
+            def renewed() -> tuple[Any, Counts]:
+                begun, cost = method.begin(behind, plain.t, plain.x)
+                return method.resumed(begun, kept), cost
+
+            at_edge = seen.ok & (row.kind == EDGE)
+            kept, cost = lax.cond(at_edge, renewed, lambda: (kept, Counts.of()))
+        return plain._replace(
+            memory=kept, cost=cost, d=row.d, settled=jnp.array(True), within=within
+        )
 
     return cond_any(happens, event, goes_on)
 

@@ -15,12 +15,23 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import cond_any, while_any
+from acausal._jax import cond_any, while_any, without_derivatives
+from acausal.codegen import Ahead
 from acausal.simulation.log import Log
 from acausal.simulation.steps import between_events
 from acausal.simulation.steps.between_events import EventState, Landing
-from acausal.simulation.steps.problem import Attempt, Counts, Problem
-from acausal.simulation.steps.rows import FREE, JUMP, RESTART, STOP, Row, restarted, stop_at
+from acausal.simulation.steps.problem import EDGE_STEPS, Attempt, Counts, Problem
+from acausal.simulation.steps.rows import (
+    BEND,
+    EDGE,
+    FREE,
+    JUMP,
+    RESTART,
+    STOP,
+    Row,
+    restarted,
+    stop_at,
+)
 
 REACHED, STIFF, EXHAUSTED, TOO_SHORT, UNSETTLED, CROWDED = range(6)
 """Why a loop stopped: at the end; as the model is stiff; at the limit of steps; with steps that became too short; at an
@@ -186,7 +197,27 @@ def advance(
         held = problem.held(c.d, stop.t)
         if c.events is not None:
             stop = between_events.sooner(held, c.t, c.x, stop)
-        proposed, left = lax.stop_gradient(c.memory.h), stop.t - c.t
+        proposed, longest = lax.stop_gradient(c.memory.h), jnp.inf
+        if problem.field.has_edges:
+            known = held.ahead(c.t)
+            held = held.sided(c.t, jnp.minimum(known.jump, known.bend))
+            stop, longest = _edge(held, known, stop), known.longest
+        moved = None
+        if (
+            problem.field.has_edges and c.events is None
+        ):  # the steps stay where they are: see `_begun_again`
+            at_edge = (stop.kind == BEND) | (stop.kind == EDGE)
+            fixed = jnp.where(at_edge, lax.stop_gradient(stop.t), stop.t)
+            moved, stop = stop.t - fixed if forward else None, stop._replace(t=fixed)
+        by_wave, by_span = jnp.array(False), jnp.array(False)
+        if problem.max_step is not None:
+            by_span = (problem.max_step < proposed) & (problem.max_step < longest)
+            longest = jnp.minimum(longest, problem.max_step)
+        if problem.field.has_edges or problem.max_step is not None:
+            by_wave = (longest < proposed) & ~by_span
+            shorter = jnp.minimum(proposed, longest).astype(proposed.dtype)
+            proposed = lax.stop_gradient(shorter if method.chooses else proposed)
+        left = stop.t - c.t
         to_stop = proposed * LEFT >= left
         h = jnp.where(to_stop, left, proposed)
         if c.events is not None and not problem.watched.timed.all():
@@ -204,14 +235,15 @@ def advance(
             row = row._replace(x=c.x, d=c.events.d, band=stop.band)
         t = jnp.where(ok, jnp.where(to_stop, stop.t, c.t + h), c.t)
         landing = Landing(t, jnp.where(ok, made.x, c.x), made.memory, Counts.of())
-        happens = ok & (stop.kind >= RESTART) & runs
+        begins = RESTART if seen is not None else EDGE
+        happens = ok & (stop.kind >= begins) & runs
         if seen is not None:
             landing = between_events.land(
                 method, problem, c.memory, row, made, h, seen, landing, happens, forward=forward
             )
-        elif len(problem.breaks):
+        elif len(problem.breaks) or problem.field.has_edges:
             landing = cond_any(
-                happens, lambda: _begun_again(method, problem, row, landing), lambda: landing
+                happens, lambda: _begun_again(method, problem, row, landing, moved), lambda: landing
             )
         dense, length = landing.within or (made.dense, h)
         between = partial(method.between, dense, c.t, length)
@@ -226,7 +258,15 @@ def advance(
         hunting = jnp.array(False) if seen is None else seen.hunt.active
         counts = c.counts.plus(made.counts).plus(landing.cost)
         counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~hunting))
-        why = jnp.where(counts.steps + counts.rejected >= problem.max_steps, EXHAUSTED, -1)
+        made_of = counts.steps + counts.rejected
+        if problem.field.has_edges:
+            at_edge = ok & ((row.kind == BEND) | (row.kind == EDGE))
+            counts = counts.plus(Counts.of(edges=at_edge))
+            made_of = jnp.maximum(made_of - EDGE_STEPS * counts.edges, made_of // EDGE_STEPS)
+        if problem.field.has_edges or problem.max_step is not None:
+            free = ok & ~to_stop
+            counts = counts.plus(Counts.of(by_wave=free & by_wave, by_span=free & by_span))
+        why = jnp.where(made_of >= problem.max_steps, EXHAUSTED, -1)
         why = jnp.where(~ok & ~hunting & (c.t + memory.h <= c.t), TOO_SHORT, why)
         reached, events = t >= problem.end, None
         if seen is not None:
@@ -265,13 +305,41 @@ def _kinds(problem: Problem) -> Int[Array, " n_breaks_1"]:
     return kinds.astype(jnp.int32)
 
 
-def _begun_again(method: Any, problem: Problem, row: Row, landing: Landing) -> Landing:
-    """The method begins anew behind a jump of the right-hand side, and where another run begins."""
-    x = landing.x
+def _edge(problem: Problem, ahead: Ahead, stop: between_events.Stop) -> between_events.Stop:
+    """The next edge of the right-hand side, if it comes before the stop."""
+    edge, apart = jnp.minimum(ahead.jump, ahead.bend), problem.apart(stop.t)
+    sooner = edge < stop.t - apart
+    kind = jnp.where(ahead.jump <= ahead.bend + apart, EDGE, BEND)
+    there = sooner | ((edge <= stop.t + apart) & (stop.kind == STOP))
+    stop = stop._replace(
+        t=jnp.where(sooner, edge, stop.t),
+        kind=jnp.where(there, kind, stop.kind).astype(jnp.int32),
+    )
+    if stop.band is None:
+        return stop
+    return stop._replace(band=jnp.where(sooner, -1.0, stop.band).astype(stop.band.dtype))
+
+
+def _begun_again(
+    method: Any, problem: Problem, row: Row, landing: Landing, moved: Array | None
+) -> Landing:
+    """The method begins anew behind a jump of the right-hand side, and where another run begins.
+
+    ``moved`` is zero and has the derivative of an edge's time: the state behind it moves by the difference of both
+    sides. None where derivatives in forward mode are not wanted.
+    """
+    x, t = landing.x, landing.t
+    if moved is not None:
+        sides = without_derivatives(problem).field, lax.stop_gradient(x), 2 * problem.apart(t)
+        field, there, apart = sides
+        change = field(t - apart, there) - field(t + apart, there)
+        x = x + jnp.where(row.kind == EDGE, moved, 0.0) * lax.stop_gradient(change)
+    if problem.field.has_edges:  # what follows an edge is seen from its other side
+        problem = problem.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
     if problem.first is not None:
         x = jnp.where(row.kind == RESTART, restarted(problem, row.which)[0], x)
     memory, cost = method.begin(problem, landing.t, x)
-    return landing._replace(x=x, memory=memory, cost=cost)
+    return landing._replace(x=x, memory=method.resumed(memory, landing.memory), cost=cost)
 
 
 def _save(

@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from acausal.codegen import Field, Packed, Values
+from acausal.codegen import Ahead, Field, Packed, Values
 from acausal.simulation.fixed_steps import Integrated, Runs, Step, Steps
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Scheme, Solver
@@ -79,6 +79,28 @@ class Clock(eqx.Module):
     def with_modes(self, d: Float[Array, " n_discrete"] | None) -> Clock:
         """The same with discrete variables."""
         return Clock(self.packed, self.steps, self.edges, self.own, self.places, self.system, d)
+
+    @property
+    def has_edges(self) -> bool:
+        """Whether times are known ahead at which it jumps or bends."""
+        return bool(self.system.edges)
+
+    @property
+    def bends(self) -> bool:
+        """Whether it jumps or bends somewhere that depends on states or inputs."""
+        return self.system.edges.bends
+
+    def ahead(self, t: Array, apart: Array) -> Ahead:
+        """The next of these times, by the clock; within a row, as another run may begin behind it."""
+        row = jnp.clip(
+            jnp.searchsorted(self.edges, t + apart, side="right") - 1, 0, len(self.edges) - 2
+        )
+        packed = self.packed
+        if self.own is not None:
+            packed = packed.replaced(self.places, self.own[row])
+        shift = self.steps.t[row] - self.edges[row]
+        found = self.system.edges.ahead(packed, t + shift, apart, self.d)
+        return Ahead(found.jump - shift, found.bend - shift, found.longest)
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""

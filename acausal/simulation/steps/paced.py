@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -55,6 +55,13 @@ class Paced(eqx.Module):
         zero = jnp.zeros((), jnp.int32)
         return Memory(h, x, self._first(problem, t, x), zero, zero), Counts.of(rates=1)
 
+    chooses: ClassVar[bool] = False
+    """Its steps are given."""
+
+    def resumed(self, memory: Memory, before: Memory) -> Memory:
+        """What is known behind a jump."""
+        return memory
+
     def attempt(self, problem: Problem, memory: Memory, t: Array, h: Array) -> Attempt:
         """Make a step of length h from t."""
         made = self.make(problem.field, t, h, memory.x, memory.first)
@@ -63,6 +70,8 @@ class Paced(eqx.Module):
         after = memory._replace(h=again.astype(h.dtype), x=made.x, first=made.first)
         never = jnp.array(False)
         return Attempt(done, made.x, after, made.dense, (), never, made.counts)
+
+    adjoint, at_start, back = OneStep.adjoint, OneStep.at_start, OneStep.back
 
     def _first(self, problem: Problem, t: Array, x: Array) -> Any:
         h = jnp.ones_like(t)

@@ -9,7 +9,13 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import Events, Field
+from acausal.codegen import Ahead, Events, Field
+
+SIDE = 16.0
+"""Two times are apart if they differ by so many rounding errors."""
+
+EDGE_STEPS = 8
+"""An edge of the right-hand side allows so many more steps; all in all, there may be so many times ``max_steps``."""
 
 
 class RightHandSide(Protocol):
@@ -22,6 +28,20 @@ class RightHandSide(Protocol):
     d: Float[Array, " n_discrete"] | None
     until: Float[Array, ""] | None
 
+    @property
+    def has_edges(self) -> bool:
+        """Whether times are known ahead at which it jumps or bends, or how long a step may be."""
+        ...
+
+    @property
+    def bends(self) -> bool:
+        """Whether it jumps or bends somewhere that depends on states or inputs."""
+        ...
+
+    def ahead(self, t: Array, apart: Array) -> Ahead:
+        """What is known of the time to come, as of `Edges.ahead`."""
+        ...
+
     def at(self, t: Array) -> Field:
         """It at one time, as a function of the states."""
         ...
@@ -29,6 +49,46 @@ class RightHandSide(Protocol):
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
         ...
+
+
+class Sided(eqx.Module):
+    """A right-hand side between two edges: it sees no time beyond them, whatever rounding and stages say."""
+
+    field: Any
+    low: Float[Array, ""]
+    high: Float[Array, ""]
+
+    @property
+    def d(self) -> Float[Array, " n_discrete"] | None:
+        """Discrete variables."""
+        return self.field.d
+
+    @property
+    def until(self) -> Float[Array, ""] | None:
+        """Inputs do not jump before."""
+        return self.field.until
+
+    @property
+    def has_edges(self) -> bool:
+        """It has none but its ends."""
+        return False
+
+    @property
+    def bends(self) -> bool:
+        """As the whole."""
+        return self.field.bends
+
+    def ahead(self, t: Array, apart: Array) -> Ahead:
+        """As the whole."""
+        return self.field.ahead(t, apart)
+
+    def at(self, t: Array) -> Field:
+        """It at one time."""
+        return self.field.at(jnp.clip(t, self.low, self.high).astype(jnp.result_type(t)))
+
+    def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+        """The derivatives of the states."""
+        return self.at(t)(x)
 
 
 class Problem(eqx.Module):
@@ -45,6 +105,7 @@ class Problem(eqx.Module):
         restarts: at which breaks another run begins, if any do. first: with which state.
         first_d: and with which discrete variables.
         events: of the model; None for one without.
+        max_step: the longest step, in seconds; None: as long as its error allows.
     """
 
     field: RightHandSide
@@ -61,6 +122,7 @@ class Problem(eqx.Module):
     first: Float[Array, "n_breaks n_states"] | None = None
     first_d: Float[Array, "n_breaks n_discrete"] | None = None
     events: Events | None = eqx.field(static=True, default=None)
+    max_step: Float[Array, ""] | None = None
 
     @property
     def watched(self) -> Events:
@@ -77,10 +139,32 @@ class Problem(eqx.Module):
         and how the state grows with the step's length would be wrong.
         """
         if until is not None:
-            until = lax.stop_gradient(jnp.nextafter(until, jnp.full_like(until, -jnp.inf)))
+            until = lax.stop_gradient(until)
+            until = jnp.nextafter(until, jnp.full_like(until, -jnp.inf))
         sides = self.field.d if d is None else d, until
         places = lambda p: (p.field.d, p.field.until)  # noqa: E731
         return eqx.tree_at(places, self, sides, is_leaf=lambda leaf: leaf is None)
+
+    @property
+    def most_steps(self) -> int:
+        """How many steps there may be, those at edges included."""
+        return self.max_steps * (EDGE_STEPS if self.field.has_edges else 1)
+
+    def apart(self, t: Float[Array, ""]) -> Float[Array, ""]:
+        """How far another time must be from one to be another."""
+        eps = SIDE * jnp.finfo(jnp.result_type(t)).eps
+        return lax.stop_gradient(eps * jnp.maximum(jnp.abs(t), self.end - self.begin))
+
+    def ahead(self, t: Float[Array, ""]) -> Ahead:
+        """The next edges behind a time, and how long a step may be until then."""
+        dtype = jnp.result_type(t)
+        found = self.field.ahead(t, self.apart(t))
+        return Ahead(*(jnp.asarray(v, dtype) for v in found))
+
+    def sided(self, t: Float[Array, ""], edge: Float[Array, ""]) -> Problem:
+        """The problem between a time and the next edge behind it."""
+        low, high = lax.stop_gradient((t + self.apart(t), edge - self.apart(t)))
+        return eqx.tree_at(lambda p: p.field, self, Sided(self.field, low, high))
 
     def size(
         self, change: Float[Array, " n_states"], *states: Float[Array, " n_states"]
@@ -102,6 +186,8 @@ class Counts(NamedTuple):
         rates: evaluations of the right-hand side.
         jacobians: evaluations of its Jacobian, each factorized.
         corrections: Newton steps.
+        edges: steps that end at an edge. by_wave, by_span: steps as long as a sine of time, or `max_step`, allows.
+        looks: steps that are repeated for what a look inside has shown.
     """
 
     steps: Int[Array, ""]
@@ -109,14 +195,15 @@ class Counts(NamedTuple):
     rates: Int[Array, ""]
     jacobians: Int[Array, ""]
     corrections: Int[Array, ""]
+    edges: Int[Array, ""]
+    by_wave: Int[Array, ""]
+    by_span: Int[Array, ""]
+    looks: Int[Array, ""]
 
     @staticmethod
-    def of(
-        steps: Any = 0, rejected: Any = 0, rates: Any = 0, jacobians: Any = 0, corrections: Any = 0
-    ) -> Counts:
+    def of(**numbers: Any) -> Counts:
         """Some numbers, the others zero."""
-        given = (steps, rejected, rates, jacobians, corrections)
-        return Counts(*(jnp.asarray(n, jnp.int32) for n in given))
+        return Counts(*(jnp.asarray(numbers.get(n, 0), jnp.int32) for n in Counts._fields))
 
     def plus(self, other: Counts) -> Counts:
         """The sums."""

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Int
 
-from acausal._jax import room, while_any, with_steps
+from acausal._jax import room, while_any, with_steps, without_derivatives
 from acausal.simulation.steps.event_adjoint import (
     Adjoint,
     OfMoved,
@@ -30,7 +30,16 @@ from acausal.simulation.steps.loop import (
     search,
 )
 from acausal.simulation.steps.problem import Problem
-from acausal.simulation.steps.rows import RESTART, STOP, Reach, Row, reach, restarted, stop_at
+from acausal.simulation.steps.rows import (
+    EDGE,
+    RESTART,
+    Reach,
+    Row,
+    next_edge,
+    reach,
+    restarted,
+    stop_at,
+)
 
 MEMORY = 2**20
 """Numbers that the steps of a run may take in memory before it is made part by part again: 8 MB.
@@ -88,7 +97,7 @@ def _kept(task: Task, until_stiff: bool) -> tuple[Found, Steps]:
     like = row_like(method, problem, progress)
     numbers = sum(a.size for a in jax.tree.leaves(like))
     size = min(problem.max_steps, _size(numbers, problem))
-    most = -(-problem.max_steps // size)
+    most = -(-problem.most_steps // size)
     rows, parts = room(like, size), room(progress.short(), most)
 
     def one(carry: tuple[Any, ...], runs: Array) -> tuple[Any, ...]:
@@ -165,7 +174,7 @@ def _back(
             values = jax.tree.map(lambda a, b: jnp.where(k < n - 1, a, b), (after.x, after.d), then)
             through = partial(_through_event, of_moved, own, row, to, which, values)
             plain, event = (partial(through, is_event=b) for b in (False, True))
-            return k - 1, lax.cond(row.kind > STOP, event, plain, behind)
+            return k - 1, lax.cond(row.kind > EDGE, event, plain, behind)
 
         _, before = lax.while_loop(lambda c: c[0] >= 0, step, (n - 1, behind))
         return i - 1, rows, n, before
@@ -205,13 +214,39 @@ def _through_step(
             return through_restart(of_moved, own, row, behind, method.at_start(behind.x))
 
         behind = lax.cond(row.kind == RESTART, restart, lambda: behind)
+    if problem.field.has_edges:
+        behind = _through_edge(of_moved, own, row, method.at_start(behind.x), behind)
 
     def held(some: list[Array]) -> Task:
         method, problem, start = of_moved(some)
-        return method, problem.held(None, stop_at(problem, row.ahead)), start
+        there = problem.held(None, stop_at(problem, row.ahead))
+        if problem.field.has_edges:
+            there = there.sided(row.t, next_edge(there, row.t))
+        return method, there, start
 
     x, by_own = method.back(held, own, row, begin, behind.x, to.saved[0], which)
     return behind._replace(x=x, own=[a + b for a, b in zip(behind.own, by_own, strict=True)])
+
+
+def _through_edge(
+    of_moved: OfMoved, own: list[Array], row: Row, to_x: Array, behind: Adjoint
+) -> Adjoint:
+    """What the time of a jump of the right-hand side moves: the state behind it, by the difference of both sides."""
+    _, problem, _ = of_moved(own)
+    fixed, end = without_derivatives(problem), row.t + row.h
+    apart = fixed.apart(end)
+
+    def jump() -> list[Array]:
+        before, after = (fixed.field(end + side * apart, row.x) for side in (-2.0, 2.0))
+
+        def instant(some: list[Array]) -> Array:
+            return next_edge(of_moved(some)[1], row.t)
+
+        return jax.vjp(instant, own)[1](to_x @ (before - after))[0]
+
+    nothing = lambda: [jnp.zeros_like(v) for v in own]  # noqa: E731
+    by_own = lax.cond(row.kind == EDGE, jump, nothing)
+    return behind._replace(own=[a + b for a, b in zip(behind.own, by_own, strict=True)])
 
 
 def _through_event(

@@ -15,9 +15,9 @@ from acausal.codegen import Values, due, guards
 from acausal.initialization import After, happen
 from acausal.simulation.steps.problem import Problem
 
-FREE, STOP, RESTART, JUMP, TIMED, STATE = range(6)
-"""How a step ends: as long as it was; at a known time; where another run begins; where inputs jump; at the known time
-of a condition; where one changes."""
+FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
+"""How a step ends: as long as it was; at a known time; where the right-hand side is known to bend, or to jump; where
+another run begins; where inputs jump; at the known time of a condition; where one changes."""
 
 GRAZING = 1e-12
 """A condition that changes more slowly than this, relative to its size and the step, has no time of its own."""
@@ -73,6 +73,12 @@ def stop_at(problem: Problem, i: Int[Array, ""]) -> Float[Array, ""]:
     return jnp.where(i < n, problem.breaks[jnp.minimum(i, n - 1)], problem.end)
 
 
+def next_edge(problem: Problem, t: Float[Array, ""]) -> Float[Array, ""]:
+    """The next time at which the right-hand side jumps or bends; infinite if there is none."""
+    ahead = problem.ahead(t)
+    return jnp.minimum(ahead.jump, ahead.bend)
+
+
 def reach(
     method: Any,
     problem: Problem,
@@ -89,11 +95,15 @@ def reach(
         method, problem: what is integrated.
         row: the step; its length counts where it does not follow from the rest.
         t, x, d: its start. They equal the row's, and may have derivatives.
-        is_event: whether an event, or another run, follows; else the step is FREE or goes to a STOP.
+        is_event: whether an event, or another run, follows; else the step is FREE or goes to a STOP, BEND or EDGE.
     """
-    field = problem.held(d, stop_at(problem, row.ahead)).field
-    events = problem.watched
+    held, events = problem.held(d, stop_at(problem, row.ahead)), problem.watched
     stop = stop_at(problem, row.which)
+    if held.field.has_edges:
+        edge = next_edge(held, row.t)
+        held = held.sided(row.t, edge)
+        stop = jnp.where((row.kind == BEND) | (row.kind == EDGE), edge, stop)
+    field = held.field
 
     def step(h: Array) -> tuple[Array, Any]:
         first = method.first(field, t, h, x, field(t, x))
@@ -102,9 +112,10 @@ def reach(
 
     fixed = lax.stop_gradient(row.h)
     if not is_event:
-        h = jnp.where(row.kind == STOP, stop - t, fixed)
+        to_stop = (row.kind >= STOP) & (row.kind <= EDGE)
+        h = jnp.where(to_stop, stop - t, fixed)
         end, dense = step(h)
-        return Reach(jnp.where(row.kind == STOP, stop, t + h), end, h, dense)
+        return Reach(jnp.where(to_stop, stop, t + h), end, h, dense)
 
     (end, dense), by_h = jax.jvp(step, (fixed,), (jnp.ones_like(fixed),))
 

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import cast, known, traced
-from acausal.codegen import Field, Packed
+from acausal.codegen import Ahead, Field, Packed
 from acausal.errors import SimulationError, StepLimitError, listing
 from acausal.initialization import restless
 from acausal.simulation import solvers
@@ -43,6 +43,20 @@ class ModelField(eqx.Module):
     d: Float[Array, " n_discrete"] | None = None
     until: Float[Array, ""] | None = None
 
+    @property
+    def has_edges(self) -> bool:
+        """Whether times are known ahead at which it jumps or bends."""
+        return bool(self.system.edges)
+
+    @property
+    def bends(self) -> bool:
+        """Whether it jumps or bends somewhere that depends on states or inputs."""
+        return self.system.edges.bends
+
+    def ahead(self, t: Array, apart: Array) -> Ahead:
+        """The next of these times."""
+        return self.system.edges.ahead(self.packed, t, apart, self.d)
+
     def at(self, t: Array) -> Field:
         """It at one time."""
         return self.system.field(t, evaluate(self.inputs, t, self.until), self.packed, self.d)
@@ -63,6 +77,7 @@ def simulate_in_steps(
     *,
     ends: Float[np.ndarray, " n_ends"] | None = None,
     forward: bool = False,
+    max_step: float | None = None,
 ) -> Solution:
     """Simulate in steps that end where an input is known to jump, and at events.
 
@@ -75,6 +90,7 @@ def simulate_in_steps(
         atol: absolute tolerance, in the states' units.
         max_steps: limit of steps.
         dtype: precision of time and states.
+        max_step: the longest step in seconds; None: as their errors allow.
         ends: of fixed steps of a model with events; by default, steps follow their errors.
         forward: allow derivatives in forward mode only, of any order.
 
@@ -101,6 +117,7 @@ def simulate_in_steps(
         jnp.asarray(atol, float),
         max_steps,
         events=run.system.events,
+        max_step=None if max_step is None or ends is not None else jnp.asarray(max_step, float),
     )
     problem, d = cast((problem, run.start.d), dtype)
     log = None
@@ -115,9 +132,8 @@ def simulate_in_steps(
             run.refuse_broken(x, saved, solved.method)
         else:
             raise _stopped(run, solved, int(why), max_steps, ends is not None, solver is None)
-    statistics = Statistics(
-        solved.method, c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
-    )
+    own = c.steps, c.rejected, c.rates, c.jacobians, c.corrections, solved.stiff_from
+    statistics = Statistics(solved.method, *own, c.edges, c.by_wave, c.by_span, c.looks)
     u = evaluate_all(run.inputs, problem.ts)
     values = cast(run.start, dtype)._replace(t=problem.ts, x=x, u=u, d=saved_d)
     inputs = None if found.log is None else run.inputs

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal._jax import is_number
-from acausal.data import Data
+from acausal.data import Data, Signal
 from acausal.errors import DataError, TrainingError, shown
 from acausal.simulation import (
     Adaptive,
@@ -19,6 +19,7 @@ from acausal.simulation import (
     Scheme,
     Steps,
     TimeFunction,
+    evaluate_all,
     functions_of_time,
     inner_fractions,
     polynomials_over_steps,
@@ -142,12 +143,22 @@ def _rows(
     nothing = np.full(len(data), np.nan)
     x = [data.signals.get(n, nothing) for n in names] or [nothing]
     y = data.columns(targets, "a target of the training")
-    return _Rows(at_rows(y), at_rows(np.stack(x, axis=1)), _with_last(inner), functions)
+    return _Rows(
+        at_rows(y),
+        at_rows(np.stack(x, axis=1)),
+        _with_last(inner, functions, grid.t[-1:]),
+        functions,
+    )
 
 
-def _with_last(inner: Samples) -> Samples:
-    """The inputs with one more step at the end, over which they stay as they are."""
+def _with_last(
+    inner: Samples, functions: tuple[TimeFunction, ...], end: Float[np.ndarray, " 1"]
+) -> Samples:
+    """The inputs with one more step at the end, over which they stay as they are there; those that are held jump."""
+    jump = np.array([isinstance(f, Signal) and f.jumps for f in functions], bool)
     last = inner.end[-1:]
+    if jump.any():
+        last = jnp.where(jump, evaluate_all(functions, jnp.asarray(end)), last)
     start, end = (jnp.concatenate([side, last]) for side in (inner.start, inner.end))
     coefficients = inner.coefficients
     if coefficients is not None:

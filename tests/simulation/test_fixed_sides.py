@@ -1,0 +1,119 @@
+"""Fixed steps: each sees its own side of an edge or of a jump of an input, so their order is full."""
+
+import jax
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import blocks
+from tests.support.parts import Equations, model
+
+T, END = 0.7, 4.0
+
+
+@pytest.fixture(scope="module")
+def lag():
+    made = model(
+        "s.y - f.u",
+        s=blocks.Pulse(amplitude=2.0, width=50.0, period=1.0, startTime=0.5),
+        f=blocks.FirstOrder(T=T, k=1.0, y_start=0.0, initType="InitialState"),
+    )
+    return ac.compile(made)
+
+
+def exact(start, period=1.0):
+    edges = start + period / 2 * np.arange(20)
+    behind = np.maximum(END - edges, 0.0)
+    return float(np.sum(2.0 * (-1.0) ** np.arange(20) * -np.expm1(-behind / T)))
+
+
+def errors(system, start, steps, **options):
+    params = system.parameters() | {"s.startTime": start}
+    found = [
+        float(ac.simulate(system, END, dt=dt, params=params, **options)["f.y"][-1]) for dt in steps
+    ]
+    return np.abs(np.array(found) - exact(start))
+
+
+@pytest.mark.parametrize(("solver", "order"), [("rk4", 4), ("heun", 2)])
+def test_full_order_at_edges_on_the_grid(lag, solver, order):
+    coarse, fine = errors(lag, 0.5, (0.1, 0.05), solver=solver)
+    assert coarse < 2e-2 * 0.1 ** (order - 1)
+    assert np.log2(coarse / fine) == pytest.approx(order, abs=0.4)
+
+
+def test_full_order_at_edges_within_steps(lag):
+    coarse, fine = errors(lag, 0.537, (0.1, 0.05), solver="rk4")
+    assert coarse < 1e-5
+    assert coarse / fine > 8
+
+
+def test_the_steps_that_an_edge_divides_are_saved_on_the_grid(lag):
+    params = lag.parameters() | {"s.startTime": 0.537}
+    sol = ac.simulate(lag, END, dt=0.1, params=params, solver="rk4")
+    np.testing.assert_allclose(sol.t, np.linspace(0.0, END, 41))
+    slope = jax.grad(
+        lambda start: ac.simulate(
+            lag, END, dt=0.1, params=params | {"s.startTime": start}, solver="rk4"
+        )["f.y"][-1]
+    )(0.537)
+    difference = (exact(0.537 + 1e-6) - exact(0.537 - 1e-6)) / 2e-6
+    assert float(slope) == pytest.approx(difference, rel=1e-3)
+
+
+@pytest.fixture(scope="module")
+def held():
+    return ac.compile(
+        Equations(
+            "x y",
+            lambda s: [ac.Eq(ac.der(s.x), s.u - s.k * s.x), ac.Eq(s.y, 2 * s.u + s.x)],
+            inputs="u",
+            k=1.0,
+        )
+    )
+
+
+def record(late=0.0):
+    ts = np.arange(101) * 0.01
+    us, x = np.sin(70 * ts), [0.3]
+    for u in us[:-1]:
+        x.append(u + (x[-1] - u) * np.exp(-0.01))
+    return ts, us, np.array(x)
+
+
+def test_the_last_sample_of_a_held_input_is_its_own(held):
+    ts, us, x = record()
+    data = ac.Data(ts, {"u": us}, interpolation="previous")
+    sol = ac.simulate(held, (0, 1), dt=0.01, solver="rk4", inputs=data, x0={"x": 0.3})
+    np.testing.assert_allclose(sol["x"], x, atol=1e-10)
+    np.testing.assert_allclose(sol["y"], 2 * us + x, atol=1e-10)
+
+
+def test_a_training_on_exact_data_of_a_held_input_stays_where_it_is(held):
+    ts, us, x = record()
+    data = ac.Data(ts, {"u": us, "x": x, "y": 2 * us + x}, interpolation={"u": "previous"})
+    fit = ac.fit(
+        held,
+        data,
+        ["y"],
+        modifiers=["k"],
+        epochs=3,
+        strategy="gauss_newton",
+        solver="rk4",
+        progress=False,
+    )
+    assert float(fit.loss_before) < 1e-8
+    assert float(fit.params["k"]) == pytest.approx(1.0, abs=1e-5)
+
+
+def test_a_held_input_that_jumps_within_steps_divides_them(held):
+    ts, us, _ = record()
+    late = ac.Signal(ts, us, "previous").delayed(0.0037)
+    sol = ac.simulate(held, (0, 1), dt=0.01, solver="rk4", inputs={"u": late}, x0={"x": 0.3})
+    value, t = 0.3, 0.0
+    for edge, u in zip(np.append(ts[1:] + 0.0037, 9.0), us, strict=True):
+        end = min(edge, 1.0)
+        value, t = u + (value - u) * np.exp(-(end - t)), end
+        if end == 1.0:
+            break
+    assert float(sol["x"][-1]) == pytest.approx(value, abs=1e-9)
