@@ -6,6 +6,10 @@ It knows nothing of time integration or data.
 
 from acausal.initialization.event import (
     COINCIDE as COINCIDE,
+    DECREED as DECREED,
+    ONE_BY_ONE as ONE_BY_ONE,
+    PASSES as PASSES,
+    ROUNDS as ROUNDS,
     After as After,
     Rates as Rates,
     Round as Round,

@@ -39,6 +39,12 @@ from acausal.simulation.solvers import (
 from acausal.simulation.stability import long_steps as long_steps
 from acausal.simulation.stages import KAPPA as KAPPA, SLOW as SLOW
 from acausal.simulation.steps import (
+    BAND as BAND,
+    CLOSE as CLOSE,
+    CROWD as CROWD,
+    DEADER as DEADER,
+    NEAR as NEAR,
+    TRIES as TRIES,
     Adaptive as Adaptive,
     check_tolerances as check_tolerances,
     integrate_in_steps as integrate_in_steps,

@@ -14,6 +14,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import rotational as rot
+from acausal.export.c_text import event_lines
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy
 from tests.support.hybrid import Ball, Sampled, Step, Thermostat, ball_height
@@ -307,3 +308,12 @@ def test_examples_as_fmus(name: str, tmp_path: Path) -> None:
         got = np.interp(t, found["time"], found[state])
         off = np.maximum(off, np.abs(got - expected) / (np.ptp(expected) or 1))
     assert np.sum(off > 1e-5) <= 1
+
+
+def test_limits_are_those_of_simulate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    system = ac.compile(Ball())
+    monkeypatch.setattr(event_lines, "BAND", 1.25e-7)
+    monkeypatch.setattr(event_lines, "PASSES", 77)
+    text = ac.export.c(system, tmp_path)[1].read_text()
+    assert "#define BAND R(1.25e-07)" in text
+    assert "PASSES = 77" in text

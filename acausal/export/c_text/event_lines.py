@@ -7,6 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from acausal.codegen import Events
+from acausal.initialization import COINCIDE, DECREED, ONE_BY_ONE, PASSES, ROUNDS
+from acausal.simulation import BAND, CLOSE, CROWD, DEADER, NEAR, TRIES
 
 EVENT = """/* -- events ---------------------------------------------------------------------------------------
 
@@ -29,17 +31,17 @@ static void copy(const real *from, real *to, int n) {
    Conditions within m->e.band of zero become what m->e.decreed says. At first all that disagree change at once, later
    the first of them alone. */
 static int settle(NAME *m, const real t, const real *u, const real initial) {
-    for (int pass = 0; pass < 1030; pass++) {
+    for (int pass = 0; pass < PASSES + ONE_BY_ONE; pass++) {
         int others = 1;
         conditions(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.number);
         for (int i = 0; i < GUARDS; i++) {
             const real g = m->e.number[i];
             int holds = strict[i] ? g > 0 : g >= 0;
-            if (pass < 500 && fabs(g) <= m->e.band[i]) holds = m->e.decreed[i];
+            if (pass < DECREED && fabs(g) <= m->e.band[i]) holds = m->e.decreed[i];
             if (ticks[i] && initial > 0) holds = 0;
             m->e.holds[i] = (real)holds;
             if (m->e.holds[i] != m->d[i]) {
-                if (!others && pass >= 30) m->e.holds[i] = m->d[i];
+                if (!others && pass >= PASSES) m->e.holds[i] = m->d[i];
                 others = 0;
             }
         }
@@ -69,7 +71,7 @@ static int turn(NAME *m, const real t, const real *u, const real *along_u) {
 /* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at. */
 static NAME_status happen(NAME *m, const real t, const real *u, const real *along_u) {
     int turned = !along_u;
-    for (int round = 0; round < 20; round++) {
+    for (int round = 0; round < ROUNDS; round++) {
         copy(m->x, m->e.x_before, STATES);
         copy(m->d, m->e.d_before, DISCRETE);
         if (!settle(m, t, u, 0)) return UPPER_UNSETTLED;
@@ -153,7 +155,7 @@ static int look(NAME *m, const real t, const real h) {
             if (touches[k]) over[k] = TINY;
         }
         if (!hunt->active) m->e.scale[i] = fabs(over[0]) + fabs(over[POINTS - 1]) + TINY;
-        const int is_left = over[0] > 0 && over[0] <= R(1e-9) * m->e.scale[i] && !touches[0];
+        const int is_left = over[0] > 0 && over[0] <= BAND * m->e.scale[i] && !touches[0];
         if (is_left) /* what rounding has left of the event before */
             for (int k = POINTS - 1; k >= 0; k--) over[k] -= over[0];
         int later = hunt->active && m->e.later[i];
@@ -196,12 +198,12 @@ static int look(NAME *m, const real t, const real h) {
     const real size = fabs(t) > h ? fabs(t) : h;
     const int close = fabs(value) <= CLOSE && value != 0 && hunt->away; /* not what is left of the event before */
     hunt->away = hunt->away || value < -CLOSE;
-    if (!(close || hunt->high - hunt->low <= 4 * ROUNDING * size || hunt->tries >= 80))
+    if (!(close || hunt->high - hunt->low <= 4 * ROUNDING * size || hunt->tries >= TRIES))
         return 0;
     hunt->active = 0;
     for (int i = 0; i < GUARDS; i++) {
-        const int near = m->e.later[i] && m->e.over[i] >= -R(1e-9) * m->e.scale[i];
-        m->e.band[i] = near || i == hunt->which ? R(1e-9) * m->e.scale[i] : (real)-1;
+        const int near = m->e.later[i] && m->e.over[i] >= -BAND * m->e.scale[i];
+        m->e.band[i] = near || i == hunt->which ? BAND * m->e.scale[i] : (real)-1;
         m->e.decreed[i] = m->d[i] < R(0.5);
     }
     return 1;
@@ -217,14 +219,14 @@ static NAME_status end_with_event(NAME *m, const real *u, const real *along_u, c
     /* an event that rounding has made changes nothing: the number must go farther next time */
     const int moved = !searched || !equal(m->d, m->e.d_last, DISCRETE) || !equal(m->x, m->e.x_end, STATES);
     for (int i = 0; i < GUARDS; i++) {
-        const real farther = 10 * m->e.dead[i] > m->e.touched[i] ? 10 * m->e.dead[i] : m->e.touched[i];
+        const real farther = DEADER * m->e.dead[i] > m->e.touched[i] ? DEADER * m->e.dead[i] : m->e.touched[i];
         m->e.dead[i] = moved ? 0 : m->e.touched[i] >= 0 ? farther : m->e.dead[i];
     }
     if (moved) {
-        m->e.crowd = m->time - m->e.last_event < R(1e-10) * span ? m->e.crowd + 1 : 0;
+        m->e.crowd = m->time - m->e.last_event < NEAR * span ? m->e.crowd + 1 : 0;
         m->e.last_event = m->time;
     }
-    return m->e.crowd >= 12 ? UPPER_CROWDED : UPPER_OK;
+    return m->e.crowd >= CROWD ? UPPER_CROWDED : UPPER_OK;
 }
 """
 
@@ -233,7 +235,7 @@ STEP = """    const real begin = m->time, end = begin + h;
     INPUTS_BEGIN
     m->e.hunt.active = 0;
     while (m->time < end) {
-        const real t = m->time, apart = R(1e-12) * (fabs(t) > h ? fabs(t) : h);
+        const real t = m->time, apart = COINCIDE * (fabs(t) > h ? fabs(t) : h);
         real stop = end, soonest = INFINITY;
         INPUTS_FROM
         find_due(m, m->e.u_from);
@@ -286,17 +288,17 @@ PUBLIC = """NAME_status NAME_begin(NAME *m) {
     copy(m->x, m->e.x_before, STATES);
     copy(m->d, m->e.d_before, DISCRETE);
     if (!settle(m, m->time, m->u, 1)) return UPPER_UNSETTLED;
-    decree(m, m->time, m->u, R(1e-12) * fabs(m->time));
+    decree(m, m->time, m->u, COINCIDE * fabs(m->time));
     return happen(m, m->time, m->u, NULL);
 }
 
 NAME_status NAME_event(NAME *m) {
-    decree(m, m->time, m->u, R(1e-12) * fabs(m->time));
+    decree(m, m->time, m->u, COINCIDE * fabs(m->time));
     conditions(m, m->time, m->x, m->u, m->x, m->d, m->e.number);
     for (int i = 0; i < GUARDS; i++) {
         const int was_away = !timed[i] && m->e.usual[i] > 0;
-        if (was_away && fabs(m->e.number[i]) <= R(1e-9) * m->e.usual[i]) {
-            m->e.band[i] = R(1e-9) * m->e.usual[i];
+        if (was_away && fabs(m->e.number[i]) <= BAND * m->e.usual[i]) {
+            m->e.band[i] = BAND * m->e.usual[i];
             m->e.decreed[i] = m->d[i] < R(0.5);
         }
         m->e.usual[i] = 0;
@@ -321,7 +323,7 @@ NAME_real NAME_next_event(NAME *m) {
     NEXT_EDGE
     find_due(m, m->u);
     for (int i = 0; i < GUARDS; i++)
-        if (m->e.due[i] > m->time + R(1e-12) * fabs(m->time) && m->e.due[i] < soonest) soonest = m->e.due[i];
+        if (m->e.due[i] > m->time + COINCIDE * fabs(m->time) && m->e.due[i] < soonest) soonest = m->e.due[i];
     return soonest;
 }
 """
@@ -396,6 +398,21 @@ typedef struct {
     for word in ("CONDITIONS", "DISCRETE", "STATES", "INPUTS"):
         text = text.replace(word, f"{name.upper()}_{word}")
     return iter(text.replace("NAME", name).splitlines())
+
+
+def constants() -> Iterator[str]:
+    """The limits of event iteration and search, those of `acausal.simulate`."""
+    reals = {"CLOSE": CLOSE, "BAND": BAND, "NEAR": NEAR, "DEADER": DEADER, "COINCIDE": COINCIDE}
+    counts = {
+        "TRIES": TRIES,
+        "CROWD": CROWD,
+        "ROUNDS": ROUNDS,
+        "PASSES": PASSES,
+        "DECREED": DECREED,
+    }
+    yield from (f"#define {name} R({value!r})" for name, value in reals.items())
+    whole = ", ".join(f"{n} = {v}" for n, v in {**counts, "ONE_BY_ONE": ONE_BY_ONE}.items())
+    yield f"enum {{ {whole} }};"
 
 
 def event_tables(events: Events) -> Iterator[str]:

@@ -13,6 +13,7 @@ from acausal.export.c_text.event_lines import (
     PUBLIC,
     SEARCH,
     STEP,
+    constants,
     event_tables,
     filled,
 )
@@ -126,7 +127,7 @@ def _events(text: Text) -> Iterator[str]:
         return
     limits = "FLT" if text.precision == "float" else "DBL"
     yield from (f"#define TINY {limits}_MIN", f"#define ROUNDING {limits}_EPSILON")
-    yield "#define CLOSE R(1e-13)"
+    yield from constants()
     yield from event_tables(events)
     yield ""
     for function, (own, result) in OF_EVENTS.items():
