@@ -87,18 +87,24 @@ def _frame(placed: PlacedBox) -> Iterator[str]:
 
 def _picture(placed: PlacedBox) -> Iterator[str]:
     drawn, icon = placed.box.icon, placed.icon
-    turn = ""
+    turn, (a, b, c, d) = "", (1, 0, 0, 1)
     if placed.facing.upright:
         first = min(placed.ports)
-        turn = " rotate(90)" if placed.ports[first][1] < icon.y else " rotate(-90)"
+        down = placed.ports[first][1] < icon.y
+        turn, (a, b, c, d) = (
+            (" rotate(90)", (0, -1, 1, 0)) if down else (" rotate(-90)", (0, 1, -1, 0))
+        )
     elif placed.facing.mirrored:
-        turn = " scale(-1 1)"
+        turn, (a, b, c, d) = " scale(-1 1)", (-1, 0, 0, 1)
     if drawn.strokes or drawn.fills:
         place = f"translate({n(icon.x)} {n(icon.y)}){turn}"
         yield f'<g transform="{place}" stroke="currentColor" stroke-width="1.4">'
         yield f'<path d="{drawn.strokes}"/>' if drawn.strokes else ""
         yield f'<path d="{drawn.fills}" fill="currentColor" stroke="none"/>' if drawn.fills else ""
         yield "</g>"
+    for x, y, data in drawn.upright:
+        place = f"translate({n(icon.x + a * x + b * y)} {n(icon.y + c * x + d * y)})"
+        yield f'<path transform="{place}" d="{data}" stroke="currentColor" stroke-width="1.4"/>'
     if drawn.text:
         yield text(drawn.text, icon.x, icon.y + 4)
 

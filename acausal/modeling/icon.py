@@ -26,6 +26,7 @@ class Icon:
     Attributes:
         strokes: path data that is drawn as lines.
         fills: path data that is filled.
+        upright: path data of signs and curves that stay upright however the picture is turned, each with its place.
         text: short text in the middle.
         size: width and height, in pixels.
         frame: whether a box surrounds it, as for blocks.
@@ -46,9 +47,10 @@ class Icon:
     sides: Mapping[str, Side] = field(default_factory=dict[str, Side])
     source: bool = False
     reference: bool = False
+    upright: tuple[tuple[float, float, str], ...] = ()
 
     def __post_init__(self) -> None:
-        for data in (self.strokes, self.fills):
+        for data in (self.strokes, self.fills, *(data for _, _, data in self.upright)):
             if not PATH.fullmatch(data):
                 raise DeclarationError(
                     f"an icon's strokes are SVG path data such as 'M-30 0H30', got {shown(data)}"

@@ -38,8 +38,37 @@ def test_subclasses_inherit_pictures() -> None:
         pass
 
     assert Rusty.ICON is tl.Spring.ICON is icons.SPRING
-    assert el.SineVoltage.ICON is icons.VOLTAGE
+    assert el.SineVoltage.ICON is icons.SINE_VOLTAGE
+    assert el.RampVoltage.ICON is icons.VOLTAGE
     assert neural.Compliance.ICON is neural.Resistance.ICON is icons.NEURAL
+
+
+def test_sources_of_voltage_are_told_apart() -> None:
+    kinds = (el.ConstantVoltage, el.SineVoltage, el.SignalVoltage, el.PulseVoltage)
+    assert len({(kind.ICON.strokes, kind.ICON.fills, kind.ICON.upright) for kind in kinds}) == 4
+
+
+class Standing(ac.Component):
+    """A source beside two elements between the same two nodes."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.u, self.r = el.SineVoltage(V=1.0, f=50.0), el.Resistor(R=1.0)
+        self.c, self.l = el.Capacitor(C=1.0), el.Inductor(L=1.0)
+        self.connect(self.u.p, self.l.p)
+        self.connect(self.l.n, self.r.p, self.c.p)
+        self.connect(self.u.n, self.r.n, self.c.n)
+
+
+def test_signs_of_a_turned_source_are_upright() -> None:
+    """A minus that is turned with its picture reads as a bar."""
+    svg = ac.diagram(Standing()).svg
+    assert "rotate(90)" in svg
+    place = r'<path transform="translate\((\S+) (\S+)\)" d="'
+    (plus,) = re.findall(place + r'M-3 0H3M0 -3V3"', svg)
+    (minus,) = re.findall(place + r'M-3 0H3"', svg)
+    assert plus[0] == minus[0]  # one above the other
+    assert float(plus[1]) == float(minus[1]) - 44
 
 
 @pytest.mark.parametrize("name", [n for n, v in vars(icons).items() if isinstance(v, ac.Icon)])
