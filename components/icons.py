@@ -1,5 +1,7 @@
 """The pictures of the library's classes, in a few strokes each; a class states its own as ``ICON``."""
 
+from dataclasses import replace
+
 import acausal as ac
 
 LYING = (60.0, 32.0)
@@ -92,7 +94,12 @@ SATURATING = element(
 DIODE = element("M-30 0H-9M9 0H30M9 -10V10M-9 -10L9 0L-9 10Z")
 ZENER = element("M-30 0H-9M9 0H30M5 -10H9V10H13M-9 -10L9 0L-9 10Z")
 THYRISTOR = element("M-30 0H-9M9 0H30M9 -10V10M-9 -10L9 0L-9 10ZM9 0L17 12")
-VOLTAGE = element("M-30 0H30" + ROUND + "M-25 -9H-19M-22 -12V-6M19 -9H25", source=True)
+POLES = ((-22.0, -9.0, "M-3 0H3M0 -3V3"), (22.0, -9.0, "M-3 0H3"))
+WAVE, PULSES = "M-9 0C-6 -10 -3 -10 0 0S6 10 9 0", "M-9 5H-5V-5H1V5H7V-5H9"
+VOLTAGE = ac.Icon("M-30 0H30" + ROUND, size=LYING, source=True, upright=POLES)
+SIGNAL_VOLTAGE = replace(VOLTAGE, fills="M-5 -13H5L0 -4Z")
+SINE_VOLTAGE = replace(VOLTAGE, strokes=ENDS + ROUND, upright=(*POLES, (0.0, 0.0, WAVE)))
+PULSE_VOLTAGE = replace(VOLTAGE, strokes=ENDS + ROUND, upright=(*POLES, (0.0, 0.0, PULSES)))
 CURRENT = element(
     ENDS + ROUND + "M0 -14V14M-24 -8H-18", fills="M-16 -8L-22 -11.5V-4.5Z", source=True
 )

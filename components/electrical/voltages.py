@@ -15,7 +15,7 @@ __modelica__ = "Modelica.Electrical.Analog.Sources"
 class SignalVoltage(ac.Component):
     """A voltage given by a signal ``v`` [V]: ``v = p.v - n.v``, ``i = p.i`` [A]."""
 
-    ICON = icons.VOLTAGE
+    ICON = icons.SIGNAL_VOLTAGE
 
     p = PositivePin()
     n = NegativePin()
@@ -51,9 +51,13 @@ class RampVoltage(waveforms.Ramp, waveforms.Voltage):
 class SineVoltage(waveforms.Sine, waveforms.Voltage):
     """``v = offset + V sin(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
+    ICON = icons.SINE_VOLTAGE
+
 
 class CosineVoltage(waveforms.Cosine, waveforms.Voltage):
     """``v = offset + V cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
+
+    ICON = icons.SINE_VOLTAGE
 
 
 class SineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
@@ -96,6 +100,8 @@ class ExponentialsVoltage(waveforms.Exponentials, VoltageSource):
 
 class PulseVoltage(waveforms.Pulse, waveforms.Voltage):
     """``v = offset + V`` for the first ``width`` per cent of each ``period``, else ``offset``."""
+
+    ICON = icons.PULSE_VOLTAGE
 
 
 class SawToothVoltage(waveforms.SawTooth, waveforms.Voltage):
