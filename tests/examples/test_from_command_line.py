@@ -55,6 +55,8 @@ def ran(
 def test_an_example_runs_from_its_data_to_its_page(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    study = importlib.import_module("examples.cascaded_tanks.study")
+    monkeypatch.setattr(study, "HELD", study.HELD[:1])  # each part that is held out compiles again
     for train in (ac.fit, ac.ensemble):
         monkeypatch.setattr(
             ac, train.__name__, lambda *a, train=train, **k: train(*a, **{**k, "epochs": 1})
