@@ -47,8 +47,9 @@ test: export XLA_FLAGS ?= $(QUICKER)
 test: $(READY) ## all tests but the slow ones
 	$(BIN)/python -m pytest $(PYTEST_ARGS)
 
-test-slow: $(READY) ## the slow tests
-	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG:%=--ignore=%)
+test-slow: $(READY) ## the slow tests, but that of the wheel, which `make wheel` runs
+	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m slow \
+		$(LONG:%=--ignore=%) --ignore=tests/test_packaging.py
 	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG)
 
 # Separate environments, made by .ci/dependencies.py each time they are used.

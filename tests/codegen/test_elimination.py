@@ -19,19 +19,15 @@ def equations(n, *batch):
 @pytest.mark.parametrize("n", [1, 2, 5, 12])
 def test_the_solution_is_that_of_lapack(n):
     a, b = equations(n)
-    np.testing.assert_allclose(eliminate(a, b), np.linalg.solve(a, b), rtol=1e-11)
+    np.testing.assert_allclose(jax.jit(eliminate)(a, b), np.linalg.solve(a, b), rtol=1e-11)
 
 
 def test_rows_are_exchanged():
     a = jnp.asarray([[0.0, 1.0, 0.0], [0.0, 1e-20, 1.0], [1.0, 0.0, 1e20]])
     b = jnp.asarray([2.0, 3.0, 0.0])
-    np.testing.assert_allclose(eliminate(a, b), [-3e20, 2.0, 3.0], rtol=1e-12)
-    assert (
-        float(
-            jnp.max(jnp.abs(eliminate(jnp.eye(4)[::-1], jnp.arange(4.0)) - jnp.arange(4.0)[::-1]))
-        )
-        == 0
-    )
+    found = jax.jit(eliminate)
+    np.testing.assert_allclose(found(a, b), [-3e20, 2.0, 3.0], rtol=1e-12)
+    assert found(np.eye(4)[::-1], np.arange(4.0)).tolist() == [3, 2, 1, 0]
 
 
 def test_the_residual_is_as_small_as_lapacks():

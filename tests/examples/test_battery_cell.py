@@ -206,6 +206,17 @@ def test_the_campaign_is_read_as_it_is():
 
 @pytest.mark.slow
 @REAL
+def test_the_cell_nears_two_records_in_a_few_updates():
+    tables = {n: t for n, t in campaign(DATA).items() if n in ("discharge_1c", "discharge_3c")}
+    fit = study.train(tables, epochs=4)
+    errors = study.judge(fit, tables)
+    assert fit.loss < 0.5 * fit.loss_before
+    assert max(e["trained"] for e in errors.values()) < 33.0
+    assert errors["discharge_1c"]["case"] < 0.5
+
+
+@pytest.mark.machines
+@REAL
 def test_the_cell_follows_what_it_was_trained_on():
     tables = campaign(DATA)
     errors = study.judge(study.train(tables), tables)

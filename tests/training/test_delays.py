@@ -54,7 +54,7 @@ def test_a_delayed_input_is_the_record_s_interpolation(kind: Any) -> None:
     for record in data.values():
         rows = np.arange(at, at + len(record) - 1)
         at += len(record)
-        signal = jax.vmap(record.signal("push.f").delayed(TAU))
+        signal = jax.jit(jax.vmap(record.signal("push.f").delayed(TAU)))
         t = np.asarray(steps.t)[rows]
         np.testing.assert_allclose(steps.inputs.start[rows, 0], signal(t), atol=1e-11)
         np.testing.assert_allclose(steps.inputs.end[rows, 0], signal(t + DT), atol=1e-11)

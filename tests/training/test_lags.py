@@ -47,8 +47,8 @@ def test_without_a_time_constant_there_is_no_lag() -> None:
 
 
 def test_derivatives_exist_whatever_the_time_constant() -> None:
-    slope = jax.jacfwd(lambda c: lagged(Y, ROWS, c, Y[FIRST]))
-    gradient = jax.jacrev(lambda c: lagged(Y, ROWS, c, Y[FIRST]))
+    slope = jax.jit(jax.jacfwd(lambda c: lagged(Y, ROWS, c, Y[FIRST])))
+    gradient = jax.jit(jax.jacrev(lambda c: lagged(Y, ROWS, c, Y[FIRST])))
     at_zero = np.where(
         np.asarray(T) == np.asarray(T[FIRST]), 0.0, -np.diff(Y, prepend=0.0) / np.roll(H, 1)
     )
