@@ -152,13 +152,13 @@ def _rows(
 
 
 def _with_last(
-    inner: Samples, functions: tuple[TimeFunction, ...], end: Float[np.ndarray, " 1"]
+    inner: Samples, functions: tuple[TimeFunction, ...], until: Float[np.ndarray, " 1"]
 ) -> Samples:
     """The inputs with one more step at the end, over which they stay as they are there; those that are held jump."""
     jump = np.array([isinstance(f, Signal) and f.jumps for f in functions], bool)
     last = inner.end[-1:]
     if jump.any():
-        last = jnp.where(jump, evaluate_all(functions, jnp.asarray(end)), last)
+        last = jnp.where(jump, evaluate_all(functions, jnp.asarray(until)), last)
     start, end = (jnp.concatenate([side, last]) for side in (inner.start, inner.end))
     coefficients = inner.coefficients
     if coefficients is not None:
