@@ -96,7 +96,7 @@ def model_text(
     watch: Watch | None = None,
 ) -> Text:
     """What is written about a model; arguments as of `c`."""
-    title = type(system.model).__name__
+    title = system.model._node.title or type(system.model).__name__
     chosen = _identifier(title) if name is None else name
     if not isinstance(chosen, str) or not re.fullmatch(r"[A-Za-z]\w*", chosen, re.ASCII):
         raise DataError(
@@ -157,6 +157,7 @@ def _with_units(names: Sequence[str], system: System) -> list[tuple[Run, str]]:
 
 
 def _identifier(title: str) -> str:
-    """A class's name in small letters, words apart by underscores."""
-    name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", title).lower()
+    """The last part of a class's name in small letters, words apart by underscores."""
+    last = re.sub(r"\W+", "_", title.rpartition(".")[2], flags=re.ASCII).strip("_") or "model"
+    name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", last).lower().lstrip("_0123456789") or "model"
     return f"{name}_model" if name in RESERVED else name

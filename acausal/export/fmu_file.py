@@ -12,9 +12,11 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 
 from acausal.by_name import names_in
+from acausal.codegen import Values
 from acausal.errors import (
     DataError,
     ExportError,
@@ -39,13 +41,18 @@ from acausal.export.fmu_text.binary import (
     this_platform,
 )
 from acausal.export.fmu_text.dependencies import dependencies
-from acausal.export.fmu_text.description import KINDS, Description, build_description
+from acausal.export.fmu_text.description import KINDS, Description, build_description, documentation
 from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
 from acausal.export.ranges import Ranges, Watch, watched
+from acausal.simulation import STABILITY_LIMIT, fastest_mode
 from acausal.system import System
 
 VERSIONS = ("2.0", "3.0")
+STEP = 1e-3
+"""The longest default step of co-simulation [s]."""
+SHORTEST = 1e-6
+"""The shortest [s]; for a model that needs shorter ones an implicit solver is better."""
 
 
 def fmu(
@@ -58,7 +65,7 @@ def fmu(
     inputs: Sequence[str] | None = None,
     outputs: Sequence[str] | None = None,
     solver: str = "rk4",
-    step: float = 1e-3,
+    step: float | None = None,
     name: str | None = None,
     ranges: Ranges | None = None,
     binary: bool = True,
@@ -79,7 +86,8 @@ def fmu(
         inputs: those that the importer sets, by default all; the others become parameters that start at 0.
         outputs: names of variables, by default the states.
         solver: of co-simulation, a fixed-step one as in `acausal.export.c`.
-        step: of co-simulation, at most [s]; a communication step is divided into equal steps, inputs held.
+        step: of co-simulation, at most [s]; a communication step is divided into equal steps, inputs held. By default
+            1e-3, or less where an explicit solver needs that for the model's fastest mode at the start.
         name: of files in the FMU; by default the model's class in small letters.
         ranges: by network the interval of its argument in training, or one for each argument, such as ``fit.ranges``:
             the Boolean output ``outside_training_range`` tells whether an argument has left its range.
@@ -98,7 +106,7 @@ def fmu(
     """
     need_compiled(system, "export.fmu")
     target = new_file(path, "fmu", overwrite)
-    chosen = _checked_kinds(fmi, kinds, step)
+    chosen = _checked_kinds(fmi, kinds, STEP if step is None else step)
     places = _checked_platforms(platforms, fmi) if binary else ()
     scalars = fmi == "2.0"
     free = _known(inputs, system.inputs)
@@ -109,7 +117,10 @@ def fmu(
     text = model_text(system, params, name, own, solver, True, np.float64, watch)
     if text.name.startswith(("fmu_", "fmi2_", "fmi3_")):
         raise DataError(f"export.fmu: name='{text.name}' is kept for FMI's files; give another.")
-    content = _content(text, system, watch, free, wanted, fmi, chosen, float(step), places)
+    length = STEP if step is None else float(step)
+    if "co_simulation" in chosen and not text.scheme.implicit:
+        length = _stable(system, text, params, length, step is None)
+    content = _content(text, system, watch, free, wanted, fmi, chosen, length, places)
     write(target, _zipped(content), "fmu")
     return target
 
@@ -138,9 +149,13 @@ def _content(
     indicators = len(event_indicators(text))
 
     def description(token: str) -> bytes:
+        return described(token).xml()
+
+    def described(token: str) -> Description:
         return Description(
-            fmi, text.name, text.title, token, kinds, step, found, read, compiled, indicators
-        ).xml()
+            fmi, text.name, text.title, token, kinds, step, found, read, compiled, indicators,
+            _experiment(system),
+        )  # fmt: skip
 
     nominal = np.abs(system.reduced.nominal(system.reduced.states))
 
@@ -152,7 +167,11 @@ def _content(
         digest.update(part.encode())
     token = f"{{{digest.hexdigest()[:32]}}}"
     sources["fmu_model.h"] = header(token)
-    content = {"modelDescription.xml": description(token)}
+    about = (type(system.model).__doc__ or "").strip().partition("\n")[0]
+    content = {
+        "modelDescription.xml": description(token),
+        "documentation/index.html": documentation(described(token), about),
+    }
     content |= {f"sources/{file}": data.encode() for file, data in sources.items()}
     if fmi == "3.0":
         content["sources/buildDescription.xml"] = build_description(text.name, compiled)
@@ -162,6 +181,35 @@ def _content(
         library = build(text.name, sources, compiled, _command(place, fmi))
         content[f"binaries/{place.folder}/{text.name}{place.ending}"] = library
     return content
+
+
+def _stable(
+    system: System, text: Text, params: Mapping[str, Any] | None, step: float, is_default: bool
+) -> float:
+    """The step, or by default a shorter one, at which an explicit solver is stable at the start."""
+    d = jnp.asarray(text.discrete_start)[None] if text.has_events else None
+    u, packed = jnp.zeros((1, len(system.inputs))), system.pack(params)
+    damping = fastest_mode(
+        system, Values(jnp.zeros(1), jnp.asarray(text.start)[None], u, packed, d)
+    )[0]
+    if damping * step <= STABILITY_LIMIT:
+        return step
+    needed = 10 ** np.floor(np.log10(1 / damping))
+    if is_default and needed >= SHORTEST:
+        return float(needed)
+    warnings.warn(
+        f"export.fmu: steps of {step:g} s are too long for '{text.scheme.name}' and the model's fastest mode, "
+        f"{damping:.3g} 1/s at the start; give step={needed:.1g}, or an implicit solver such as solver='kvaerno3'.",
+        stacklevel=user_level(),
+    )
+    return step
+
+
+def _experiment(system: System) -> tuple[float, ...]:
+    """Start and, if it is known, stop of a simulation, from the file of a model."""
+    known = getattr(system.model, "document", {})
+    start, stop = known.get("start_time", 0.0), known.get("stop_time")
+    return (float(start),) if stop is None else (float(start), float(stop))
 
 
 def _library(

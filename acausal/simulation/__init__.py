@@ -28,6 +28,7 @@ from acausal.simulation.solution import Solution as Solution
 from acausal.simulation.solvers import (
     BDF as BDF,
     EXPLICIT as EXPLICIT,
+    STABILITY_LIMIT as STABILITY_LIMIT,
     STAGE_STEPS as STAGE_STEPS,
     STAGE_TOLERANCE as STAGE_TOLERANCE,
     Scheme as Scheme,
@@ -36,7 +37,7 @@ from acausal.simulation.solvers import (
     for_fixed_steps as for_fixed_steps,
     solver_named as solver_named,
 )
-from acausal.simulation.stability import long_steps as long_steps
+from acausal.simulation.stability import fastest_mode as fastest_mode, long_steps as long_steps
 from acausal.simulation.stages import KAPPA as KAPPA, SLOW as SLOW
 from acausal.simulation.steps import (
     BAND as BAND,

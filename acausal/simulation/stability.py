@@ -34,24 +34,34 @@ def long_steps(system: System, values: Values, h: float) -> str | None:
         values: its trajectory, n points; none of them traced.
         h: the steps' length [s].
     """
-    if not 0 < len(system.states) <= LARGEST:
+    damping, t = fastest_mode(system, values)
+    if damping * h <= FAR:
         return None
+    return (
+        f"Steps of {h:g} s are far too long for the model's fastest mode, {damping:.3g} 1/s at "
+        f"t = {t:g} s: even where states look right, derivatives are wrong. Choose dt below "
+        f"{1 / damping:.1g} s, an implicit solver, or leave dt out."
+    )
+
+
+def fastest_mode(system: System, values: Values) -> tuple[float, float]:
+    """The rate of the fastest damped mode along a trajectory [1/s], and when [s]; 0 for what is not examined.
+
+    Arguments:
+        values: the trajectory, n points; none of them traced.
+    """
+    if not 0 < len(system.states) <= LARGEST:
+        return 0.0, 0.0
     rows = np.unique(np.linspace(0, len(values.x) - 1, POINTS).astype(int))
     t = np.asarray(values.t)[rows]
     points = values._replace(t=t, x=np.asarray(values.x)[rows], u=np.asarray(values.u)[rows])
     jacobians = np.asarray(_jacobians(system, points))
     if not np.isfinite(jacobians).all():
-        return None
+        return 0.0, 0.0
     modes = np.linalg.eigvals(jacobians)
     damping = np.where(-modes.real >= np.abs(modes.imag), -modes.real, 0.0).max(axis=1)
     worst = int(np.argmax(damping))
-    if damping[worst] * h <= FAR:
-        return None
-    return (
-        f"Steps of {h:g} s are far too long for the model's fastest mode, {damping[worst]:.3g} 1/s at "
-        f"t = {t[worst]:g} s: even where states look right, derivatives are wrong. Choose dt below "
-        f"{1 / damping[worst]:.1g} s, an implicit solver, or leave dt out."
-    )
+    return float(damping[worst]), float(t[worst])
 
 
 def warn_of_long_steps(system: System, values: Values, h: float) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import zipfile
 from collections.abc import Callable, Iterator
@@ -578,3 +579,30 @@ def test_wrong_calls_are_refused(vehicle: ac.System, tmp_path: Path) -> None:
     refused(ac.ExportError, "has no steps in C", solver="bdf")
     ac.export.fmu(vehicle, path, binary=False)
     refused(ac.DataError, "exists; give another path, or overwrite=True")
+
+
+def test_the_file_of_a_model_names_it_and_its_times(tmp_path: Path) -> None:
+    """A time constant of 10 us also shortens the default step; a long one of one's own is warned of."""
+    document = {
+        "model": "Lab.Circuits.Filter",
+        "stop_time": 0.25,
+        "components": {
+            "source": {"class": "Modelica.Electrical.Analog.Sources.ConstantVoltage", "with": {"V": 1.0}},
+            "r": {"class": "Modelica.Electrical.Analog.Basic.Resistor", "with": {"R": 10.0}},
+            "c": {"class": "Modelica.Electrical.Analog.Basic.Capacitor", "with": {"C": 1e-6}},
+            "ground": {"class": "Modelica.Electrical.Analog.Basic.Ground"},
+        },
+        "connections": [["source.p", "r.p"], ["r.n", "c.p"], ["c.n", "source.n"], ["c.n", "ground.p"]],
+    }  # fmt: skip
+    (tmp_path / "filter.json").write_text(json.dumps(document))
+    system = ac.compile(ac.load(tmp_path / "filter.json"))
+    with zipfile.ZipFile(ac.export.fmu(system, tmp_path / "f.fmu", binary=False)) as archive:
+        text = archive.read("modelDescription.xml").decode()
+        page = archive.read("documentation/index.html").decode()
+    assert 'modelName="Lab.Circuits.Filter"' in text
+    assert 'modelIdentifier="filter"' in text
+    assert 'stopTime="0.25"' in text
+    assert 'stepSize="1e-05"' in text
+    assert "<h1>Lab.Circuits.Filter</h1>" in page
+    with pytest.warns(UserWarning, match=r"too long for 'rk4'.* 1e\+05 1/s at the start"):
+        ac.export.fmu(system, tmp_path / "g.fmu", binary=False, step=1e-3)

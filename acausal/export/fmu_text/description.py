@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from acausal.export.fmu_text.units import add_units
@@ -22,6 +23,7 @@ class Description:
         kinds: keys of `KINDS`. step: of co-simulation [s].
         variables: all but time. dependencies: references by reference, or None if each depends on all.
         sources: names of the C files to compile. indicators: the number of event indicators.
+        experiment: where a simulation starts, and where it stops, if that is known [s].
     """
 
     fmi: str
@@ -34,6 +36,7 @@ class Description:
     dependencies: Mapping[int, Sequence[int]] | None
     sources: Sequence[str]
     indicators: int = 0
+    experiment: Sequence[float] = (0.0,)
 
     def xml(self) -> bytes:
         """The text of the file."""
@@ -60,7 +63,9 @@ class Description:
             ("logStatusError", "wrong calls"),
         ):
             SubElement(listed, "Category", name=name, description=what)
-        SubElement(root, "DefaultExperiment", startTime="0", stepSize=number(self.step))
+        times = zip(("startTime", "stopTime"), self.experiment, strict=False)
+        experiment = {name: number(t) for name, t in times}
+        SubElement(root, "DefaultExperiment", {**experiment, "stepSize": number(self.step)})
         listed = SubElement(root, "ModelVariables")
         (self._add_scalars if old else self._add_arrays)(listed)
         (self._add_structure_2 if old else self._add_structure_3)(root)
@@ -87,6 +92,10 @@ class Description:
             found["canHandleVariableCommunicationStepSize"] = "true"
             if not old:
                 found["fixedInternalStepSize"] = number(self.step)
+                found |= dict.fromkeys(
+                    ("providesIntermediateUpdate", "mightReturnEarlyFromDoStep",
+                     "canReturnEarlyAfterIntermediateUpdate", "hasEventMode"), "true",
+                )  # fmt: skip
         element = SubElement(root, KINDS[kind], found)
         if old:
             listed = SubElement(element, "SourceFiles")
@@ -166,6 +175,24 @@ class Description:
         for v in self.variables:
             if v.kind == INDICATOR:
                 SubElement(structure, "EventIndicator", valueReference=str(v.reference))
+
+
+def documentation(description: Description, about: str) -> bytes:
+    """``documentation/index.html``: what the model is, and a table of its variables.
+
+    Arguments:
+        about: the description of the model.
+    """
+    rows = "".join(
+        f"<tr><td>{escape(v.name)}</td><td>{v.causality}</td><td>{escape(v.unit)}</td><td>{escape(v.doc)}</td></tr>\n"
+        for v in description.variables
+    )
+    title = escape(description.title)
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{title}</title></head>\n<body>\n'
+        f"<h1>{title}</h1>\n<p>{escape(about)}</p>\n<table>\n"
+        f"<tr><th>variable</th><th>causality</th><th>unit</th><th>description</th></tr>\n{rows}</table>\n</body></html>\n"
+    ).encode()
 
 
 def build_description(name: str, sources: Sequence[str]) -> bytes:

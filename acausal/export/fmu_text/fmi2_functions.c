@@ -23,6 +23,8 @@ static void tell(Instance *c, int status, const char *message) {
                        status == DISCARD ? "logStatusDiscard" : "logStatusError", format);
 }
 
+static int interrupted(Instance *c, int happened) { return (void)c, (void)happened, 0; }
+
 #define STATUS FMI_EXPORT fmi2Status
 
 /* -- common --------------------------------------------------------------------------------------- */

@@ -4,6 +4,8 @@
 typedef struct {
     fmi3LogMessageCallback logger;
     void *environment;
+    fmi3IntermediateUpdateCallback update;
+    bool event_mode, may_return_early, happened; /* happened: an event for which the last step has ended early */
 } Host;
 
 #define WITH_ADJOINT
@@ -13,6 +15,16 @@ static void tell(Instance *c, int status, const char *message) {
     if (c->host.logger)
         c->host.logger(c->host.environment, (fmi3Status)status,
                        status == DISCARD ? "logStatusDiscard" : "logStatusError", message);
+}
+
+static int interrupted(Instance *c, int happened) {
+    Host *host = &c->host;
+    bool wanted = false;
+    double until = c->reached;
+    if (host->update)
+        host->update(host->environment, c->reached, false, true, true, host->may_return_early, &wanted, &until);
+    host->happened = happened && host->event_mode && host->may_return_early;
+    return host->happened || (wanted && host->may_return_early && until <= c->reached);
 }
 
 #define STATUS FMI_EXPORT fmi3Status
@@ -58,9 +70,13 @@ FMI_EXPORT fmi3Instance FMI(InstantiateCoSimulation)(fmi3String name, fmi3String
                                                      fmi3InstanceEnvironment environment,
                                                      fmi3LogMessageCallback logger,
                                                      fmi3IntermediateUpdateCallback update) {
-    (void)name, (void)resources, (void)visible, (void)logging, (void)event_mode, (void)early_return;
-    (void)intermediate, (void)n_intermediate, (void)update;
-    return instantiate(token, CO_SIMULATION, environment, logger);
+    (void)name, (void)resources, (void)visible, (void)logging, (void)intermediate, (void)n_intermediate;
+    Instance *c = instantiate(token, CO_SIMULATION, environment, logger);
+    if (!c) return NULL;
+    c->host.update = update;
+    c->host.event_mode = event_mode;
+    c->host.may_return_early = early_return;
+    return c;
 }
 
 FMI_EXPORT fmi3Instance FMI(InstantiateScheduledExecution)(fmi3String name, fmi3String token, fmi3String resources,
@@ -316,9 +332,11 @@ STATUS FMI(DoStep)(fmi3Instance instance, fmi3Float64 time, fmi3Float64 h, fmi3B
                    fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached) {
     Instance *c = instance;
     (void)no_return;
-    *event = *terminate = *early = false;
+    *event = *terminate = *early = c->host.happened = false;
     const int status = advance(c, time, h);
     *reached = c->reached;
+    *event = c->host.happened;
+    *early = status == OK && c->reached < time + h * (1 - 1e-12);
     *terminate = status != OK;
     return (fmi3Status)status;
 }

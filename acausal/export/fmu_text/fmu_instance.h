@@ -41,12 +41,18 @@ typedef struct {
     Host host;
     double reached; /* the end of the last successful step [s] */
     double before[LEAST(N_STATES)];
+#if EVENTS
+    double d_before[sizeof ((Model *)0)->d / sizeof(double)];
+#endif
     double seed_time, seed_x[LEAST(N_STATES)], seed_u[LEAST(N_INPUTS)], seed_p[LEAST(N_PARAMETERS)];
     double of_dx[LEAST(N_STATES)], of_y[LEAST(N_OUTPUTS)];
     double indicators[LEAST(N_INDICATORS)];
 } Instance;
 
 static void tell(Instance *c, int status, const char *message);
+
+/* Between two steps of co-simulation: whether the importer wants to go on later. happened: an event in the last one. */
+static int interrupted(Instance *c, int happened);
 
 static int complain(Instance *c, int status, const char *format, ...) {
     char message[400];
@@ -431,6 +437,9 @@ static int advance(Instance *c, double from, double h) {
 #endif
     for (long i = 0; i < n; i++) {
         memcpy(c->before, m->x, sizeof c->before);
+#if EVENTS
+        memcpy(c->d_before, m->d, sizeof c->d_before);
+#endif
         const int status = (int)model_step(m, h / (double)n, NULL);
         if (status) {
             char name[200] = "";
@@ -441,6 +450,12 @@ static int advance(Instance *c, double from, double h) {
                             c->reached, *name ? ": " : "", name);
         }
         m->time = c->reached = i == n - 1 ? from + h : from + h * (double)(i + 1) / (double)n;
+#if EVENTS
+        const int happened = memcmp(c->d_before, m->d, sizeof c->d_before) != 0;
+#else
+        const int happened = 0;
+#endif
+        if (interrupted(c, happened)) break;
     }
     return OK;
 }

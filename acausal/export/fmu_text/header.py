@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 
 import numpy as np
@@ -43,7 +44,7 @@ def model_header(
         "",
         f'#include "{name}.h"',
         "",
-        f'#define TITLE "{text.title}"',
+        f"#define TITLE {json.dumps(text.title)}",
         f'#define TOKEN "{token}"',
         f"#define STEP {float(step)!r} /* of co-simulation, in s */",
         f"#define SCALARS {int(scalars)} /* whether every number has a value reference of its own */",

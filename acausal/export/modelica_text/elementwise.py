@@ -41,8 +41,8 @@ SETTLED = {
 def refuse(equation: Equation) -> DataError:
     """The error for an operation that has no counterpart."""
     return DataError(
-        f"export.modelica: a network's operation '{name_of(equation)}' has no counterpart in Modelica; "
-        "write the network without it, or export it as ONNX"
+        f"export.modelica: the operation '{name_of(equation)}' of a network or a table has no counterpart in Modelica; "
+        "write it without, or export the model as an FMU"
     )
 
 
