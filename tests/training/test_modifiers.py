@@ -130,7 +130,8 @@ def test_a_bound_is_where_training_ends_that_wants_beyond():
         (ac.Bounded(0, INF), 1.0, -0.995, -1.0),
         (ac.Bounded(-INF, 3), 1.0, -1e6, None),
         (Factor(0.2), 5.0, -0.199, -0.2),
-        (Factor(0.2), 5.0, 0.19, None),
+        (Factor(0.2), 5.0, -0.192, -0.2),
+        (Factor(0.2), 5.0, 0.188, None),
         (ac.Shift(0.1), 0.0, 1e6, None),
     ],
 )

@@ -17,8 +17,8 @@ from scipy.special import ndtri
 from acausal.by_name import names_in
 from acausal.errors import TrainingError, nearest, shown
 
-REACHED = 0.99
-"""A parameter has reached a limit when it has gone this fraction of the way."""
+REACHED, GAMMA_REACHED = 0.99, 0.95
+"""A parameter has reached a bound, or a factor's limit ±γ, when it has gone this fraction of the way."""
 
 DECADE = 10 * (1 - 1e-9)
 """Positive bounds with such a ratio, or a larger one, leave the magnitude of a parameter open."""
@@ -103,7 +103,7 @@ class Factor(_Relative):
 
     def limit(self, value: float, change: float) -> float | None:
         """``±γ``."""
-        return _reached(change, -self.gamma, self.gamma)
+        return _reached(change, -self.gamma, self.gamma, GAMMA_REACHED)
 
     def refusal(self, value: float) -> str | None:
         """A γ that is too large, or a parameter that is 0."""
@@ -204,7 +204,7 @@ class Bounded(_Absolute):
 
     def limit(self, value: float, change: float) -> float | None:
         """The way to a bound."""
-        return _reached(change, self.low - value, self.high - value)
+        return _reached(change, self.low - value, self.high - value, REACHED)
 
     def refusal(self, value: float) -> str | None:
         """A start outside of the bounds, or no bounds."""
@@ -219,9 +219,9 @@ def _logit(low: float, point: float, high: float) -> float:
     return float(np.log((point - low) / (high - point)))
 
 
-def _reached(change: float, low: float, high: float) -> float | None:
-    """The limit that a change from 0 has reached, except for the last hundredth of the way."""
-    return next((end for end in (low, high) if change / end > REACHED), None)
+def _reached(change: float, low: float, high: float, part: float) -> float | None:
+    """The limit to which a change from 0 has gone more than this part of the way."""
+    return next((end for end in (low, high) if change / end > part), None)
 
 
 class Modifiers(eqx.Module):
