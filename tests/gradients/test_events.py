@@ -42,7 +42,9 @@ class Subject:
         rng = np.random.default_rng(1)
         networks = {n: v for n, v in self.base.items() if n not in self.system.layout.names}
         self.direction = {n: jax.tree.map(partial(_along, rng), v) for n, v in networks.items()}
-        self.names = (*self.moved, *case.x0, *case.inputs, *(["networks"] if networks else []))
+        samples = [f"{n}({t})" for n, (times, _) in case.held.items() for t in times]
+        constant = (*self.moved, *case.x0, *case.inputs)
+        self.names = (*constant, *samples, *(["networks"] if networks else []))
 
     def _ending(self, end: str) -> list[str]:
         found = [n for n in self.base if n == end or n.endswith(f".{end}")]
@@ -55,7 +57,11 @@ class Subject:
         given = [(n, self.base[n]) for n in self.moved]
         given += [*case.x0.items(), *case.inputs.items()]
         values = [(n, v + s * (abs(v) or 1.0)) for (n, v), s in zip(given, shift, strict=False)]
-        n, m = len(self.moved), len(self.moved) + len(case.x0)
+        n, m, end = len(self.moved), len(self.moved) + len(case.x0), len(values)
+        signals: dict[str, ac.Signal] = {}
+        for name, (times, interpolation) in case.held.items():
+            own = 1 + np.sin(3 * np.arange(len(times))) + shift[end : end + len(times)]
+            signals[name], end = ac.Signal(times, own, interpolation), end + len(times)  # pyright: ignore[reportArgumentType]
         networks = {
             name: jax.tree.map(
                 lambda w, d: w if d is None else w + shift[-1] * d,
@@ -71,14 +77,14 @@ class Subject:
             saveat=[case.end * s for s in case.saved],
             params=self.base | networks | dict(values[:n]),
             x0=dict(values[n:m]) or None,
-            inputs=dict(values[m:]) or None,
+            inputs={**dict(values[m:]), **signals} or None,
             **steps,
         )
 
     def steps(self, kind: str) -> dict[str, Any]:
         """Options of the simulation."""
-        if kind == "adaptive":
-            return TIGHT
+        if kind != "fixed":
+            return TIGHT | ({} if kind == "adaptive" else {"solver": kind})
         return {"dt": self.case.end / self.case.steps, "solver": "rk4"}
 
 
@@ -118,7 +124,7 @@ def compare(subject: Subject, kind: str, record_property: Any, *, forward: bool 
 def test_gradients(name: str, record_property: Any) -> None:
     """Each model in reverse mode on its paths, and in forward mode on one of them."""
     subject = Subject(name)
-    run = subject.run(np.zeros(len(subject.names)), **subject.steps("fixed"))
+    run = subject.run(np.zeros(len(subject.names)), **subject.steps(subject.case.kinds[0]))
     assert len(run.events) >= subject.case.events
     kinds = subject.case.kinds
     turn = list(HYBRIDS).index(name) % len(kinds)

@@ -127,6 +127,7 @@ class OneStep(eqx.Module):
             jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
             made.dense,
             (),
+            is_limited,
             accepted & (limited >= STIFF_AFTER),
             made.counts,
         )

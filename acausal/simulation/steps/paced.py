@@ -62,7 +62,7 @@ class Paced(eqx.Module):
         again = jnp.where(done, jnp.inf, 0.0)  # it would be the same step
         after = memory._replace(h=again.astype(h.dtype), x=made.x, first=made.first)
         never = jnp.array(False)
-        return Attempt(done, made.x, after, made.dense, (), never, made.counts)
+        return Attempt(done, made.x, after, made.dense, (), never, never, made.counts)
 
     def _first(self, problem: Problem, t: Array, x: Array) -> Any:
         h = jnp.ones_like(t)
