@@ -31,6 +31,7 @@ class Hybrid:
         make: makes it. end: of the simulation, in seconds.
         moved: parameters by which the result is differentiated; the ends of their names are enough.
         x0, inputs: initial values and constant inputs; by all of them it is differentiated, too.
+        held: by input, times and interpolation of a signal, whose samples are moved, too.
         events: so many events happen at least.
         saved: times of results, as fractions of the simulation. steps: how many it takes on the fixed path.
         kinds: of steps; large programs take one.
@@ -41,6 +42,7 @@ class Hybrid:
     moved: tuple[str, ...] = ()
     x0: dict[str, float] = field(default_factory=dict)
     inputs: dict[str, float] = field(default_factory=dict)
+    held: dict[str, tuple[tuple[float, ...], str]] = field(default_factory=dict)
     events: int = 2
     saved: tuple[float, ...] = (0.53, 1.0)
     steps: int = 43
@@ -155,6 +157,36 @@ class Chain(ac.Component):
             ac.Reinit(self.y, self.k * pre(self.y) + pre(self.x)),
             E(self.second, self.k * pre(self.y)),
         )
+
+
+class Held(ac.Component):
+    """Inputs of several interpolations, a condition on one of them, and events between their samples."""
+
+    tw, level, k = ac.Parameter(0.31), ac.Parameter(0.35), ac.Parameter(0.7)
+    u, w, smooth = ac.Input(), ac.Input(), ac.Input()
+    x, y = ac.Variable(fixed=True), ac.Variable(start=0.2, fixed=True, state="always")
+    d, e = ac.Discrete(0.0), ac.Discrete(0.0)
+
+    def equations(self) -> Iterator[Any]:
+        yield E(der(self.x), self.u + self.d * self.w - self.k * self.x)
+        yield E(der(self.y), self.x + self.smooth * self.e - self.y)
+        yield ac.When(ac.time >= self.tw, E(self.d, 1.3))
+        yield ac.When(self.y > self.level, ac.Reinit(self.y, self.k * pre(self.y)))
+        yield ac.When(self.u > 1.6, E(self.e, self.x))
+
+
+class TurnsStiff(ac.Component):
+    """An event makes a state fast; an input jumps behind it."""
+
+    tw, rate = ac.Parameter(0.3), ac.Parameter(1e4)
+    u = ac.Input()
+    x, z = ac.Variable(start=1.0, fixed=True), ac.Variable(fixed=True)
+    d = ac.Discrete(0.0)
+
+    def equations(self) -> Iterator[Any]:
+        yield E(der(self.x), -self.x + self.u * self.d * ac.cos(3 * ac.time) + self.z)
+        yield E(der(self.z), (1 + self.rate * self.d) * (self.x - self.z))
+        yield ac.When(ac.time >= self.tw, E(self.d, 1.0))
 
 
 def learned() -> ac.Component:
@@ -381,6 +413,19 @@ HYBRIDS: dict[str, Hybrid] = {
     "chain": Hybrid(Chain, 1.5, ("a", "b", "k"), {"x": 0.03, "y": 0.2}),
     "event at a saved time": Hybrid(
         SampledPI, 0.8, ("kp", "ki", "limit"), {"v": 0.2}, events=7, saved=(0.15, 0.65, 1.0)
+    ),
+    "held inputs": Hybrid(
+        Held, 1.2, ("tw", "level", "k"), {"x": 0.1},
+        held={
+            "u": ((0.0, 0.4, 0.7, 1.2), "previous"),
+            "w": ((0.0, 0.5, 0.9, 1.2), "linear"),
+            "smooth": ((0.0, 0.45, 0.8, 1.2), "cubic"),
+        },
+        events=5, saved=(0.7 / 1.2, 1.0), kinds=("fixed", "adaptive", "kvaerno5"),
+    ),
+    "turns stiff": Hybrid(
+        TurnsStiff, 1.0, ("tw",), {"x": 1.0}, held={"u": ((0.0, 0.55, 1.0), "previous")},
+        events=1, kinds=("auto",),
     ),
     "network": Hybrid(learned, 6.0, ("zone.C", "power.k", "bandwidth"), {"zone.T": 292.0}),
     "step": Hybrid(

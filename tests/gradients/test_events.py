@@ -42,7 +42,9 @@ class Subject:
         rng = np.random.default_rng(1)
         networks = {n: v for n, v in self.base.items() if n not in self.system.layout.names}
         self.direction = {n: jax.tree.map(partial(_along, rng), v) for n, v in networks.items()}
-        self.names = (*self.moved, *case.x0, *case.inputs, *(["networks"] if networks else []))
+        samples = [f"{n}({t})" for n, (times, _) in case.held.items() for t in times]
+        constant = (*self.moved, *case.x0, *case.inputs)
+        self.names = (*constant, *samples, *(["networks"] if networks else []))
 
     def _ending(self, end: str) -> list[str]:
         found = [n for n in self.base if n == end or n.endswith(f".{end}")]
@@ -55,7 +57,11 @@ class Subject:
         given = [(n, self.base[n]) for n in self.moved]
         given += [*case.x0.items(), *case.inputs.items()]
         values = [(n, v + s * (abs(v) or 1.0)) for (n, v), s in zip(given, shift, strict=False)]
-        n, m = len(self.moved), len(self.moved) + len(case.x0)
+        n, m, end = len(self.moved), len(self.moved) + len(case.x0), len(values)
+        signals: dict[str, ac.Signal] = {}
+        for name, (times, interpolation) in case.held.items():
+            own = 1 + np.sin(3 * np.arange(len(times))) + shift[end : end + len(times)]
+            signals[name], end = ac.Signal(times, own, interpolation), end + len(times)  # pyright: ignore[reportArgumentType]
         networks = {
             name: jax.tree.map(
                 lambda w, d: w if d is None else w + shift[-1] * d,
@@ -71,14 +77,14 @@ class Subject:
             saveat=[case.end * s for s in case.saved],
             params=self.base | networks | dict(values[:n]),
             x0=dict(values[n:m]) or None,
-            inputs=dict(values[m:]) or None,
+            inputs={**dict(values[m:]), **signals} or None,
             **steps,
         )
 
     def steps(self, kind: str) -> dict[str, Any]:
         """Options of the simulation."""
-        if kind == "adaptive":
-            return TIGHT
+        if kind != "fixed":
+            return TIGHT | ({} if kind == "adaptive" else {"solver": kind})
         return {"dt": self.case.end / self.case.steps, "solver": "rk4"}
 
 
@@ -129,7 +135,9 @@ def test_gradients(name: str, record_property: Any) -> None:
 
 
 @pytest.mark.machines
-@pytest.mark.parametrize("name", [n for n, case in HYBRIDS.items() if len(case.kinds) > 1])
-def test_gradients_in_the_other_steps(name: str, record_property: Any) -> None:
-    (other,) = {*HYBRIDS[name].kinds} - {in_turn(name)}
-    compare(Subject(name), other, record_property)
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [(n, kind) for n, case in HYBRIDS.items() for kind in case.kinds if kind != in_turn(n)],
+)
+def test_gradients_in_the_other_steps(name: str, kind: str, record_property: Any) -> None:
+    compare(Subject(name), kind, record_property)

@@ -211,6 +211,7 @@ class BDF(eqx.Module):
             dense,
             Row(c, own, end, m.times, q),
             jnp.array(False),
+            jnp.array(False),
             counts,
         )
 

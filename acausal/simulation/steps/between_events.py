@@ -15,6 +15,7 @@ from acausal.initialization import COINCIDE
 from acausal.simulation.log import Log
 from acausal.simulation.steps.coinciding import follow_in_turn
 from acausal.simulation.steps.locate import POINTS, Hunt, look, no_hunt
+from acausal.simulation.steps.one_step import Memory
 from acausal.simulation.steps.problem import Attempt, Counts, Problem
 from acausal.simulation.steps.rows import EDGE, JUMP, STATE, TIMED, Reach, Row, follow, reach
 
@@ -23,6 +24,9 @@ CROWD = 12
 
 NEAR = 1e-10
 """Of the span of a run: what counts as no time between two events."""
+
+LESS = 0.3
+"""Of a step in whose change of a condition nobody believes: the next one's length."""
 
 DEADER = 10.0
 """So many times farther must a condition's number go after an event that changed nothing."""
@@ -72,12 +76,14 @@ class Seen(NamedTuple):
     Attributes:
         ok: whether it counts. stop: where it ends.
         hunt: how the search for an instant goes on. grazes: whether the condition hardly changes there.
+        doubted: whether the step is made shorter before its change of a condition is believed.
     """
 
     ok: Bool[Array, ""]
     stop: Stop
     hunt: Hunt
     grazes: Bool[Array, ""]
+    doubted: Bool[Array, ""]
 
 
 class Landing(NamedTuple):
@@ -139,16 +145,18 @@ def look_within(
     """See whether a condition changes in a step, and whether that ends where it does."""
     events, ok, hunt = held.watched, made.accepted, state.hunt
     if events.timed.all():
-        return Seen(ok, stop, hunt, jnp.array(False))
+        return Seen(ok, stop, hunt, jnp.array(False), jnp.array(False))
     numbers = _numbers(method, held, made, t, h)
     found = look(events, hunt, numbers, state.dead, state.d, *lax.stop_gradient((t, h)))
-    goes_on_hunting = found.hunt.active & (ok | hunt.active)
+    # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
+    doubted = ok & made.limited & found.hunt.active & ~hunt.active
+    goes_on_hunting = found.hunt.active & (ok | hunt.active) & ~doubted
     is_event, changing = found.is_event, found.band
     if stop.times is not None:  # a condition whose time has come would be missed after the event
         near = jnp.abs(stop.times - (t + h)) <= stop.apart
         changing = jnp.where(near, jnp.maximum(changing, stop.rounding), changing)
     return Seen(
-        (ok | is_event) & ~goes_on_hunting,
+        (ok | is_event) & ~goes_on_hunting & ~doubted,
         stop._replace(
             kind=jnp.where(is_event, STATE, stop.kind).astype(jnp.int32),
             which=jnp.where(is_event, found.which, stop.which).astype(jnp.int32),
@@ -156,13 +164,14 @@ def look_within(
         ),
         found.hunt._replace(active=goes_on_hunting),
         found.grazes,
+        doubted,
     )
 
 
 def land(
     method: Any,
     problem: Problem,
-    memory: Any,
+    memory: Memory,
     row: Row,
     made: Attempt,
     h: Array,
@@ -190,12 +199,18 @@ def land(
         if problem.field.has_edges:
             behind = behind.sided(t, jnp.full_like(t, jnp.inf))
         begun, cost = method.begin(behind, t, after.x)
+        begun = method.resumed(begun, made.memory)
         there = (end.dense, end.h) if forward else None
         return Landing(t, after.x, begun, cost, after.d, after.settled, there)
 
     def goes_on() -> Landing:
-        pairs = memory, made.memory
-        kept = jax.tree.map(lambda a, b: jnp.where(seen.hunt.active, a, b), *pairs)
+        shorter = memory._replace(
+            h=jnp.where(seen.doubted, LESS * lax.stop_gradient(h), memory.h),
+            limited=memory.limited + seen.doubted,
+            free=jnp.where(seen.doubted, 0, memory.free),
+        )
+        stays = seen.hunt.active | seen.doubted
+        kept = jax.tree.map(lambda a, b: jnp.where(stays, a, b), shorter, made.memory)
         within = (made.dense, h) if forward else None
         cost = plain.cost
         if problem.field.has_edges:

@@ -179,6 +179,7 @@ class OneStep(eqx.Module):
             jax.tree.map(lambda a, b: jnp.where(accepted, a, b), after, before),
             made.dense,
             (),
+            is_limited,
             accepted & (limited >= STIFF_AFTER),
             made.counts.plus(Counts.of(rates=look.rates, looks=looked)),
         )

@@ -69,7 +69,7 @@ class Paced(eqx.Module):
         again = jnp.where(done, jnp.inf, 0.0)  # it would be the same step
         after = memory._replace(h=again.astype(h.dtype), x=made.x, first=made.first)
         never = jnp.array(False)
-        return Attempt(done, made.x, after, made.dense, (), never, made.counts)
+        return Attempt(done, made.x, after, made.dense, (), never, never, made.counts)
 
     adjoint, at_start, back = OneStep.adjoint, OneStep.at_start, OneStep.back
 

@@ -139,7 +139,7 @@ class Problem(eqx.Module):
         and how the state grows with the step's length would be wrong.
         """
         if until is not None:
-            until = lax.stop_gradient(until)
+            until = lax.stop_gradient(until)  # `nextafter` has no derivative
             until = jnp.nextafter(until, jnp.full_like(until, -jnp.inf))
         sides = self.field.d if d is None else d, until
         places = lambda p: (p.field.d, p.field.until)  # noqa: E731
@@ -219,7 +219,8 @@ class Attempt(NamedTuple):
         memory: what the method knows next, whether the step counts or not; it holds the length ``h`` to try.
         dense: what `between` needs to interpolate within the step.
         row: what `back` needs to make the step again.
-        stiff: whether stability has limited the lengths of the last steps.
+        limited: whether stability would rather have a shorter step.
+        stiff: whether it has limited the lengths of the last steps.
         counts: what the attempt has cost.
     """
 
@@ -228,5 +229,6 @@ class Attempt(NamedTuple):
     memory: Any
     dense: Any
     row: Any
+    limited: Bool[Array, ""]
     stiff: Bool[Array, ""]
     counts: Counts

@@ -1,0 +1,62 @@
+"""What is no event: a fast mode that swings where stability limits the steps, and rounding at the time of another."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import blocks, electrical as el
+from tests.gradients.models import Built, at
+
+
+def boost() -> ac.Component:
+    """A boost converter: while the diode conducts, its resistance and the capacitor are a mode of 1 ns."""
+    return Built(
+        "source.p inductor.p",
+        "inductor.n switch.p diode.p",
+        "diode.n c.p load.p",
+        "source.n switch.n c.n load.n ground.p",
+        "pulse.y switch.control",
+        source=el.ConstantVoltage(V=12),
+        inductor=el.Inductor(L=1e-3, i=at(0.0)),
+        switch=el.IdealClosingSwitch(),
+        diode=el.IdealDiode(),
+        c=el.Capacitor(C=1e-4, v=at(0.0)),
+        load=el.Resistor(R=10),
+        pulse=blocks.BooleanPulse(width=50, period=1e-4),
+        ground=el.Ground(),
+    )
+
+
+def test_a_boost_converter_has_the_events_of_its_switch_alone() -> None:
+    run = ac.simulate(ac.compile(boost()), 2e-3)
+    np.testing.assert_allclose([e.t for e in run.events], 5e-5 * np.arange(1, 41), rtol=1e-9)
+    assert {e.component for e in run.events} == {"pulse"}
+    assert run.statistics is not None
+    assert run.statistics.steps + run.statistics.rejected < 150
+    np.testing.assert_allclose(run["c.v"][-1], 33.14408, rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "ramps", [{"rising": 0.0}, {"falling": 0.0}, {"rising": 0.0, "falling": 0.0}]
+)
+def test_a_trapezoid_without_a_ramp_stays_within_its_amplitude(ramps: dict[str, Any]) -> None:
+    """The end of a ramp of no length falls on the event that begins it; startTime makes rounding count."""
+    shape: dict[str, Any] = {
+        "rising": 0.1,
+        "falling": 0.1,
+        "width": 0.5,
+        "period": 1.0,
+        "startTime": 0.3,
+    } | ramps
+    clock = blocks.discrete.Sampler(samplePeriod=0.27)
+    model = Built(
+        "s.y i.u clock.u", s=blocks.Trapezoid(**shape), i=blocks.Integrator(), clock=clock
+    )
+    run = ac.simulate(ac.compile(model), 3.3)
+    assert np.max(np.abs(run["s.y"])) <= 1
+    area = shape["width"] + (shape["rising"] + shape["falling"]) / 2
+    np.testing.assert_allclose(run["i.y"][-1], 3 * area, rtol=1e-6)
