@@ -211,5 +211,7 @@ def test_a_host_callback_is_named(tmp_path):
 
     system = ac.compile(Oscillator())
     params = {**system.parameters(), "spring_nn.net": law}
-    with pytest.raises(ac.DataError, match="'pure_callback' of a network or a table has no counterpart"):
+    with pytest.raises(
+        ac.DataError, match="'pure_callback' of a network or a table has no counterpart"
+    ):
         ac.export.modelica(system, tmp_path / "a.mo", params)
