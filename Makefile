@@ -22,7 +22,7 @@ export NO_MKDOCS_2_WARNING := 1
 UV := $(shell command -v uv 2>/dev/null)
 
 .DELETE_ON_ERROR:
-.PHONY: help qvm paper ship test test-slow test-newest test-lowest test-uv test-today \
+.PHONY: help qvm paper ship test test-slow test-newest test-lowest test-uv test-today test-machines \
 	lint format types contracts docs wheel check ready lock lock-newest clean
 
 help: ## list the targets
@@ -66,6 +66,9 @@ test-uv: $(READY) ## the README's examples by `uv run`, which reads no lock
 
 test-today: $(READY) ## the tests with the newest dependencies of today: it shows what is to come and stops nothing
 	$(BIN)/python .ci/dependencies.py today
+
+test-machines: $(READY) ## trainings, pages and examples as other machines do them: MACHINES="seed-1 AVX2" for some
+	$(BIN)/python .ci/machines.py $(MACHINES)
 
 lint: $(READY) ## ruff: rules and format
 	$(BIN)/python -m ruff check .

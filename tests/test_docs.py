@@ -12,7 +12,7 @@ import io
 import re
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import groupby
 from pathlib import Path
 from types import ModuleType
@@ -46,8 +46,11 @@ def blocks_and_outputs(page: Path) -> Iterator[tuple[str, str | None]]:
         yield code, shown and textwrap.dedent(shown[2])
 
 
-def agree(shown: str, printed: str) -> bool:
-    """Whether a page shows what was printed, up to the last digit of numbers and omitted lines."""
+def agree(shown: str, printed: str, other: list[tuple[str, str]] | None = None) -> bool:
+    """Whether a page shows what was printed, up to the last digit of numbers and omitted lines.
+
+    Numbers whose last digits differ are added to ``other``, as shown and as printed.
+    """
     wanted = [line.split() for line in shown.splitlines() if line.strip()]
     found = [line.split() for line in printed.splitlines() if line.strip()]
     pieces = [list(group) for dots, group in groupby(wanted, lambda w: w == ["..."]) if not dots]
@@ -62,6 +65,9 @@ def agree(shown: str, printed: str) -> bool:
         if place is None:
             return False
         start = place + len(piece)
+        if other is not None:
+            pairs = zip(_numbers(piece), _numbers(found[place:start]), strict=True)
+            other += [(a, b) for a, b in pairs if a != b]
     return start == len(found) or bool(wanted and wanted[-1] == ["..."])
 
 
@@ -72,6 +78,10 @@ def _alike(shown: list[list[str]], printed: list[list[str]]) -> bool:
     return all(
         _close(a, b) for a, b in zip(NUMBER.findall(one), NUMBER.findall(other), strict=True)
     )
+
+
+def _numbers(lines: list[list[str]]) -> list[str]:
+    return NUMBER.findall("\n".join(map(" ".join, lines)))
 
 
 def _close(shown: str, printed: str) -> bool:
@@ -93,7 +103,12 @@ def pages() -> list[Any]:
 
 
 @pytest.mark.parametrize("page", pages())
-def test_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_blocks_run(
+    page: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    record_property: Callable[[str, object], None],
+) -> None:
     # A registered module, as dataclasses look up the module of the class they are applied to.
     module = ModuleType("page_" + re.sub(r"\W", "_", page.stem))
     monkeypatch.setitem(sys.modules, module.__name__, module)
@@ -104,9 +119,12 @@ def test_blocks_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
                 exec(compile(block, str(page), "exec"), vars(module))
             if shown is not None:
                 line = block.count("\n") - block.lstrip("\n").count("\n")
-                assert agree(shown, printed.getvalue()), (
+                other: list[tuple[str, str]] = []
+                assert agree(shown, printed.getvalue(), other), (
                     f"{page.name}, block at line {line + 1}, prints:\n{printed.getvalue()}"
                 )
+                for numbers in other:
+                    record_property("digit", (f"{page.name}:{line + 1}", *numbers))
     finally:
         plt.close("all")
 

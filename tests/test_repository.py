@@ -1,6 +1,8 @@
 """What a project needs besides code: workflows, templates, policies, and no address until there is one."""
 
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -122,3 +124,24 @@ def test_the_page_lists_the_exit_codes() -> None:
     page = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     table = dict(re.findall(r"^\| (\d+) \| (.*) \|$", page, re.MULTILINE))
     assert table == {str(code): meaning for code, meaning in EXIT_CODES.items()}
+
+
+def test_what_is_skipped_for_a_reason_that_is_not_listed_fails(tmp_path: Path) -> None:
+    (tmp_path / "test_all.py").write_text(
+        "import pytest\n"
+        "def test_listed(): pytest.skip('there is no C compiler')\n"
+        "def test_unlisted(): pytest.skip('too hard')\n"
+        "@pytest.mark.xfail(strict=False)\n"
+        "def test_that_may_fail(): assert False\n"
+    )
+    (tmp_path / "test_none.py").write_text(
+        "import pytest\npytest.importorskip('no_such_package')\n"
+    )
+    (tmp_path / "pytest.ini").write_text("[pytest]\n")
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-p", "tests.support.skips", "--continue-on-collection-errors",
+         "--rootdir", tmp_path, "-c", tmp_path / "pytest.ini", "-p", "no:cacheprovider", tmp_path],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert "1 failed, 1 skipped, 1 xfailed, 1 error" in done.stdout, done.stdout
+    assert "too hard (tests/support/skips.py lists no such reason)" in done.stdout

@@ -1,0 +1,98 @@
+"""Trainings as other machines would do them: records with other last bits, other instructions, other optimizations.
+
+    python .ci/machines.py                      all variations, and a table of margins
+    python .ci/machines.py seed-1 AVX2          some of them
+    python .ci/machines.py AVX2 -- -k tanks     arguments for pytest
+
+Fails where a test does. Bars that are closer than a fifth to what is measured, and numbers of pages that are not
+printed as they are shown, are listed.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+QUICK = (
+    "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true "
+    "--xla_cpu_use_fusion_emitters=false"
+)
+SHORT = ("tests/training",)
+LONG = ("tests/test_docs.py", "tests/test_notebooks.py", "tests/examples")
+SEEDS = {f"seed-{seed}": (seed, "") for seed in range(1, 6)}
+ISAS = {isa: (1, f"--xla_cpu_max_isa={isa}") for isa in ("AVX2", "SSE4_2")}
+SWAPPED = "swapped"  # the programs that are optimized elsewhere are not, and the others are
+VARIATIONS = {**SEEDS, **ISAS, SWAPPED: (1, "")}
+
+
+def run(name: str, arguments: list[str], folder: Path) -> list[dict[str, list]]:
+    """What both groups of files have measured in a variation."""
+    seed, flags = VARIATIONS[name]
+    found = []
+    for files, quick in ((SHORT, name != SWAPPED), (LONG, name == SWAPPED)):
+        target = folder / f"{name}-{len(found)}.json"
+        command = [
+            *(sys.executable, "-m", "pytest", "-n", "auto", "--dist", "loadfile"),
+            *("-m", "slow or not slow", "-p", "tests.support.machines"),
+            *("-o", "enable_assertion_pass_hook=true", "--last-bits", str(seed)),
+            *("--margins", str(target), *files, *arguments),
+        ]
+        environment = {
+            **os.environ,
+            "XLA_FLAGS": f"{QUICK if quick else ''} {flags}".strip(),
+            "PYTHONPYCACHEPREFIX": str(
+                folder / "compiled"
+            ),  # assertions that tell what they compare
+        }
+        print(f"== {name}: {' '.join(files)}", flush=True)
+        subprocess.run(command, cwd=ROOT, env=environment, check=False)
+        found.append(json.loads(target.read_text(encoding="utf-8")))
+    return found
+
+
+def table(found: dict[str, list[dict[str, list]]]) -> list[str]:
+    """By file of tests: how many bars it has, and the nearest of them over all variations."""
+    by_file = defaultdict(list)
+    for name, parts in found.items():
+        for part in parts:
+            for _, place, text, measured, bar, apart in part["margins"]:
+                by_file[place.partition(":")[0]].append((apart, measured, bar, place, text, name))
+    rows = ["| file | bars | nearest | measured | bar | margin |", "|---|---|---|---|---|---|"]
+    for file, bars in sorted(by_file.items()):
+        apart, measured, bar, place, text, name = min(bars)
+        count = len({(place, text) for *_, place, text, _ in bars})
+        said = text.replace("|", "\\|")
+        rows.append(
+            f"| {file.removeprefix('tests/')} | {count} | `{said}` (line {place.partition(':')[2]}, {name}) "
+            f"| {measured:.3g} | {bar:.3g} | {apart:.0%} |"
+        )
+    return rows
+
+
+def main(words: list[str]) -> int:
+    """Do the named variations, or all; 1 if a test has failed in one of them."""
+    cut = words.index("--") if "--" in words else len(words)
+    names, arguments = words[:cut] or list(VARIATIONS), words[cut + 1 :]
+    if unknown := set(names) - {*VARIATIONS}:
+        print(f"No variation {', '.join(unknown)}: there are {', '.join(VARIATIONS)}.")
+        return 2
+    with tempfile.TemporaryDirectory() as folder:
+        found = {name: run(name, arguments, Path(folder)) for name in names}
+    print("\n".join(table(found)))
+    failed = [f"{n}: {test}" for n, parts in found.items() for p in parts for test in p["failed"]]
+    digits = {
+        f"{n}: {page} shows {shown}, prints {printed}"
+        for n, parts in found.items()
+        for p in parts
+        for page, shown, printed in p["digits"]
+    }
+    print(*sorted(digits), *failed, sep="\n")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
