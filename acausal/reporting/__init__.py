@@ -46,6 +46,7 @@ from acausal.reporting.plot import (
     InputStatistics as InputStatistics,
     UncertainCurve as UncertainCurve,
     plot_band as plot_band,
+    plot_guides as plot_guides,
     plot_learned as plot_learned,
     plot_losses as plot_losses,
     plot_modifiers as plot_modifiers,

@@ -110,13 +110,16 @@ class Within(NamedTuple):
     def at(
         self, fraction: ArrayLike, x: State, part: tuple[ArrayLike, ArrayLike] = (0.0, 1.0)
     ) -> Values:
-        """The values of the model at a fraction of the step, in a part of it: between two fractions."""
+        """The values of the model at a fraction of the step, in a part of it: between two fractions.
+
+        Stages beyond the part's end, as Kvaerno5 has one, keep their time: its order depends on it.
+        """
         step = self.step
         t, low, high = (step.time(f) for f in (fraction, *part))
         if self.sided:
             eps = SIDE * jnp.finfo(jnp.result_type(low)).eps
             apart = eps * jnp.maximum(jnp.abs(low), jnp.abs(high))
-            t = jnp.clip(t, low + apart, high - apart)
+            t = jnp.where(fraction > part[1], t, jnp.clip(t, low + apart, high - apart))
         return self.values._replace(t=t, x=x, u=step.inputs(fraction, self.functions, t))
 
 

@@ -154,7 +154,7 @@ def test_what_calls_a_library_is_left_to_jax():
 
 @pytest.mark.parametrize(
     ("interpolation", "dt"),
-    [("linear", 0.5), ("previous", 0.3), ("cubic", 0.2), ("band-limited", 0.1)],
+    [("linear", 0.5), ("previous", 0.25), ("cubic", 0.2), ("band-limited", 0.1)],
 )
 def test_a_model_with_any_input_is_compiled_as_a_whole(interpolation: str, dt: float, monkeypatch):
     """Its number of steps is its own, so that it is traced anew."""
