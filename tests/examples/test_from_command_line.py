@@ -59,7 +59,7 @@ def test_an_example_runs_from_its_data_to_its_page(
     monkeypatch.setattr(study, "HELD", study.HELD[:1])  # each part that is held out compiles again
     for train in (ac.fit, ac.ensemble):
         monkeypatch.setattr(
-            ac, train.__name__, lambda *a, train=train, **k: train(*a, **{**k, "epochs": 1})
+            ac, train.__name__, lambda *a, shortened=train, **k: shortened(*a, **{**k, "epochs": 1})
         )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a training of one update has much to warn of
