@@ -187,7 +187,7 @@ def _stable(
     system: System, text: Text, params: Mapping[str, Any] | None, step: float, is_default: bool
 ) -> float:
     """The step, or by default a shorter one, at which an explicit solver is stable at the start."""
-    d = jnp.asarray(text.discrete_start)[None] if text.has_events else None
+    d = jnp.asarray(text.discrete_start) if text.has_events else None
     u, packed = jnp.zeros((1, len(system.inputs))), system.pack(params)
     damping = fastest_mode(
         system, Values(jnp.zeros(1), jnp.asarray(text.start)[None], u, packed, d)

@@ -48,7 +48,7 @@ def fastest_mode(system: System, values: Values) -> tuple[float, float]:
     """The rate of the fastest damped mode along a trajectory [1/s], and when [s]; 0 for what is not examined.
 
     Arguments:
-        values: the trajectory, n points; none of them traced.
+        values: the trajectory, n points, with the same discrete variables at all of them; none of them traced.
     """
     if not 0 < len(system.states) <= LARGEST:
         return 0.0, 0.0

@@ -283,6 +283,9 @@ def test_examples_in_c(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings(
+    "ignore:export.fmu. steps of"
+)  # of a co-simulation that is not run here
 @pytest.mark.parametrize("name", sorted(p.stem for p in FOLDER.glob("*.json")))
 def test_examples_as_fmus(name: str, tmp_path: Path) -> None:
     fmpy = need_fmpy()

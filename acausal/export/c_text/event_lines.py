@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -28,14 +29,17 @@ static void copy(const real *from, real *to, int n) {
 }
 
 /* Discrete variables that agree with all values, from m->x, m->d and those before; 0 if there are none.
-   Conditions within m->e.band of zero become what m->e.decreed says. At first all that disagree change at once, later
+   Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero become
+   what m->e.decreed says. At first all that disagree change at once, later
    the first of them alone. */
 static int settle(NAME *m, const real t, const real *u, const real initial) {
     for (int pass = 0; pass < PASSES + ONE_BY_ONE; pass++) {
         int others = 1;
+        const real behind = t + COINCIDE * fabs(t);
+        if (ANY_TIMED) conditions(m, behind, m->x, u, m->e.x_before, m->e.d_before, m->e.holds);
         conditions(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.number);
         for (int i = 0; i < GUARDS; i++) {
-            const real g = m->e.number[i];
+            const real g = timed[i] ? m->e.holds[i] : m->e.number[i];
             int holds = strict[i] ? g > 0 : g >= 0;
             if (pass < DECREED && fabs(g) <= m->e.band[i]) holds = m->e.decreed[i];
             if (ticks[i] && initial > 0) holds = 0;
@@ -395,8 +399,7 @@ typedef struct {
     NAME_hunt hunt;
 } NAME_events;
 """
-    for word in ("CONDITIONS", "DISCRETE", "STATES", "INPUTS"):
-        text = text.replace(word, f"{name.upper()}_{word}")
+    text = re.sub(r"\b(CONDITIONS|DISCRETE|STATES|INPUTS)\b", rf"{name.upper()}_\1", text)
     return iter(text.replace("NAME", name).splitlines())
 
 

@@ -83,8 +83,9 @@ class Sided(eqx.Module):
         return self.field.ahead(t, apart)
 
     def at(self, t: Array) -> Field:
-        """It at one time."""
-        return self.field.at(jnp.clip(t, self.low, self.high).astype(jnp.result_type(t)))
+        """It at one time; that is moved by rounding errors only, so its derivative stays."""
+        inside = jnp.clip(t, self.low, self.high).astype(jnp.result_type(t))
+        return self.field.at(t + lax.stop_gradient(inside - t))
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
