@@ -119,7 +119,8 @@ class Within(NamedTuple):
         if self.sided:
             eps = SIDE * jnp.finfo(jnp.result_type(low)).eps
             apart = eps * jnp.maximum(jnp.abs(low), jnp.abs(high))
-            t = jnp.where(fraction > part[1], t, jnp.clip(t, low + apart, high - apart))
+            beyond = jnp.asarray(fraction) > jnp.asarray(part[1])
+            t = jnp.where(beyond, t, jnp.clip(t, low + apart, high - apart))
         return self.values._replace(t=t, x=x, u=step.inputs(fraction, self.functions, t))
 
 
