@@ -104,6 +104,7 @@ def test_the_gradient_of_a_penalty_is_that_of_differences():
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:After training, 'spring.d' is -0")  # without the margin
 def test_a_sensor_that_lags_makes_no_instability():
     """Late accelerations look like a damping that is less by about c τ; the margin holds against that."""
     lag, time, start = 0.02, np.linspace(0, 5, 501), 5.0
