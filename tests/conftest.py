@@ -2,7 +2,9 @@
 
 import gc
 import os
+import shutil
 import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,7 +12,7 @@ from typing import Any
 import hypothesis
 import pytest
 
-os.environ.setdefault("ACAUSAL_COMPILATION_CACHE", "off")
+CACHE = "ACAUSAL_COMPILATION_CACHE"
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
 os.environ.setdefault("MPLBACKEND", "Agg")
 
@@ -22,13 +24,25 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("acausal")
 
 
+MAPS = 20_000
+"""Memory maps from which on compiled programs are let go: each takes some, and Linux allows a process 65,530."""
+
+
 @pytest.fixture(autouse=True, scope="module")
 def lets_go_of_compiled_programs() -> Iterator[None]:
-    """After a file of tests; each program takes memory maps, of which Linux allows a process 65,530."""
+    """After a file of tests, where there are many: small ones are needed again by the next file."""
     yield
-    if "jax" in sys.modules:
+    if "jax" in sys.modules and maps() > MAPS:
         sys.modules["jax"].clear_caches()
         leave_alone_what_stays()
+
+
+def maps() -> int:
+    """The memory maps of this process; above `MAPS` where the system does not tell."""
+    try:
+        return Path("/proc/self/maps").read_bytes().count(b"\n")
+    except OSError:
+        return MAPS + 1
 
 
 def pytest_collection_finish() -> None:
@@ -38,13 +52,20 @@ def pytest_collection_finish() -> None:
 
 
 def leave_alone_what_stays() -> None:
-    """What is alive between two files of tests stays: modules, and what they keep."""
+    """What is alive where programs have been let go stays: modules, and what they keep."""
+    gc.unfreeze()
     gc.collect()
     gc.freeze()
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """In CI with the locked packages, tests are skipped for known reasons only."""
+    """One cache of programs for all files and processes of a run: half of what they compile is the same.
+
+    In CI with the locked packages, tests are skipped for known reasons only.
+    """
+    if CACHE not in os.environ:
+        os.environ[CACHE] = tempfile.mkdtemp(prefix="acausal-tests-")
+        config.add_cleanup(lambda: shutil.rmtree(os.environ.pop(CACHE), ignore_errors=True))
     if os.environ.get("CI") and Path(sys.prefix).name == ".venv":
         config.pluginmanager.import_plugin("tests.support.skips")
 
