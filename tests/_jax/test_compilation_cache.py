@@ -15,6 +15,7 @@ import acausal as ac
 from acausal._jax.compilation_cache import (
     ENABLED,
     FOLDER,
+    SECOND,
     SHORTEST,
     VARIABLE,
     begin,
@@ -25,8 +26,10 @@ from tests.support.paths import ROOT
 
 @pytest.fixture
 def setting():
-    """A function that changes settings of JAX; they are restored."""
+    """A function that changes settings of JAX, at first those of a process without a cache; they are restored."""
     before = {name: getattr(jax.config, name) for name in (FOLDER, ENABLED, SHORTEST)}
+    for name, value in ((FOLDER, None), (SHORTEST, SECOND)):
+        jax.config.update(name, value)
     yield lambda name, value: jax.config.update(name, value)
     for name, value in before.items():
         jax.config.update(name, value)
