@@ -13,6 +13,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ class Truth:
         inner = {float(e) for e in self.edges if ts[0] < e < ts[-1]}
         ends = sorted(inner | {float(t) for t in ts})
         saved = {float(t) for t in ts[1:]}
-        for begin, end in zip(ends[:-1], ends[1:], strict=True):
+        for begin, end in pairwise(ends):
             n = max(1, math.ceil(50 * (end - begin) / self.shortest))
             x = self._over(begin, end, n, x)
             if end in saved:
@@ -104,12 +105,16 @@ class Structure:
         """The compiled model."""
         return ac.compile(self.make())
 
+    @cache  # noqa: B019 (and ten models of each)
+    def _true(self, p: tuple[tuple[str, float], ...]) -> np.ndarray:
+        return self.truth(dict(p)).at(self.ts)
+
     def error(self, p: Mapping[str, float], **options: Any) -> tuple[float, int]:
         """Relative to the range, and the steps that it took."""
         system = self.system()
         params = dict(system.parameters()) | dict(p)
         sol = ac.simulate(system, self.end, params=params, saveat=self.ts, **options)
-        true = self.truth(p).at(self.ts)
+        true = self._true(tuple(p.items()))
         found = float(np.abs(np.asarray(sol[self.observed]) - true).max() / np.ptp(true))
         assert sol.statistics is not None
         return found, int(sol.statistics.steps)
