@@ -23,8 +23,8 @@ LOG = 10_000
 VALUES, FEW_VALUES = 2**21, 2**12
 """Numbers by which a run remembers what states and discrete variables were before and after events: 16 megabytes.
 
-That is enough for all `LOG` events of models with up to 104 of them.
-Fewer where JAX traces: a thousand runs side by side need a thousand times the room.
+That is enough for all `LOG` events of models with up to 104 of them. There are fewer where JAX traces: a thousand runs
+side by side need a thousand times the room.
 """
 
 JUMP = "an input jumps"
