@@ -77,7 +77,7 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         budget: how large the model may become. By default that with which its file was loaded; a model in Python may
             have a hundred times as much: 10 million components, 100 million equations.
         events: whether steps end where conditions with ``events=None`` change, those of the library's sources for
-            example, also in a model without other events: gradients by the times of steps and pulses need it.
+            example, also in a model without other events: `Solution.events` then lists them.
 
     Raises:
         UnitError: if an equation adds, compares or equates different dimensions, or a unit is not valid.

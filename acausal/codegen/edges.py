@@ -21,7 +21,7 @@ from jax.typing import ArrayLike
 from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather
 from acausal.codegen.instructions import Accumulate, Evaluate, Instruction, SolveTornLoop
-from acausal.codegen.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk
+from acausal.codegen.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
 from acausal.codegen.program import DISCRETE, ZERO, Program
 from acausal.codegen.reading import chosen_module, read_elements
 from acausal.codegen.values import Packed
@@ -110,14 +110,21 @@ class Edges(LeavesCaches):
 
     @cached_property
     def bends(self) -> bool:
-        """Whether the right-hand side jumps or bends somewhere that depends on states or inputs."""
+        """Whether the right-hand side jumps or bends at times that are not known ahead.
+
+        That is where states or inputs make it, or a curve of time, such as a sine that is clipped.
+        """
         for part in self._parts:
             if not isinstance(part, _Formula):
                 continue
             settled = {time, *(s for s, _ in part.parameters), *(s for s, _ in part.modules)}
-            settled |= {s for s, g in part.variables if set(g.sources) <= self._known}
-            if any(n.free_symbols - settled for n in part.expression.atoms(*BENT)):
-                return True
+            settled |= {
+                s for s, g in part.variables if set(g.sources) <= self._known - self._curved
+            }
+            timed = self._symbols(part, self._timed)
+            for node in part.expression.atoms(*BENT):
+                if node.free_symbols - settled or not all(is_straight(a, timed) for a in node.args):
+                    return True
         return False
 
     @cached_property
@@ -149,12 +156,29 @@ class Edges(LeavesCaches):
         return timed
 
     @cached_property
+    def _curved(self) -> set[int]:
+        """Those of the known that do not consist of lines over time."""
+        curved: set[int] = set()
+        for part in self._parts:
+            if part.fills is None or part.fills not in self._timed:
+                continue
+            bent = isinstance(part, _Formula) and not is_straight(
+                part.expression, self._symbols(part, self._timed)
+            )
+            curved |= {part.fills} if bent or part.sources & curved else set()
+        return curved
+
+    def _symbols(self, part: _Formula, arrays: set[int]) -> set[sp.Symbol]:
+        """Time, and the symbols of a formula that some arrays fill."""
+        return {time, *(s for s, g in part.variables if arrays & set(g.sources))}
+
+    @cached_property
     def _watched(self) -> tuple[_Formula, ...]:
         """The formulas that may have edges."""
         found: list[_Formula] = []
         for part in self._parts:
             if isinstance(part, _Formula):
-                timed = {time, *(s for s, g in part.variables if self._timed & set(g.sources))}
+                timed = self._symbols(part, self._timed)
                 nodes = sp.preorder_traversal(part.expression)
                 if any(isinstance(n, EDGED) and n.free_symbols & timed for n in nodes):
                     found.append(part)

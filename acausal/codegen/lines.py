@@ -80,6 +80,16 @@ class Line(NamedTuple):
         return self.at_zero if self.constant else self.at_zero + self.rate * t
 
 
+def is_straight(node: Any, timed: set[sp.Symbol]) -> bool:
+    """Whether an expression is a line between any two edges, by what changes with time."""
+    if not node.free_symbols & timed or node in timed:
+        return True
+    if isinstance(node, sp.Mul) and sum(bool(a.free_symbols & timed) for a in node.args) > 1:
+        return False
+    kinds = (sp.Add, sp.Mul, sp.Piecewise, sp.Tuple, sp.And, sp.Or, sp.Not, *BENT)
+    return isinstance(node, kinds) and all(is_straight(a, timed) for a in node.args)
+
+
 class Walk:
     """Through a formula, just behind a time.
 

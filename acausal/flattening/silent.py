@@ -1,4 +1,7 @@
-"""Parameters without a gradient: they act through conditions alone that are not events, but make values jump."""
+"""Parameters without a gradient: they act through conditions alone that are not events, but make values jump.
+
+Conditions whose times are known ahead are none of these: steps end there, and the times have derivatives.
+"""
 
 from __future__ import annotations
 
@@ -128,11 +131,14 @@ def _parameters(relation: Any, component: Component) -> list[Reference]:
 
 
 def _changes(relation: Any) -> bool:
-    """Whether a relation can change in a run."""
-    return any(
-        s == time or (isinstance(s, Reference) and isinstance(s.declaration, Variable))
-        for s in relation.free_symbols
-    )
+    """Whether a relation can change in a run, at a time that is not known ahead (see `acausal.codegen.Edges`)."""
+    symbols = relation.free_symbols
+    if any(isinstance(s, Reference) and isinstance(s.declaration, Variable) for s in symbols):
+        return True
+    number = relation.lhs - relation.rhs
+    floors = number.atoms(sp.floor)
+    lines = [number.xreplace({f: sp.Dummy() for f in floors}), *(f.args[0] for f in floors)]
+    return any(time in line.diff(time).free_symbols for line in lines)
 
 
 def _jumps(relation: Any, difference: Any) -> bool:

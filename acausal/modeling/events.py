@@ -120,8 +120,8 @@ def where(condition_: Any, value: Any, otherwise: Any, *, events: bool | None = 
         condition_: a comparison, or ``&``, ``|``, ``~`` of some; a variable counts as true above 1/2.
         value, otherwise: expressions or numbers.
         events: whether steps end where the condition changes. With False it is evaluated as it stands at every
-            point, and a parameter that acts through the condition alone has no gradient. None: in models that have
-            other events.
+            point, and a parameter that acts through the condition alone has no gradient, unless it is a comparison of
+            time. None: in models that have other events.
     """
     holds = condition(condition_, "the condition of where(...)")
     first, second = number_or_truth(value), number_or_truth(otherwise)

@@ -6,10 +6,12 @@ It knows nothing of training; it calls `acausal.reporting` to draw.
 
 from acausal.simulation.fixed_steps import (
     Integrated as Integrated,
+    Parts as Parts,
     Runs as Runs,
     Steps as Steps,
     inner_fractions as inner_fractions,
     integrate as integrate,
+    on_curve as on_curve,
 )
 from acausal.simulation.inputs import (
     TimeFunction as TimeFunction,

@@ -58,7 +58,10 @@ def simulate_fixed(
     start = run.start._replace(t=jnp.asarray(ends[0]))  # an array: other times need no compilation
     start, steps = cast((start, steps), dtype)
     scheme = solvers.for_fixed_steps(solver, dtype, direct=direct)
-    x = _scan_steps(run.system, start, steps, scheme, direct)
+    divided = (
+        direct or known(run.start.packed) is None
+    )  # else `are_split` has seen no edge within a step
+    x = _scan_steps(run.system, start, steps, scheme, direct, divided)
     if not traced(x):
         _check(run, ends, np.asarray(x))
     t = jnp.asarray(ends)[rows]
@@ -78,7 +81,8 @@ def simulate_fixed(
 def are_split(run: Run, ends: Float[np.ndarray, " n_ends"], adjoint: object) -> bool:
     """Whether edges of sources, or jumps of inputs, lie within fixed steps, and divide them.
 
-    They do not where JAX compiles or maps, as it is not known then, or where `DirectAdjoint` asks for a plain scan.
+    Where JAX compiles or maps, that is not known, and `DirectAdjoint` asks for a plain scan: `integrate` divides each
+    step at a few of them then.
     """
     packed = known(run.start.packed)
     if packed is None or isinstance(adjoint, dfx.DirectAdjoint):
@@ -113,9 +117,14 @@ def _off_grid(system: System, packed: Packed, ends: Float[Array, " n_ends"]) -> 
 
 @eqx.filter_jit
 def _scan_steps(
-    system: System, start: Values, steps: Steps, solver: solvers.Scheme, direct: bool
+    system: System,
+    start: Values,
+    steps: Steps,
+    solver: solvers.Scheme,
+    direct: bool,
+    divided: bool,
 ) -> Float[Array, "n_ends n_states"]:
-    integrated = integrate(system, start, steps, solver, direct=direct)
+    integrated = integrate(system, start, steps, solver, direct=direct, divided=divided)
     return jnp.concatenate([integrated.x, integrated.end[None]])
 
 

@@ -7,7 +7,7 @@ arithmetic with constant coefficients. For any other solver, its `step` method i
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
 import diffrax as dfx
 import equinox as eqx
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 SIDE = 16.0
 """So many rounding errors is each stage within its step, where a source may jump at the ends."""
 
+EDGES = 3
+"""A step is divided at so many edges of sources, the first that lie within it."""
+
 State: TypeAlias = Float[Array, " n_states"]
 
 Field = Callable[[ArrayLike, State, PyTree], State]
@@ -39,18 +42,40 @@ Stepper = Callable[[Field, State, Float[Array, ""], PyTree, State | None], State
 """One step of a scheme: (field, state, length, arguments, derivative at the start if known) -> state."""
 
 
+class Parts(eqx.Module):
+    """The inputs over parts of steps, as they jump or bend within.
+
+    Attributes:
+        cuts: the fractions of a step at which one part ends and the next begins, shape (n, p), increasing; 1 where
+            there is none. inputs: over each of p + 1 parts, arrays of shape (n, p + 1, ...).
+    """
+
+    cuts: Float[Array, "n p"]
+    inputs: Samples
+
+    def at(self, fraction: ArrayLike, around: ArrayLike) -> Float[Array, " n_inputs"]:
+        """Of one step: the inputs at a fraction of it, as they are in the part around another."""
+        cuts, u = jnp.pad(self.cuts, 1, constant_values=(0.0, 1.0)), self.inputs
+        i = jnp.sum(self.cuts <= around)
+        length = cuts[i + 1] - cuts[i]
+        own = (fraction - cuts[i]) / jnp.where(length > 0, length, 1.0)
+        coefficients = None if u.coefficients is None else u.coefficients[i]
+        return on_curve(u.start[i], u.end[i], coefficients, own)
+
+
 class Steps(eqx.Module):
     """A sequence of n steps.
 
     Attributes:
         t: their starts, shape (n,), in seconds.
         h: their lengths in seconds, shape (n,), or () where all are equal.
-        inputs: the inputs over each of them.
+        inputs: the inputs over each of them. parts: over parts of them, where inputs jump or bend within.
     """
 
     t: Float[Array, " n"]
     h: Float[Array, "*n"]
     inputs: Samples
+    parts: Parts | None = None
 
 
 class Step(eqx.Module):
@@ -61,6 +86,7 @@ class Step(eqx.Module):
     start: Float[Array, " n_inputs"]
     end: Float[Array, " n_inputs"]
     coefficients: Float[Array, "n_coefficients n_inputs"] | None
+    parts: Parts | None = None
 
     def time(self, fraction: ArrayLike) -> Float[Array, ""]:
         """The time at a fraction of the step."""
@@ -71,21 +97,30 @@ class Step(eqx.Module):
         fraction: ArrayLike,
         functions: tuple[TimeFunction | None, ...],
         t: Array | None = None,
+        around: ArrayLike | None = None,
     ) -> Float[Array, " n_inputs"]:
-        """The inputs at a fraction of the step; functions of time as they are at ``t``, if that is given."""
-        u = self._sampled(fraction)
+        """The inputs at a fraction of the step; functions of time as they are at ``t``, if that is given.
+
+        Where they jump within the step, they are those of the part around a fraction.
+        """
+        if _is_zero(fraction):
+            u = self.start
+        elif self.parts is not None:
+            u = self.parts.at(fraction, fraction if around is None else around)
+        else:
+            u = on_curve(self.start, self.end, self.coefficients, fraction)
         if all(f is None for f in functions):
             return u
         t = self.time(fraction) if t is None else t
         return jnp.stack([v if f is None else f(t) for v, f in zip(u, functions, strict=True)])
 
-    def _sampled(self, fraction: ArrayLike) -> Array:
-        if _is_zero(fraction):
-            return self.start
-        on_line = self.start + fraction * (self.end - self.start)
-        if self.coefficients is None:
-            return on_line
-        return on_line + deviation_from_line(self.coefficients, fraction)
+
+def on_curve(start: Array, end: Array, coefficients: Array | None, fraction: ArrayLike) -> Array:
+    """A point of a polynomial between two ends."""
+    on_line = start + fraction * (end - start)
+    return (
+        on_line if coefficients is None else on_line + deviation_from_line(coefficients, fraction)
+    )
 
 
 def _is_zero(fraction: ArrayLike) -> bool:
@@ -121,7 +156,8 @@ class Within(NamedTuple):
             apart = eps * jnp.maximum(jnp.abs(low), jnp.abs(high))
             beyond = jnp.asarray(fraction) > jnp.asarray(part[1])
             t = jnp.where(beyond, t, jnp.clip(t, low + apart, high - apart))
-        return self.values._replace(t=t, x=x, u=step.inputs(fraction, self.functions, t))
+        around = (part[0] + part[1]) / 2
+        return self.values._replace(t=t, x=x, u=step.inputs(fraction, self.functions, t, around))
 
 
 class Runs(eqx.Module):
@@ -166,6 +202,7 @@ def integrate(
     substeps: int = 1,
     direct: bool = False,
     runs: Runs | None = None,
+    divided: bool = True,
 ) -> Integrated:
     """Integrate the model over some steps. Pure: trace, differentiate and map it.
 
@@ -179,6 +216,7 @@ def integrate(
         substeps: equal parts that each step is divided into.
         direct: whether derivatives in forward mode must work, too; those in reverse mode then take more memory.
         runs: where further runs begin among the steps.
+        divided: whether edges of sources or samples of inputs may lie within steps: the first `EDGES` divide a step.
 
     Returns:
         States and outputs at the steps' starts, and the state at the end. A step whose equations are not solved
@@ -195,23 +233,42 @@ def integrate(
         isinstance(f, Signal) and f.jumps for f in steps.inputs.functions
     )
 
-    def field(fraction: ArrayLike, x: State, within: Within) -> State:
-        return system.rates(within.at(fraction, x))
+    def over(part: tuple[Any, Any], x: State, within: Within, first: State | None) -> State:
+        """From one fraction of a step to another."""
 
-    def part(x: State, j: ArrayLike, within: Within, first_stage: State | None) -> State:
-        def part_field(fraction: ArrayLike, x: State, args: tuple[ArrayLike, Within]) -> State:
-            j, within = args
-            own = j / substeps, (j + 1) / substeps
-            return system.rates(within.at((j + fraction) / substeps, x, own))
+        def field(fraction: ArrayLike, x: State, args: tuple[Any, Within]) -> State:
+            (low, high), within = args
+            at: Any = fraction if _is_whole(low, high) else low + fraction * (high - low)
+            return system.rates(within.at(at, x, (low, high)))
 
-        return advance(part_field, x, within.step.h / substeps, (j, within), first_stage)
+        low, high = part
+        length = within.step.h if _is_whole(low, high) else (high - low) * within.step.h
+        return advance(field, x, length, (part, within), first)
 
-    def whole(x: State, within: Within, first_stage: State | None) -> State:
+    def in_parts(low: Any, high: Any, x: State, within: Within, first: State | None) -> State:
+        """The same in `substeps` equal steps."""
         if substeps == 1:
-            return advance(field, x, within.step.h, within, first_stage)
-        x = part(x, jnp.zeros((), x.dtype), within, first_stage)
+            return over((low, high), x, within, first)
+
+        def ends(j: ArrayLike) -> tuple[Any, Any]:
+            return low + (high - low) * j / substeps, low + (high - low) * (j + 1) / substeps
+
+        x = over(ends(jnp.zeros((), x.dtype)), x, within, first)
         rest = jnp.arange(1.0, substeps, dtype=x.dtype)
-        return jax.lax.scan(lambda x, j: (part(x, j, within, None), None), x, rest)[0]
+        return jax.lax.scan(lambda x, j: (over(ends(j), x, within, None), None), x, rest)[0]
+
+    def whole(x: State, within: Within, first: State | None) -> State:
+        cuts = _cuts(system, within, divided)
+        if cuts is None:
+            return in_parts(0.0, 1.0, x, within, first)
+
+        def next_part(x: State, ends: tuple[Array, Array]) -> tuple[State, None]:
+            go = lambda: in_parts(*ends, x, within, None)  # noqa: E731
+            return jax.lax.cond(ends[1] > ends[0], go, lambda: x), None
+
+        x = in_parts(jnp.zeros_like(cuts[0]), cuts[0], x, within, first)
+        later = cuts, jnp.append(cuts[1:], jnp.ones((), cuts.dtype))
+        return jax.lax.scan(next_part, x, later)[0]
 
     def observe(x: State, within: Within) -> tuple[State | None, Array | None]:
         if not outputs:
@@ -223,11 +280,11 @@ def integrate(
 
     def step(constants: PyTree, x: State, row: PyTree) -> tuple[State, Array | None]:
         values, functions, equal = eqx.combine(constants, fixed)
-        t, h, start, end, coefficients, own = row
+        t, h, start, end, coefficients, parts, own = row
         length = equal if h is None else h
         if own is not None:
             values = values._replace(packed=values.packed.replaced(places, own))
-        within = Within(values, functions, Step(t, length, start, end, coefficients), sided)
+        within = Within(values, functions, Step(t, length, start, end, coefficients, parts), sided)
         first_stage, y = observe(x, within)
         return whole(x, within, first_stage), y
 
@@ -236,9 +293,42 @@ def integrate(
     restarts, own, places = (
         (None, None, ()) if runs is None else (runs.restarts, runs.own, runs.places)
     )
-    rows = (steps.t, h, samples.start, samples.end, samples.coefficients, own)
+    rows = (steps.t, h, samples.start, samples.end, samples.coefficients, steps.parts, own)
     xs, end, ys = stored_scan(step, constants, start.x, rows, direct=direct, restarts=restarts)
     return Integrated(xs, ys, end)
+
+
+def _is_whole(low: ArrayLike, high: ArrayLike) -> bool:
+    return _is_zero(low) and isinstance(high, float) and high == 1.0
+
+
+def _cuts(system: System, within: Within, divided: bool) -> Float[Array, " p"] | None:
+    """The fractions of a step, above 0 and increasing, at which edges of sources, or inputs, divide it."""
+    step = within.step
+    found = [] if step.parts is None else [*step.parts.cuts]
+    signals = [f for f in within.functions if isinstance(f, Signal)]
+    signals = [f for f in signals if f.jumps or f.interpolation == "linear"]
+    if divided and (system.edges or signals):
+        end = step.t + step.h
+        eps = SIDE * jnp.finfo(jnp.result_type(step.t)).eps
+        apart = eps * jnp.maximum(jnp.abs(step.t), jnp.abs(end))
+        t = step.t
+        for _ in range(EDGES):
+            times = [_next_sample(f, t + apart) for f in signals]
+            if system.edges:
+                ahead = system.edges.ahead(within.values.packed, t, apart)
+                times += [ahead.jump, ahead.bend]
+            t = jnp.min(jnp.stack([jnp.asarray(v, step.t.dtype) for v in times]))
+            is_within = t < end - apart
+            t = jnp.where(is_within, t, end)
+            found.append(jnp.where(is_within, (t - step.t) / step.h, 1.0))
+    return jnp.sort(jnp.stack(found)) if found else None
+
+
+def _next_sample(signal: Signal, t: Array) -> Array:
+    """The first sample behind a time; infinite if there is none."""
+    ts = jnp.append(signal.ts, jnp.inf)
+    return ts[jnp.searchsorted(ts, t, side="right")]
 
 
 def inner_fractions(solver: object, substeps: int) -> tuple[float, ...] | None:

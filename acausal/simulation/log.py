@@ -20,10 +20,11 @@ if TYPE_CHECKING:
 LOG = 10_000
 """Events that a run remembers with their times."""
 
-VALUES, FEW_VALUES = 2**16, 2**12
-"""Numbers by which a run remembers what states and discrete variables were before and after events: half a megabyte.
+VALUES, FEW_VALUES = 2**21, 2**12
+"""Numbers by which a run remembers what states and discrete variables were before and after events: 16 megabytes.
 
-Fewer where JAX traces: a thousand runs side by side need a thousand times the room.
+That is enough for all `LOG` events of models with up to 104 of them. There are fewer where JAX traces: a thousand runs
+side by side need a thousand times the room.
 """
 
 JUMP = "an input jumps"

@@ -92,7 +92,7 @@ def simulate(
         max_step: the longest adaptive step, in seconds; by default a fiftieth of the span, ``inf`` for none. Steps end
             where sources and tables jump or bend, take at most an eighth of the period of a sine of time, and are
             checked at two points within. What is shorter than 0.4 % of the span and known to none of these, as in a
-            function of time, may still be leapt over: give a shorter ``max_step`` then.
+            function of time, may still be leapt over: give a shorter ``max_step`` then. Not beside ``dt``.
         adjoint: ``diffrax.ForwardMode()`` allows derivatives in forward mode (`jax.jvp`, `jax.jacfwd`) for fixed steps,
             and second ones for adaptive steps, which have first ones in both modes without it. Any other is of no use
             for adaptive steps, and deprecated there.
@@ -121,6 +121,10 @@ def simulate(
     saved = None if saveat is None else _save_times(saveat, start, end)
     _check_limit(max_steps)
     longest = _longest(max_step, end - start)
+    if dt is not None and max_step is not None:
+        raise DataError(
+            f"max_step={shown(max_step)} bounds adaptive steps, but dt={shown(dt)} makes fixed ones: give one of them."
+        )
     _check_adjoint(adjoint)
     width = 2 + len(system.states) + 3 * len(system.inputs)
     ends = None if dt is None else step_ends(start, end, dt, width)

@@ -18,14 +18,14 @@ __modelica__ = "Modelica.Blocks.Sources"
 _TIME_EVENTS = ("Always", "AtDiscontinuities", "NoTimeEvents")
 
 _CORNERS = 30
-"""A table with more corners than these ends no steps there: each of them is a condition of its own."""
+"""Corners of a table with more than these are no events, each of which is a condition; steps end there anyway."""
 
 
 class _TimeTable(ac.Component):
     """What time tables share: ``y = offset`` before ``startTime``, then ``offset`` plus the table.
 
-    The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s]. In models with
-    events, steps end at jumps and corners, if there are no more than 30; at those of the first period, if it has one.
+    The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s]. Steps end at
+    jumps and corners. In models with events these are events, if there are no more than 30: those of the first period.
     """
 
     ICON = icons.TABLE

@@ -257,3 +257,20 @@ def test_a_model_without_sources_has_none_and_costs_nothing():
 )
 def test_bends_that_depend_on_variables(formula, bends):
     assert edges_of(by_formula(formula)).bends == bends
+
+
+@pytest.mark.parametrize(
+    ("source", "expected"),
+    [
+        (lambda: blocks.Sine(f=2.0, startTime=0.5), True),
+        (lambda: blocks.Trapezoid(period=1.0, rising=0.2), False),
+        (lambda: blocks.Ramp(duration=2.0), False),
+    ],
+    ids=["sine", "trapezoid", "ramp"],
+)
+def test_a_limiter_bends_curves_at_times_that_are_not_known_ahead(source, expected):
+    source = source()
+    made = model(
+        "s.y - l.u", "l.y - i.u", s=source, l=blocks.Limiter(uMax=0.5), i=blocks.Integrator()
+    )
+    assert edges_of(ac.compile(made)).bends == expected

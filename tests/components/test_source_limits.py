@@ -1,5 +1,7 @@
 """Sources at the limits of their parameters: widths, ramps and time constants of zero, equal times in tables."""
 
+import re
+
 import jax
 import numpy as np
 import pytest
@@ -7,7 +9,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks
 from tests.support.exported_c import ExportedC
-from tests.support.parts import Model
+from tests.support.parts import Model, model
 
 START = {"startTime": 0.7, "offset": 1.0}
 
@@ -142,3 +144,35 @@ def test_exported_c_computes_the_same(system, tmp_path):
     for t in near_edges():  # which side of an edge is a matter of rounding
         exported.time[:] = t
         assert np.all((exported.derivatives() >= 0.999) & (exported.dx <= 5.001))
+
+
+def test_exported_steps_see_every_edge_on_their_grid(tmp_path):
+    """Ramps, tops and periods begin and end where steps do, or a rounding error beside; some last no time."""
+    i = blocks.Integrator(y_start=0.0)
+    s = blocks.Trapezoid(period=1.0, startTime=0.1, rising=0.1, falling=0.1)  # none of them folded
+    made = model("s.y - i.u", s=s, i=i, tick=Ticks())
+    exported, rng = ExportedC(ac.compile(made), tmp_path), np.random.default_rng(0)
+    chosen = {n: place(exported, n) for n in ("startTime", "rising", "width", "falling", "period")}
+    for _ in range(200):
+        h = rng.choice([0.01, 0.02, 0.05, 0.065, 0.1, 0.13])
+        start, rise, top, fall, rest = h * rng.integers((0, 0, 0, 0, 1), (5, 5, 5, 5, 6))
+        period, n = rise + top + fall + rest, round(2.99 / h)
+        exported.call("init")
+        for at, value in zip(chosen.values(), (start, rise, top, fall, period), strict=True):
+            exported.p[at] = value
+        exported.call("recalibrate")
+        assert exported.call("begin") == 0
+        for _ in range(n):
+            assert exported.step(h) == 0
+        periods, left = divmod(n * h - start + 1e-9, period)  # the last edge is behind
+        falls = np.clip(left - rise - top, 0, fall)
+        area = periods * (top + (rise + fall) / 2) + np.clip(left - rise, 0, top)
+        area += min(left, rise) ** 2 / (2 * rise) if rise else 0.0
+        area += falls - falls**2 / (2 * fall) if fall else 0.0
+        assert exported.x[0] == pytest.approx(area, abs=1e-7), (h, start, rise, top, fall, period)
+
+
+def place(exported, name):
+    """Where a parameter of the source is among those of exported C."""
+    listed = exported.header[exported.header.index("_real p[") :]
+    return int(re.search(rf"\[(\d+)\]\s+s\.{name}\b", listed)[1])

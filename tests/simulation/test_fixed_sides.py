@@ -61,6 +61,23 @@ def test_the_steps_that_an_edge_divides_are_saved_on_the_grid(lag):
     assert float(slope) == pytest.approx(difference, rel=1e-3)
 
 
+def test_edges_within_steps_divide_them_when_jax_compiles_and_maps(lag):
+    def last(start, period):
+        params = lag.parameters() | {"s.startTime": start, "s.period": period}
+        return ac.simulate(lag, END, dt=0.1, params=params, solver="rk4")["f.y"][-1]
+
+    starts = np.array([0.5, 0.537, 0.6001])
+    both = jax.vmap(jax.value_and_grad(last, (0, 1)), (0, None))
+    found, (by_start, by_period) = jax.jit(both)(starts, 1.0)
+    np.testing.assert_allclose(found, [exact(s) for s in starts], atol=1e-5)
+    for k, s in list(enumerate(starts))[1:]:  # an edge at the end of a step moves nothing
+        slopes = [
+            (exact(s + 1e-6) - exact(s - 1e-6)) / 2e-6,
+            (exact(s, 1 + 1e-6) - exact(s, 1 - 1e-6)) / 2e-6,
+        ]
+        assert [by_start[k], by_period[k]] == pytest.approx(slopes, rel=1e-4)
+
+
 @pytest.fixture(scope="module")
 def held():
     return ac.compile(
@@ -117,3 +134,38 @@ def test_a_held_input_that_jumps_within_steps_divides_them(held):
         if end == 1.0:
             break
     assert float(sol["x"][-1]) == pytest.approx(value, abs=1e-9)
+
+
+def test_a_held_input_that_jumps_within_steps_divides_them_when_jax_compiles(held):
+    ts, us, _ = record()
+    params = held.parameters()
+
+    def last(late, k, dt):
+        inputs = {"u": ac.Signal(ts, us, "previous").delayed(late)}
+        options = {"params": params | {"k": k}, "x0": {"x": 0.3}, "solver": "rk4"}
+        return ac.simulate(held, (0, 1), dt=dt, inputs=inputs, **options)["x"][-1]
+
+    fine = float(last(0.0037, 1.0, 1e-4))  # jumps are at ends of steps
+    assert float(jax.jit(lambda k: last(0.0037, k, 0.02))(1.0)) == pytest.approx(fine, abs=1e-8)
+
+
+@pytest.mark.parametrize("kind", ["previous", "linear"])
+def test_a_training_with_a_delayed_input_simulates_that_delay(held, kind):
+    ts = np.arange(101) * 0.02
+    us, late = np.sin(9 * ts), 0.013
+    inputs = {"u": ac.Signal(ts, us, kind).delayed(late)}
+    fine = ac.simulate(held, (0, 2), dt=1e-3, saveat=ts, solver="rk4", inputs=inputs, x0={"x": 0.3})
+    data = ac.Data(ts, {"u": us, "x": np.asarray(fine["x"])}, interpolation={"u": kind})
+    fit = ac.fit(
+        held,
+        data,
+        ["x"],
+        modifiers=["k"],
+        epochs=2,
+        strategy="gauss_newton",
+        delays={"u": late},
+        solver="rk4",
+        progress=False,
+    )
+    assert float(fit.loss_before) < 1e-7
+    assert float(fit.params["k"]) == pytest.approx(1.0, abs=1e-6)

@@ -212,6 +212,11 @@ def test_a_wrong_longest_step_is_refused(lag, wrong):
         ac.simulate(lag, 1.0, max_step=wrong)
 
 
+def test_a_longest_step_beside_fixed_ones_is_refused(lag):
+    with pytest.raises(ac.DataError, match="fixed ones"):
+        ac.simulate(lag, 1.0, dt=0.1, max_step=0.01)
+
+
 def test_the_longest_step_is_a_choice():
     system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), -s.x)]))
     steps = {

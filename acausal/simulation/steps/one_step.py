@@ -36,7 +36,7 @@ RELEASED = 6
 """So many steps in sequence that are not limited start that count again."""
 
 
-INSIDE, OF_DEFECT = (0.52, 0.71), 0.1
+INSIDE, OF_DEFECT = (0.52, 0.71), 0.2
 """Where in a step the right-hand side is looked at once more, and what a defect there counts as an error.
 
 The stages of Tsit5 lie at 0, 0.16, 0.33, 0.9, 0.98 and 1: with these points no gap is wider than 0.19 of the step.

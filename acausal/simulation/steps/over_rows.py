@@ -83,7 +83,7 @@ class Clock(eqx.Module):
     @property
     def has_edges(self) -> bool:
         """Whether times are known ahead at which it jumps or bends."""
-        return bool(self.system.edges)
+        return bool(self.system.edges) or self.steps.parts is not None
 
     @property
     def bends(self) -> bool:
@@ -100,7 +100,15 @@ class Clock(eqx.Module):
             packed = packed.replaced(self.places, self.own[row])
         shift = self.steps.t[row] - self.edges[row]
         found = self.system.edges.ahead(packed, t + shift, apart, self.d)
-        return Ahead(found.jump - shift, found.bend - shift, found.longest)
+        jump = found.jump - shift
+        if self.steps.parts is not None:
+            cuts = self.edges[row] + self.steps.parts.cuts[row] * self._length(row)
+            jump = jnp.minimum(jump, jnp.min(jnp.where(cuts > t + apart, cuts, jnp.inf)))
+        return Ahead(jump, found.bend - shift, found.longest)
+
+    def _length(self, row: Array) -> Array:
+        """Of a row."""
+        return self.steps.h if self.steps.h.ndim == 0 else self.steps.h[row]
 
     def __call__(self, t: Array, x: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
         """The derivatives of the states."""
@@ -111,17 +119,18 @@ class Clock(eqx.Module):
         steps, edges = self.steps, self.edges
         early = t if self.until is None else jnp.minimum(t, self.until)
         row = jnp.clip(jnp.searchsorted(edges, early, side="right") - 1, 0, len(edges) - 2)
-        begin, start, end, coefficients = (
+        begin, start, end, coefficients, parts = (
             jax.tree.map(lambda a: a[row], part)
             for part in (
                 steps.t,
                 steps.inputs.start,
                 steps.inputs.end,
                 steps.inputs.coefficients,
+                steps.parts,
             )
         )
-        h = steps.h if steps.h.ndim == 0 else steps.h[row]
-        step = Step(begin, h, start, end, coefficients)
+        h = self._length(row)
+        step = Step(begin, h, start, end, coefficients, parts)
         fraction = (t - edges[row]) / h
         u = step.inputs(fraction, steps.inputs.functions)
         packed = self.packed

@@ -1,8 +1,9 @@
 """Delayed inputs: what a record interpolates at shifted times, exactly, with derivatives by the delay.
 
-A signal is a polynomial between two samples, whatever its interpolation. The polynomials of all records lie end to end
-in one table, so that a program has the same size however many records there are. Before the first sample of a record
-and after the last one, its value there is held.
+Where a shifted sample lies within a step, it divides the step: `Steps.parts`. A signal is a polynomial between two
+samples, whatever its interpolation. The polynomials of all records lie end to end in one table, so that a program has
+the same size however many records there are. Before the first sample of a record and after the last one, its value
+there is held.
 """
 
 from __future__ import annotations
@@ -10,18 +11,30 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
 from acausal.data import FRACTIONS, Signal, deviation_from_line
 from acausal.errors import TrainingError
-from acausal.simulation import Samples, Steps, TimeFunction, polynomials_over_steps
+from acausal.simulation import (
+    Parts,
+    Samples,
+    Steps,
+    TimeFunction,
+    on_curve,
+    polynomials_over_steps,
+)
 from acausal.training.objective.intervals import interval
 from acausal.training.objective.timing import Timing, delay_of
 
 ASIDE = 1e-6
 """Part of a step by which a time is moved into it, so that of two polynomials the one within the step is taken."""
+
+
+MOST = 4
+"""Where samples are unevenly spaced and the delay is trained, so many of them, at most, divide a step."""
 
 
 class Pieces(eqx.Module):
@@ -43,6 +56,18 @@ class Pieces(eqx.Module):
     first: Int[Array, " R"]
     last: Int[Array, " R"]
     step: Float[Array, " R"] | None
+
+    def next_ends(
+        self, t: Float[Array, " n"], record: Int[Array, "*n"], count: int
+    ) -> list[Float[Array, " n"]]:
+        """The first so many times behind others at which one polynomial ends and another begins; or infinite."""
+        low, high = self.first[record], self.last[record]
+        i = interval(self.ts, low, high, t, None if self.step is None else self.step[record])
+        there = [jnp.minimum(i + k, high) for k in range(1, count + 1)]
+        return [
+            jnp.where(i + k <= high, self.ts[j], jnp.inf)
+            for k, j in zip(range(1, count + 1), there, strict=True)
+        ]
 
     def __call__(
         self, around: Float[Array, "*n"], t: Float[Array, "*n"], record: Int[Array, "*n"]
@@ -67,12 +92,14 @@ class DelayedInputs(eqx.Module):
         names: of their delays.
         pieces: their signals.
         fractions: of a step, where its scheme looks at inputs, besides the ends. There a delayed input is exact.
+        most: how many samples of one of them lie within a step, at most; those beyond do not divide it.
     """
 
     columns: tuple[int, ...] = eqx.field(static=True)
     names: tuple[str, ...] = eqx.field(static=True)
     pieces: tuple[Pieces, ...]
     fractions: tuple[float, ...] = eqx.field(static=True)
+    most: int = eqx.field(static=True)
 
     def __call__(
         self, steps: Steps, record: Int[Array, "*n"], times: Mapping[str, Float[Array, ""]]
@@ -86,41 +113,83 @@ class DelayedInputs(eqx.Module):
         """
         if not self.columns:
             return steps
-        samples = steps.inputs
-        start, end, coefficients = samples.start, samples.end, samples.coefficients
-        if self.fractions and coefficients is None:
-            coefficients = jnp.zeros((len(start), len(FRACTIONS), start.shape[1]))
-        for column, name, pieces in zip(self.columns, self.names, self.pieces, strict=True):
-            begun, aside = steps.t - times[name], ASIDE * steps.h
-            ended = begun + steps.h
-            ends = pieces(begun + aside, begun, record), pieces(ended - aside, ended, record)
-            start, end = start.at[:, column].set(ends[0]), end.at[:, column].set(ends[1])
-            if coefficients is None:
-                continue
-            between = [begun + fraction * steps.h for fraction in self.fractions]
-            values = [pieces(t, t, record) for t in between]
-            curve = _coefficients(self.fractions, *ends, values)
-            coefficients = coefficients.at[:, :, column].set(0.0)
-            coefficients = coefficients.at[:, : len(values), column].set(curve)
-        return Steps(steps.t, steps.h, Samples(start, end, samples.functions, coefficients))
+        samples, n = steps.inputs, len(steps.t)
+        whole = jnp.zeros((n, 1)), jnp.ones((n, 1))
+        over = self._over(steps, record, times, *whole)
+        inputs = jax.tree.map(lambda a: a[:, 0], over)
+        cuts = self._cuts(steps, record, times)
+        bounds = jnp.concatenate([whole[0], cuts, whole[1]], axis=1)
+        parts = Parts(cuts, self._over(steps, record, times, bounds[:, :-1], bounds[:, 1:]))
+        functions = samples.functions
+        return Steps(
+            steps.t,
+            steps.h,
+            Samples(inputs.start, inputs.end, functions, inputs.coefficients),
+            parts,
+        )
+
+    def _cuts(
+        self, steps: Steps, record: Int[Array, "*n"], times: Mapping[str, Float[Array, ""]]
+    ) -> Float[Array, "n p"]:
+        """The fractions of steps at which a delayed sample lies within, increasing; 1 where there is none."""
+        found: list[Array] = []
+        for name, pieces in zip(self.names, self.pieces, strict=True):
+            begun = steps.t - times[name]
+            for end in pieces.next_ends(begun + ASIDE * steps.h, record, self.most):
+                fraction = (end - begun) / steps.h
+                found.append(jnp.where(fraction < 1 - ASIDE, fraction, 1.0))
+        return jnp.sort(jnp.stack(found, axis=1), axis=1)
+
+    def _over(
+        self,
+        steps: Steps,
+        record: Int[Array, "*n"],
+        times: Mapping[str, Float[Array, ""]],
+        low: Float[Array, "n p"],
+        high: Float[Array, "n p"],
+    ) -> Samples:
+        """All inputs over parts of the steps, from one fraction to another."""
+        inputs, h = steps.inputs, jnp.broadcast_to(steps.h, steps.t.shape)[:, None]
+        nodes = (0.0, *self.fractions, 1.0)
+        aside = ASIDE * (high - low)  # the whole step has other pieces at its ends
+        columns: list[list[Array]] = []
+        for column in range(inputs.start.shape[1]):
+            if column in self.columns:
+                k = self.columns.index(column)
+                begun = (steps.t - times[self.names[k]])[:, None]
+                of = jnp.broadcast_to(record, steps.t.shape)[:, None]
+                columns.append([])
+                for node in nodes:
+                    at = low + node * (high - low)
+                    inner = jnp.clip(at, low + aside, high - aside)
+                    columns[-1].append(self.pieces[k](begun + h * inner, begun + h * at, of))
+            else:
+                curve = inputs.coefficients
+                curve = None if curve is None else curve[:, :, column].T[:, :, None]
+                ends = inputs.start[:, column, None], inputs.end[:, column, None]
+                at = [low + node * (high - low) for node in nodes]
+                columns.append([on_curve(*ends, curve, s) for s in at])
+        start, end = (jnp.stack([c[k] for c in columns], axis=-1) for k in (0, -1))
+        curves = [_coefficients(self.fractions, c[0], c[-1], c[1:-1]) for c in columns]
+        return Samples(start, end, (), jnp.stack(curves, axis=-1) if self.fractions else None)
 
 
 def _coefficients(
     fractions: tuple[float, ...],
-    start: Float[Array, " n"],
-    end: Float[Array, " n"],
-    values: Sequence[Float[Array, " n"]],
-) -> Float[Array, "n n_fractions"]:
+    start: Float[Array, "*n"],
+    end: Float[Array, "*n"],
+    values: Sequence[Float[Array, "*n"]],
+) -> Float[Array, "*n n_fractions"]:
     """Coefficients for `deviation_from_line` of the polynomial through both ends and some values in between."""
     if not values:
-        return jnp.zeros((len(start), 0))
+        return jnp.zeros((*start.shape, 0))
     p = np.asarray(fractions)
     inverse = np.linalg.inv((p * (1 - p))[:, None] * p[:, None] ** np.arange(len(p)))
-    line = start[:, None] + (end - start)[:, None] * p
-    return (jnp.stack(values, axis=1) - line) @ inverse.T
+    line = start[..., None] + (end - start)[..., None] * p
+    return (jnp.stack(values, axis=-1) - line) @ inverse.T
 
 
-NOTHING_DELAYED = DelayedInputs((), (), (), ())
+NOTHING_DELAYED = DelayedInputs((), (), (), (), 0)
 """No input is delayed."""
 
 
@@ -142,6 +211,7 @@ def delayed_inputs(
     Raises:
         TrainingError: if an input jumps, so that the loss has no gradient by its delay.
     """
+    functions_of = list(zip(*functions, strict=True))
     found: dict[int, tuple[str, Pieces]] = {}
     for column, name in enumerate(inputs):
         source = name
@@ -149,7 +219,7 @@ def delayed_inputs(
             source = source[4:-1]
         if source not in timing.delays:
             continue
-        signals = [row[column] for row in functions]
+        signals = functions_of[column]
         if delay_of(source) in timing.trained and any(
             isinstance(s, Signal) and s.jumps for s in signals
         ):
@@ -164,7 +234,28 @@ def delayed_inputs(
     names, pieces = [n for n, _ in found.values()], [p for _, p in found.values()]
     if fractions is None or len(fractions) > len(FRACTIONS):
         fractions = tuple(FRACTIONS.tolist())
-    return DelayedInputs(tuple(found), tuple(names), tuple(pieces), fractions)
+    most = max(
+        _most_within(functions_of[column], timing, name)
+        for column, name in zip(found, names, strict=True)
+    )
+    return DelayedInputs(tuple(found), tuple(names), tuple(pieces), fractions, most)
+
+
+def _most_within(signals: Sequence[TimeFunction], timing: Timing, name: str) -> int:
+    """How many samples of a signal lie within a step, at most, once they are delayed; steps begin at samples."""
+    found = 1
+    for signal in signals:
+        assert isinstance(signal, Signal)
+        if signal.uniform:
+            continue
+        ts = np.asarray(signal.ts)
+        if name in timing.trained:
+            behind = np.searchsorted(ts, ts + np.diff(ts).max(), side="right")
+            found = max(found, min(int((behind - np.arange(len(ts))).max()), MOST))
+        else:
+            at = np.searchsorted(ts, ts + float(timing.values[name]))
+            found = max(found, int(np.bincount(at).max()))
+    return found
 
 
 def _pieces(signals: Sequence[TimeFunction]) -> Pieces:

@@ -119,6 +119,10 @@ def test_events_where_jax_traces_and_of_runs_side_by_side() -> None:
     assert float(first.after["v"][0]) == pytest.approx(0.8 * GRAVITY * FALL)
 
 
+def test_all_events_that_are_remembered_have_values() -> None:
+    assert len(Log.empty(100, np.float64).before) == LOG
+
+
 def test_many_columns_leave_values_of_few_events() -> None:
     log = Log.empty(3, np.float64, values=6)
     one = jnp.ones(2), jnp.zeros(1)
