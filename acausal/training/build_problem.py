@@ -71,7 +71,10 @@ def build_problem(
     """
     system.pack(params)  # refuses what does not fit
     chosen = _networks(system, options.train, params)
-    changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
+    layout = system.layout
+    changed = modifiers(
+        options.modifiers, options.gamma, params, layout.why_not_free, layout.declared_range
+    )
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
     changed = changed.joined(moving)
     if not chosen and not changed.names and not options.per_record:

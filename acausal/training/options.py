@@ -115,7 +115,7 @@ class FitKeywords(TypedDict, total=False):
 
     train: Iterable[str] | None
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None
-    gamma: float
+    gamma: float | None
     parameter_spread: Mapping[str, float] | None
     per_record: Mapping[str, float | None] | None
     delays: Mapping[str, float | Delay] | None
@@ -155,9 +155,10 @@ class FitOptions:
 
     Attributes:
         train: names of the networks to train; by default all.
-        modifiers: parameters to train besides them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
-            by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
-        gamma: the γ of modifiers without their own.
+        modifiers: parameters to train besides them: names, which are free within the bounds that the parameters
+            declare (positive ones by any factor), or by name a γ, which bounds ``p̃ = (1 + γ tanh δ) p`` (the paper's
+            (7), (8)), an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
+        gamma: the γ of modifiers without their own, such as 0.2; by default they are free.
         parameter_spread: parameters that differ from run to run, with their standard deviations: the loss of a
             simulation is the mean over the model and those with one of these parameters a deviation higher or lower,
             so that the model follows other runs, too.
@@ -233,7 +234,7 @@ class FitOptions:
 
     train: Iterable[str] | None = None
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None = None
-    gamma: float = 0.2
+    gamma: float | None = None
     parameter_spread: Mapping[str, float] | None = None
     per_record: Mapping[str, float | None] | None = None
     delays: Mapping[str, float | Delay] | None = None

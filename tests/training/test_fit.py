@@ -162,7 +162,13 @@ def test_modifiers_find_a_mass_and_a_stiffness():
 
 
 def test_modifiers_stay_within_gamma():
-    chosen = modifiers({"mass.m": 0.3}, 0.2, plain().parameters(), plain().layout.why_not_free)
+    chosen = modifiers(
+        {"mass.m": 0.3},
+        0.2,
+        plain().parameters(),
+        plain().layout.why_not_free,
+        plain().layout.declared_range,
+    )
     for delta in (-50.0, 50.0):
         assert abs(chosen.changes({"mass.m": jnp.asarray(delta)})["mass.m"]) <= 0.3
 
@@ -474,4 +480,6 @@ def test_a_parameter_at_zero_cannot_be_modified():
     with pytest.raises(
         ac.TrainingError, match=r"Parameter 'spring\.d' is 0, and a modifier multiplies"
     ):
-        modifiers(["spring.d"], 0.2, params, plain().layout.why_not_free)
+        modifiers(
+            ["spring.d"], 0.2, params, plain().layout.why_not_free, plain().layout.declared_range
+        )
