@@ -339,6 +339,31 @@ def test_too_many_rejections_end_the_training():
     assert message.endswith("or a smaller dt.")
 
 
+def test_a_training_that_diverges_names_the_state_that_runs_away_and_the_scales():
+    with pytest.raises(ac.TrainingError) as error:
+        ac.fit(
+            learned(),
+            record(end=3.0),
+            "mass.a",
+            params={"mass.m": 1e-4},
+            epochs=200,
+            progress=False,
+        )
+    message = str(error.value)
+    assert "diverges in steps of 0.01 s by Heun, and 'mass.v' runs away to " in message
+    assert "input_scale= and output_scale=, which are now 0.5 and 20 of 'extra.net'" in message
+
+
+def test_a_fit_that_is_no_better_than_the_mean_says_so():
+    expected = r"no better than the targets' mean: its error is [\d.]+, that of the mean 1.41, that of the noise"
+    with pytest.warns(UserWarning, match=expected):
+        fit = ac.fit(
+            plain(), record(cubic=0.0), ["mass.s", "mass.v"], modifiers={"mass.m": 0.2}, epochs=1,
+            params={"spring.c": 33.6, "spring.d": 0.0}, progress=False,
+        )  # fmt: skip
+    assert fit.loss > np.sqrt(2)
+
+
 def test_a_gradient_that_is_not_finite_is_rejected():
     def poison(params, context):
         m = params["mass.m"]
