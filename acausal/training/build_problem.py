@@ -38,6 +38,7 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
+from acausal.training.objective.start_prior import start_prior, with_sizes
 from acausal.training.objective.timing import timing
 from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
@@ -131,6 +132,7 @@ def build_problem(
         weighting=weights,
         sequences=sequences if weights.alike else sequences.weighted(records),
         first_states=first_states(system, data, options.x0),
+        start_prior=start_prior(system.states, data, options.x0),
         shooting=None,
         loss=loss,
         prior=prior_of(options.prior, params),
@@ -142,6 +144,7 @@ def build_problem(
         mesh=device_mesh(options.devices, sequences.batch_size),
     )
     _refuse_constant(problem)
+    problem = with_sizes(problem)
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
     return replace(problem, context=context(problem)) if options.penalties else problem

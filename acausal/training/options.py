@@ -209,9 +209,11 @@ class FitOptions:
             model with inputs. ``"stiff"`` is BDF, and Kvaerno3 with ``dt``.
         rtol: relative tolerance of adaptive steps, 1e-6 by default.
         atol: absolute tolerance of adaptive steps in the states' units, 1e-8 by default.
-        x0: state at a record's start, for sequences that begin there and for the loss over the whole record:
-            ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start,
-            or values by name that replace the measured ones. By record: ``{"run 1": "data", "run 2": {...}}``.
+        x0: state at a record's start, for sequences that begin there and for the loss over the whole record.
+            ``"auto"``: what is measured, within its noise, and the model's start values of other states, within their
+            size, are the prior of states that the training finds; ``print(fit)`` tells of them. ``"data"`` exactly as
+            measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start, or values by
+            name that replace the measured ones; others are found. By record: ``{"run 1": "data", "run 2": {...}}``.
             ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
             then lie side by side (multiple shooting). No state need be measured.
         dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
@@ -255,7 +257,7 @@ class FitOptions:
     solver: str | Solver = "heun"
     rtol: float | None = None
     atol: float | None = None
-    x0: InitialState = "data"
+    x0: InitialState = "auto"
     dtype: DTypeLike = np.float64
     devices: Sequence[Device] | None = None
     validation: Validation = None

@@ -451,9 +451,10 @@ def test_outputs_alone_suffice_for_the_whole_record():
          ("The data lack 'mass.s', 'mass.v': sequences start from measured states. "
           "Let the training find where they start (x0='fit'), or train on the whole record "
           "(sequence_length=None) with x0='model' or x0={...}.")),
-        ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1}, ac.DataError,
+        ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1, "x0": "data"},
+         ac.DataError,
          ("The data lack 'mass.v', with which the record starts: "
-          "give x0={'mass.v': ...}, or x0='model' for the model's start values.")),
+          "leave out x0='data' to have them found, or give x0={'mass.v': ...}.")),
         ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is not a state of the model: did you mean 'mass.v'?"),
         ({"x0": {"mass.s": float("nan")}}, ac.DataError, "x0: 'mass.s' is nan; give a finite number."),
         ({"x0": {"mass.s": "rest"}}, ac.DataError, "x0: 'mass.s' is 'rest'; give a finite number."),

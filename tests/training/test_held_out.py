@@ -165,7 +165,7 @@ def test_it_is_drawn(tmp_path: Path):
             "validation=nan is not a fraction; give a number between 0 and 1.",
         ),
         ({"validation": np.float32(1.5)}, "validation=1.5 of 501 samples leaves -251 to train on"),
-        ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'mass.s'"),
+        ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'push.f'"),
         ({"patience": 0}, "patience=0; at least one evaluation is needed."),
     ],
 )

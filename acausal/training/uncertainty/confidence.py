@@ -346,7 +346,8 @@ def _prior(problem: Problem, params: dict[str, Any]) -> Float[np.ndarray, " n_pa
 
 def _own_deviations(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " n_own"]:
     """The prior standard deviations of what each record has for itself: its parameters, and a trained initial state."""
-    states = 0 if trainable.states is None else trainable.states.shape[1]
+    found = (trainable.states, trainable.starts)
+    states = sum(a.shape[1] for a in found if a is not None)
     return np.concatenate([np.asarray(problem.per_record.scale), np.ones(states)])
 
 
@@ -357,12 +358,15 @@ def _moved(problem: Problem, trainable: Trainable, own: Float[Array, " n_own"]) 
     """
     names, scale = problem.per_record.names, problem.per_record.scale
     per_record = {n: trainable.per_record[n] + own[i] / scale[i] for i, n in enumerate(names)}
-    states = trainable.states
+    states, starts = trainable.states, trainable.starts
+    moves = own[len(names) :]
+    if starts is not None:
+        starts, moves = starts + moves[: starts.shape[1]], moves[starts.shape[1] :]
     if states is not None and problem.shooting is not None:
         all_first = len(states) == problem.records.count
         first = jnp.arange(len(states)) if all_first else problem.shooting.first
-        states = states.at[first].add(own[len(names) :])
-    return replace(trainable, per_record=per_record, states=states)
+        states = states.at[first].add(moves)
+    return replace(trainable, per_record=per_record, states=states, starts=starts)
 
 
 def _noise(
