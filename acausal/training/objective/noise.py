@@ -42,6 +42,7 @@ def noise_level(pieces: Sequence[Float[np.ndarray, " n"]]) -> float:
         known = [y[np.isfinite(y)] for y in pieces]
         rows = [np.diff(y, order) for y in known if len(y) > SAMPLES_EACH * order]
         if rows:
-            squares = np.concatenate(rows) ** 2
-            found.append(float(np.sqrt(np.mean(squares) / comb(2 * order, order))))
+            with np.errstate(over="ignore"):
+                mean = np.mean(np.concatenate(rows) ** 2)
+            found.append(float(np.sqrt(mean / comb(2 * order, order))))
     return min(found, default=0.0)
