@@ -15,7 +15,10 @@ PUSH = np.sin(3 * T)
     ("left", "said"),
     [
         (0.005, "could still be explained, which is little."),
-        (0.1, "10 % of it could still be explained: the model lacks something, or trained too little."),
+        (
+            0.1,
+            "10 % of it could still be explained: the model lacks something, or trained too little.",
+        ),
         (0.9, "90 % of it is not explained: do not use the model before you know why."),
     ],
 )

@@ -34,7 +34,8 @@ from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
-from acausal.training.uncertainty.residuals import correlation_time
+from acausal.training.uncertainty.residuals import correlation_time, unexplained
+from acausal.training.uncertainty.step_error import largest_move, step_error
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
 
 BAND_POINTS = 201
@@ -54,6 +55,12 @@ CORRELATED = 2.0
 
 POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
+
+BAD = 0.05
+"""Residuals are bad if they leave more than this part of a target unexplained beside noise."""
+
+MOVED = 1.0
+"""So many standard deviations are too much to move by the error of the integration's steps."""
 
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
@@ -103,6 +110,9 @@ class Confidence:
             the common value.
         noise: standard deviation of the residuals, by target; as given to the loss, or as estimated by it.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
+        unexplained: by target, what its residuals have beside white noise, relative to the target's deviation.
+        step_move: by how many standard deviations the error of the integration's steps moves laws and parameters at
+            most; the deviations do not count it.
         about: how well each parameter is known, one sentence each.
         prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
@@ -114,6 +124,8 @@ class Confidence:
     per_record: dict[str, Float[np.ndarray, " R"]]
     noise: dict[str, float]
     alike: dict[str, float]
+    unexplained: dict[str, float]
+    step_move: float
     about: tuple[str, ...]
     prior: Prior
 
@@ -152,7 +164,22 @@ class Confidence:
             for n, count in self.alike.items()
             if count > CORRELATED
         ]
-        return [*self.about, *confused, *taken, *slow]
+        return [*self.about, *confused, *taken, *slow, *self._ignored()]
+
+    def _ignored(self) -> list[str]:
+        """What the deviations do not count."""
+        bad = [
+            f"The residuals of '{n}' leave {100 * left:.2g} % of it unexplained beside noise: the deviations tell "
+            "how well the data determine a model that does not follow them, not how far it is from the truth."
+            for n, left in self.unexplained.items()
+            if left > BAD
+        ]
+        if self.step_move > MOVED:
+            bad.append(
+                f"The error of the integration's steps moves laws and parameters by up to {self.step_move:.2g} "
+                "standard deviations, which do not count it: take a smaller dt, or solver='rk4'."
+            )
+        return bad
 
     def __repr__(self) -> str:
         return "\n".join(
@@ -228,6 +255,7 @@ def confidence(
             strict=True,
         )
     ]
+    error = np.where(counts, step_error(problem, trainable) * (factor / least), 0.0)
     blocks += _earlier(problem, changed, len(scale), blocks[0])
     samples = float(np.sum(n / alike)) + sum(len(b.common) for b in blocks[problem.records.count :])
     found = posterior_covariance(blocks, samples)
@@ -257,11 +285,24 @@ def confidence(
         {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
+        _unexplained(problem, left),
+        largest_move(blocks[: problem.records.count], error.ravel()),
         _about(problem, trainable, sigma, prior, taken),
         _as_prior(
             problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
         ),
     )
+
+
+def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:
+    """By target, what its residuals have beside white noise, relative to its deviation."""
+    records = problem.records
+    known = np.where(np.asarray(records.weight) > 0, left, np.nan)
+    pieces = [known[records.rows_of(k)] for k in range(records.count)]
+    return {
+        name: unexplained([piece[:, i] for piece in pieces], float(records.sigma[i]))
+        for i, name in enumerate(problem.targets)
+    }
 
 
 def _earlier(

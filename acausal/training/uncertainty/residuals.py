@@ -150,6 +150,12 @@ def residuals(target: str, pieces: Sequence[Piece], sigma: float) -> Residuals:
     )
 
 
+def unexplained(pieces: Sequence[Float[np.ndarray, " n"]], sigma: float) -> float:
+    """What residuals, NaN where nothing is measured, have beside white noise, relative to the target's deviation."""
+    values = np.concatenate(pieces)
+    return float(np.sqrt(max(np.nanvar(values) - noise_level(pieces) ** 2, 0.0)) / sigma)
+
+
 def correlation_time(values: Float[np.ndarray, " N"]) -> float:
     """How many samples of a signal are worth one independent sample; at least 1.
 
