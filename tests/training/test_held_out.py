@@ -96,7 +96,7 @@ def test_another_record_is_held_out():
 
 
 def test_coarser_records_are_integrated_as_finely():
-    data = record(end=5.0)
+    data = record(cubic=5.0, end=5.0)
     coarse = {"time": data.time[::4], **{n: v[::4] for n, v in data.signals.items()}}
     fit = ac.fit(
         plain(), data, "mass.a", modifiers=["mass.m"], strategy="whole_record", epochs=1, dt=0.005,

@@ -64,8 +64,9 @@ def start_prior(
             return 0.0
         if signal is None or np.isnan(signal[0]):
             return np.nan if signal is None or np.isnan(signal).all() else float(np.nanstd(signal))
-        noise = noise_level([np.asarray(signal)])
-        return 0.0 if given is not None or noise <= EXACT * np.nanstd(signal) else noise
+        with np.errstate(over="ignore"):
+            noise, deviation = noise_level([np.asarray(signal)]), np.nanstd(signal)
+        return noise if given is None and EXACT * deviation < noise < np.inf else 0.0
 
     rows: list[list[float]] = []
     for record, of in zip(data.values(), by_record(data, x0), strict=True):
