@@ -38,7 +38,8 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
-from acausal.training.objective.start_prior import start_prior, with_sizes
+from acausal.training.objective.start_prior import start_prior
+from acausal.training.objective.start_sizes import with_sizes
 from acausal.training.objective.timing import timing
 from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions

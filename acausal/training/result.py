@@ -28,7 +28,7 @@ from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
-from acausal.training.objective.start_prior import found_starts
+from acausal.training.objective.start_sizes import found_starts
 from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.page_subject import LearnedLaw

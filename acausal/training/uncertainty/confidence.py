@@ -25,7 +25,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
-from acausal.networks import kept_promises, law_of, output_scale
+from acausal.networks import bounds_of, kept_promises, law_of, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior, law_at
 from acausal.training.objective.problem import Problem
@@ -74,25 +74,35 @@ class Band:
         x: the argument or the time.
         law, sigma: mean and standard deviation there; other arguments of a law are held at their mean.
         sign: of the law where its promises settle it, 1 or −1; else 0. `bounds` are within it.
+        limits: the least and the largest value that the law can have, likewise.
+        rising: 1 for a law that never falls, −1 for one that never rises, else 0; neither do its `bounds` then.
     """
 
     x: Float[np.ndarray, " points"]
     law: Float[np.ndarray, " points"]
     sigma: Float[np.ndarray, " points"]
     sign: Float[np.ndarray, " points"] | float = 0.0
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    rising: int = 0
 
     @property
     def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
         """Two standard deviations to either side, as far as the law's promises allow."""
         low, high = self.law - 2 * self.sigma, self.law + 2 * self.sigma
         low = np.where(self.sign > 0, np.maximum(low, 0.0), low)
-        return low, np.where(self.sign < 0, np.minimum(high, 0.0), high)
+        high = np.where(self.sign < 0, np.minimum(high, 0.0), high)
+        if self.rising:  # what it reached before, it keeps
+            along = slice(None, None, self.rising)
+            low = np.maximum.accumulate(low[along])[along]
+            high = np.minimum.accumulate(high[along][::-1])[::-1][along]
+        return np.maximum(low, self.limits[0]), np.minimum(high, self.limits[1])
 
     def times(self, factor: float) -> Band:
         """The band of a multiple."""
-        return Band(
-            self.x, factor * self.law, abs(factor) * self.sigma, np.sign(factor) * self.sign
-        )
+        side = int(np.sign(factor))
+        low, high = sorted(factor * limit if factor else 0.0 for limit in self.limits)
+        law, sigma = factor * self.law, abs(factor) * self.sigma
+        return Band(self.x, law, sigma, side * self.sign, (low, high), side * self.rising)
 
 
 @dataclass(frozen=True, eq=False)
@@ -476,4 +486,6 @@ def _band(
         law if law.ndim == 1 else law[:, 0],
         np.sqrt(np.maximum(variance, 0.0)),
         1.0 if "positive" in kept else sign,
+        bounds_of(network),
+        int("monotone" in kept),
     )
