@@ -118,6 +118,11 @@ class ParameterLayout(LeavesCaches):
         low = [-np.inf if d.min is None else d.min for d in declared]
         return np.asarray(low), np.asarray([np.inf if d.max is None else d.max for d in declared])
 
+    def declared_range(self, name: str) -> tuple[float, float]:
+        """The least and the largest value of a free parameter, infinite where none is declared."""
+        low, high = (float(limits[self.names.index(name)]) for limits in self._ranges)
+        return low, high
+
     def why_not_free(self, name: str) -> str | None:
         """A clause on a parameter of the model that cannot be changed; None for any other name."""
         index = self.model.layout.find_parameter(name)

@@ -32,6 +32,7 @@ from acausal.networks.mlp import MLP as MLP
 from acausal.networks.monotone import Monotone as Monotone
 from acausal.networks.passive import Passive as Passive, SameSign as SameSign
 from acausal.networks.promises import (
+    bounds_of as bounds_of,
     kept_promises as kept_promises,
     promises_of as promises_of,
 )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Set
 from typing import Any
 
+import numpy as np
+
 from acausal.networks.bounded import Between, Positive
 from acausal.networks.convex import Convex
 from acausal.networks.energy import Bowl, FromRest, Levelled
@@ -47,6 +49,18 @@ def kept_promises(net: Any) -> Promises:
         if rule is None
         else frozenset(rule(net, kept_promises(getattr(net, "net", None))))
     )
+
+
+def bounds_of(net: Any) -> tuple[float, float]:
+    """The values between which a network's law is for all weights; infinite where none is promised."""
+    if isinstance(net, Between):
+        return net.low, net.high
+    if isinstance(net, Positive):
+        return net.least, np.inf
+    if isinstance(net, Scaled):
+        low, high = sorted(net.output_scale * bound for bound in bounds_of(net.net))
+        return low, high
+    return bounds_of(net.net) if isinstance(net, Even) else (-np.inf, np.inf)
 
 
 def _of_energy(net: Any) -> Promises:

@@ -13,6 +13,7 @@ import diffrax as dfx
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float, PyTree
 
@@ -341,31 +342,36 @@ def inner_fractions(solver: object, substeps: int) -> tuple[float, ...] | None:
 
 
 class Tableau(NamedTuple):
-    """The coefficients of an explicit Runge–Kutta scheme.
+    """The coefficients of a Runge–Kutta scheme whose stages are computed one after the other.
 
     Attributes:
         rows: by stage, the weights of the stages before it.
         fractions: by stage, its place in the step.
         weights: of all stages in the result.
+        diagonal: by stage, its own weight; 0 in an explicit scheme.
     """
 
     rows: Sequence[Sequence[float]]
     fractions: Sequence[float]
     weights: Sequence[float]
+    diagonal: Sequence[float]
 
 
 def _tableau(solver: Scheme) -> Tableau:
     if isinstance(solver, dfx.Euler):
-        return Tableau([[]], [0.0], [1.0])
+        return Tableau([[]], [0.0], [1.0], [0.0])
+    if isinstance(solver, dfx.ImplicitEuler):
+        return Tableau([[]], [1.0], [1.0], [1.0])
     tableau = cast(dfx.ButcherTableau, cast(dfx.AbstractERK, solver).tableau)
     rows = [[], *([float(a) for a in row] for row in tableau.a_lower)]
-    fractions = [0.0, *(float(c) for c in tableau.c)]
-    return Tableau(rows, fractions, [float(b) for b in tableau.b_sol])
+    fractions = [float(tableau.c1), *(float(c) for c in tableau.c)]
+    diagonal = np.zeros(len(rows)) if tableau.a_diagonal is None else tableau.a_diagonal
+    return Tableau(rows, fractions, [float(b) for b in tableau.b_sol], diagonal.tolist())
 
 
 def _explicit(tableau: Tableau) -> Stepper:
     """An explicit Runge–Kutta step, unrolled, without the stages that serve only an error estimate."""
-    rows, fractions, weights = tableau
+    rows, fractions, weights, _ = tableau
     needed = max(i for i, b in enumerate(weights) if b) + 1
 
     def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
@@ -384,16 +390,56 @@ def _sum(x: State, h: Array, weights: Sequence[float], stages: Sequence[State]) 
 
 
 def _implicit(solver: Scheme) -> Stepper:
-    """A solver's own `step`, in local time from 0 to h."""
+    """A solver's own `step`, in local time from 0 to h.
 
-    def step(field: Field, x: State, h: Array, args: PyTree, first: State | None) -> State:
+    Its derivatives are those of one more Newton step of every stage. diffrax would solve for them itself, and end the
+    program where the equations of a stage have no solution; here the step and its derivatives are NaN.
+    """
+
+    def solved(
+        field: Field, x: State, h: Array, args: PyTree
+    ) -> tuple[State, Float[Array, "n_stages n_states"]]:
         term = dfx.ODETerm(lambda t, x, args: field(t / h, x, args))
         start, h, args = _strong((jnp.zeros_like(h), h, args))
         memory = solver.init(term, start, h, x, args)
-        x, _, _, _, result = solver.step(term, start, h, x, args, memory, False)
-        return jnp.where(result == dfx.RESULTS.successful, x, jnp.nan)
+        end, _, dense, _, result = solver.step(term, start, h, x, args, memory, False)
+        end = jnp.where(result == dfx.RESULTS.successful, end, jnp.nan)
+        return end, dense["k"] if "k" in dense else (end - x)[None]
 
-    return step
+    def end_of(
+        field: Field, x: State, h: Array, args: PyTree, known: Float[Array, "n_stages n_states"]
+    ) -> State:
+        """The state at the end by one Newton step from known stages; their Jacobian is not differentiated."""
+        tableau, increments = _tableau(solver), list[Array]()
+        for k, row, own, c in zip(
+            known, tableau.rows, tableau.diagonal, tableau.fractions, strict=True
+        ):
+            before = _sum(x, jnp.ones(()), row, increments)
+            if not own:
+                increments.append(h * field(c, before, args))
+                continue
+            inner = before + own * k
+            jacobian = jax.jacfwd(lambda x, c=c: h * field(c, x, args))(inner)
+            matrix = jax.lax.stop_gradient(jnp.eye(x.size, dtype=x.dtype) - own * jacobian)
+            increments.append(k + jnp.linalg.solve(matrix, h * field(c, inner, args) - k))
+        return _sum(x, jnp.ones(()), tableau.weights, increments)
+
+    @eqx.filter_custom_jvp
+    def step(field: Field, x: State, h: Array, args: PyTree) -> State:
+        return solved(field, x, h, args)[0]
+
+    @step.def_jvp
+    def _(primals: Any, tangents: Any) -> tuple[State, State]:
+        end, known = solved(*primals)
+        known = jax.lax.stop_gradient(known)
+
+        def moved(field: Field, x: State, h: Array, args: PyTree) -> State:
+            return end_of(field, x, h, args, known)
+
+        _, tangent = eqx.filter_jvp(moved, primals, tangents)
+        return end, tangent
+
+    return lambda field, x, h, args, first: step(field, x, h, args)
 
 
 def _strong(tree: PyTree) -> PyTree:

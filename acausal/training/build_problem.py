@@ -38,6 +38,8 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.regularizers import Context, Regularizer, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
+from acausal.training.objective.start_prior import start_prior
+from acausal.training.objective.start_sizes import with_sizes
 from acausal.training.objective.timing import timing
 from acausal.training.objective.weighting import Weighting, weighting
 from acausal.training.options import FitOptions
@@ -71,7 +73,10 @@ def build_problem(
     """
     system.pack(params)  # refuses what does not fit
     chosen = _networks(system, options.train, params)
-    changed = modifiers(options.modifiers, options.gamma, params, system.layout.why_not_free)
+    layout = system.layout
+    changed = modifiers(
+        options.modifiers, options.gamma, params, layout.why_not_free, layout.declared_range
+    )
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
     changed = changed.joined(moving)
     if not chosen and not changed.names and not options.per_record:
@@ -128,6 +133,7 @@ def build_problem(
         weighting=weights,
         sequences=sequences if weights.alike else sequences.weighted(records),
         first_states=first_states(system, data, options.x0),
+        start_prior=start_prior(system.states, data, options.x0),
         shooting=None,
         loss=loss,
         prior=prior_of(options.prior, params),
@@ -139,6 +145,7 @@ def build_problem(
         mesh=device_mesh(options.devices, sequences.batch_size),
     )
     _refuse_constant(problem)
+    problem = with_sizes(problem)
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
     return replace(problem, context=context(problem)) if options.penalties else problem

@@ -80,7 +80,7 @@ class Ensemble:
         }
 
     def predict(
-        self, data: Data | Mapping[str, ArrayLike], x0: InitialState = "data"
+        self, data: Data | Mapping[str, ArrayLike], x0: InitialState = "auto"
     ) -> dict[str, Band]:
         """The same over another record; arguments as those of `Fit.conformal`."""
         found = [one for f in self.fits for one in predicted(f.problem, f.trained, data, x0)]

@@ -32,7 +32,7 @@ from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.strategy import Leg
 
-DERIVED = ("context", "shooting", "weighting", "mesh", "first_states")
+DERIVED = ("context", "shooting", "weighting", "mesh", "first_states", "start_prior")
 """Fields of a problem that follow from the others, or only choose the devices."""
 
 ARGUMENTS = {
@@ -73,7 +73,7 @@ def fingerprint(
             {n: dict(d.signals) for n, d in data.items()},
         ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
-        "x0": (problem.first_states, problem.shooting is None),
+        "x0": (problem.first_states, problem.start_prior, problem.shooting is None),
         "strategy": [leg.name for leg in legs],
         "epochs": [leg.epochs for leg in legs],
         "evaluate_every": [leg.evaluate_every for leg in legs],

@@ -255,12 +255,13 @@ class _Run:
         rejected = [int(r) for r in unstacked(state.rejected, size)]
         if self.halving.rungs:  # one that diverges ends no other
             rejected = [min(rejected[k] for k in self.going)] * size
+        tried = unstacked(state.trainable, size)
         counts = [b - a for a, b in zip(epochs_of(before), epochs_of(state), strict=True)]
         for k, entry in enumerate(unstacked(jax.tree.map(np.asarray, entries), size, axis=1)):
             log = self.members[k].log
             if counts[k]:
                 new += log.add(entry, counts[k], started, ended)
-                check_rejections(log, rejected[k])
+                check_rejections(log, rejected[k], self.members[k].problem, tried[k])
         self.done += max(counts)
         self.candidates = candidates(state)
         return new

@@ -115,7 +115,7 @@ class FitKeywords(TypedDict, total=False):
 
     train: Iterable[str] | None
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None
-    gamma: float
+    gamma: float | None
     parameter_spread: Mapping[str, float] | None
     per_record: Mapping[str, float | None] | None
     delays: Mapping[str, float | Delay] | None
@@ -155,9 +155,10 @@ class FitOptions:
 
     Attributes:
         train: names of the networks to train; by default all.
-        modifiers: parameters to train besides them, ``p̃ = (1 + γ tanh δ) p`` (the paper's (7), (8)): names, or
-            by name a γ, an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
-        gamma: the γ of modifiers without their own.
+        modifiers: parameters to train besides them: names, which are free within the bounds that the parameters
+            declare (positive ones by any factor), or by name a γ, which bounds ``p̃ = (1 + γ tanh δ) p`` (the paper's
+            (7), (8)), an `acausal.Shift`, which also moves one that is 0, or bounds: an `acausal.Bounded`.
+        gamma: the γ of modifiers without their own, such as 0.2; by default they are free.
         parameter_spread: parameters that differ from run to run, with their standard deviations: the loss of a
             simulation is the mean over the model and those with one of these parameters a deviation higher or lower,
             so that the model follows other runs, too.
@@ -208,9 +209,11 @@ class FitOptions:
             model with inputs. ``"stiff"`` is BDF, and Kvaerno3 with ``dt``.
         rtol: relative tolerance of adaptive steps, 1e-6 by default.
         atol: absolute tolerance of adaptive steps in the states' units, 1e-8 by default.
-        x0: state at a record's start, for sequences that begin there and for the loss over the whole record:
-            ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start,
-            or values by name that replace the measured ones. By record: ``{"run 1": "data", "run 2": {...}}``.
+        x0: state at a record's start, for sequences that begin there and for the loss over the whole record.
+            ``"auto"``: what is measured, within its noise, and the model's start values of other states, within their
+            size, are the prior of states that the training finds; ``print(fit)`` tells of them. ``"data"`` exactly as
+            measured, ``"model"`` as the model starts, ``"steady"`` at rest with the inputs at the start, or values by
+            name that replace the measured ones; others are found. By record: ``{"run 1": "data", "run 2": {...}}``.
             ``"fit"``: found by the training, for the record and, tied by continuity, for each of the sequences, which
             then lie side by side (multiple shooting). No state need be measured.
         dtype: precision of the integration, float64 or float32; weights, losses and the optimizer stay in double.
@@ -233,7 +236,7 @@ class FitOptions:
 
     train: Iterable[str] | None = None
     modifiers: Mapping[str, float | Modifier] | Iterable[str] | None = None
-    gamma: float = 0.2
+    gamma: float | None = None
     parameter_spread: Mapping[str, float] | None = None
     per_record: Mapping[str, float | None] | None = None
     delays: Mapping[str, float | Delay] | None = None
@@ -254,7 +257,7 @@ class FitOptions:
     solver: str | Solver = "heun"
     rtol: float | None = None
     atol: float | None = None
-    x0: InitialState = "data"
+    x0: InitialState = "auto"
     dtype: DTypeLike = np.float64
     devices: Sequence[Device] | None = None
     validation: Validation = None

@@ -28,6 +28,7 @@ from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
+from acausal.training.objective.start_sizes import found_starts
 from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.page_subject import LearnedLaw
@@ -243,7 +244,7 @@ class Fit:
         self,
         data: RecordsLike,
         level: float = 0.9,
-        x0: InitialState = "data",
+        x0: InitialState = "auto",
     ) -> Conformal:
         """Bands around predictions that hold a share of all measurements, calibrated on other records.
 
@@ -251,7 +252,8 @@ class Fit:
             data: one record or several, with inputs and targets, that the training has never used, not even to choose
                 the best (``validation``).
             level: the share, in (0, 1).
-            x0: the state at a record's start: ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"``
+            x0: the state at a record's start: ``"auto"`` as measured, and as the model starts where it is not,
+                ``"data"`` as measured, ``"model"`` as the model starts, ``"steady"``
                 at rest, or values by name that replace the measured ones; or such a choice by record.
 
         Raises:
@@ -450,6 +452,8 @@ class Fit:
         lines += [f"  modifiers {changes}"] if changes else []
         lines += [] if self.starts is None else [f"  starts    {self.starts.summary()}"]
         lines += [f"  times     {', '.join(late)}"] if late else []
+        found = found_starts(self.problem)
+        lines += [f"  x0        found: {found}"] if found else []
         diverged = self.history.divergences
         lines += (
             [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []

@@ -35,6 +35,8 @@ from acausal.training.loop import train
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
+from acausal.training.objective.losses import nrmse
+from acausal.training.objective.noise import noise_loss
 from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -237,6 +239,8 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
         yield "The trained model diverges over the whole record: its loss is infinite."
     elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
         yield f"Training found nothing better than its start. {sentence}"
+    elif sentence := _no_better_than_the_mean(problem, trained.best):
+        yield sentence
     if not problem.sequences.whole and (remembered := problem.system.remembered):
         yield (
             f"Sequences begin with the start values of {listing(remembered)}, whatever they are in the record: "
@@ -268,6 +272,21 @@ def _long_steps(problem: Problem, best: Best) -> str | None:
     packed = problem.system.pack(problem.model_params(best.trainable))
     values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
     return long_steps(problem.system, values, problem.longest_step)
+
+
+def _no_better_than_the_mean(problem: Problem, best: Best) -> str | None:
+    """A sentence on a model that follows its records no better than a constant does, or None."""
+    records = problem.records
+    level = np.sqrt(len(problem.targets))
+    error = float(nrmse(best.simulated.y, records.y, records.sigma, records.weight))
+    if error < level:
+        return None
+    return (
+        f"The trained model is no better than the targets' mean: its error is {error:.3g}, that of the mean "
+        f"{level:.3g}, that of the noise about {noise_loss(records):.2g} (in standard deviations, added up "
+        "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) and "
+        "scales (input_scale=, output_scale=)."
+    )
 
 
 def _reasons(unmoved: Sequence[str], in_switches: Set[str], has_events: bool) -> Iterator[str]:

@@ -78,3 +78,21 @@ def test_fixed_implicit_steps_are_differentiated_in_both_modes() -> None:
 
     forward = jax.jit(jax.jacfwd(lambda k: end(k, dfx.ForwardMode())))(2.0)
     assert float(forward) == pytest.approx(float(jax.jit(jax.grad(lambda k: end(k, None)))(2.0)))
+
+
+@pytest.mark.parametrize("name", ["implicit_euler", "kvaerno3"])
+def test_where_a_stage_has_no_solution_the_step_and_its_derivatives_are_not_numbers(name: str):
+    """A training rejects such a trial; it must not end the program."""
+    system = ac.compile(Equations("x", lambda s: [ac.Eq(ac.der(s.x), s.k * (1 + s.x**2))], k=1.0))
+
+    def end(k: Any, adjoint: Any = None) -> Any:
+        how = {"dt": 0.25, "solver": name, "adjoint": adjoint}
+        return ac.simulate(system, (0.0, 1.0), params={"k": k}, x0={"x": 0.0}, **how).x[-1, 0]
+
+    gradient = jax.jit(jax.value_and_grad(end))
+    assert all(bool(jnp.isnan(v)) for v in gradient(8.0))
+    _, slope = gradient(0.5)
+    difference = (end(0.5 + 1e-5) - end(0.5 - 1e-5)) / 2e-5
+    assert float(slope) == pytest.approx(float(difference), rel=1e-6)
+    forward = jax.jit(jax.jacfwd(lambda k: end(k, dfx.ForwardMode())))
+    assert float(forward(0.5)) == pytest.approx(float(slope), rel=1e-12)

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.networks import EnergyLaw, Even, kept_promises
+from acausal.networks import Between, EnergyLaw, Even, Positive, Scaled, bounds_of, kept_promises
 from acausal.training.uncertainty.bumps import Bumped, bumped_law
 from acausal.training.uncertainty.confidence import Band
 
+INF = float("inf")
 SEEN = np.random.default_rng(0).normal(0.1, 0.4, (500, 1))
 LAWS: dict[str, Any] = {
     "plain": ac.networks.Law(),
@@ -66,3 +67,31 @@ def test_a_band_stays_on_the_side_that_is_promised() -> None:
     np.testing.assert_allclose(high, [0.0, 0.0, 1.5, 2.0, 2.5])
     for once, twice in zip(band.bounds, reversed(band.times(-1.0).bounds), strict=True):
         np.testing.assert_allclose(once, -twice)
+
+
+def test_the_band_of_a_law_that_never_falls_has_edges_that_never_fall():
+    x = np.linspace(0, 1, 50)
+    sigma = 0.2 + 0.2 * np.sin(20 * x)
+    band = Band(x, 0.1 * x, sigma, rising=1)
+    low, high = band.bounds
+    assert (np.diff(low) >= 0).all()
+    assert (np.diff(high) >= 0).all()
+    assert (low <= band.law).all()
+    assert (band.law <= high).all()
+    assert (low >= band.law - 2 * sigma).all()
+    low, high = band.times(-3.0).bounds
+    assert (np.diff(low) <= 0).all()
+    assert (np.diff(high) <= 0).all()
+    assert (low <= -0.3 * x).all()
+    assert (-0.3 * x <= high).all()
+
+
+def test_the_band_of_a_bounded_law_ends_at_its_bounds():
+    key = jax.random.key(0)
+    net = Scaled(Between(ac.MLP(1, 4, 1, "tanh", key=key), -0.5, 1.0), output_scale=4.0)
+    assert bounds_of(net) == (-2.0, 4.0)
+    assert bounds_of(Scaled(Positive(net, 0.1), output_scale=-2.0)) == (-INF, -0.2)
+    assert bounds_of(ac.MLP(1, 4, 1, "tanh", key=key)) == (-INF, INF)
+    low, high = Band(np.zeros(3), np.zeros(3), np.full(3, 9.0), limits=bounds_of(net)).bounds
+    assert low.tolist() == [-2.0] * 3
+    assert high.tolist() == [4.0] * 3

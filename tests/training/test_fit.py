@@ -162,7 +162,13 @@ def test_modifiers_find_a_mass_and_a_stiffness():
 
 
 def test_modifiers_stay_within_gamma():
-    chosen = modifiers({"mass.m": 0.3}, 0.2, plain().parameters(), plain().layout.why_not_free)
+    chosen = modifiers(
+        {"mass.m": 0.3},
+        0.2,
+        plain().parameters(),
+        plain().layout.why_not_free,
+        plain().layout.declared_range,
+    )
     for delta in (-50.0, 50.0):
         assert abs(chosen.changes({"mass.m": jnp.asarray(delta)})["mass.m"]) <= 0.3
 
@@ -333,6 +339,31 @@ def test_too_many_rejections_end_the_training():
     assert message.endswith("or a smaller dt.")
 
 
+def test_a_training_that_diverges_names_the_state_that_runs_away_and_the_scales():
+    with pytest.raises(ac.TrainingError) as error:
+        ac.fit(
+            learned(),
+            record(end=3.0),
+            "mass.a",
+            params={"mass.m": 1e-4},
+            epochs=200,
+            progress=False,
+        )
+    message = str(error.value)
+    assert "diverges in steps of 0.01 s by Heun, and 'mass.v' runs away to " in message
+    assert "input_scale= and output_scale=, which are now 0.5 and 20 of 'extra.net'" in message
+
+
+def test_a_fit_that_is_no_better_than_the_mean_says_so():
+    expected = r"no better than the targets' mean: its error is [\d.]+, that of the mean 1.41, that of the noise"
+    with pytest.warns(UserWarning, match=expected):
+        fit = ac.fit(
+            plain(), record(cubic=0.0), ["mass.s", "mass.v"], modifiers={"mass.m": 0.2}, epochs=1,
+            params={"spring.c": 33.6, "spring.d": 0.0}, progress=False,
+        )  # fmt: skip
+    assert fit.loss > np.sqrt(2)
+
+
 def test_a_gradient_that_is_not_finite_is_rejected():
     def poison(params, context):
         m = params["mass.m"]
@@ -420,9 +451,10 @@ def test_outputs_alone_suffice_for_the_whole_record():
          ("The data lack 'mass.s', 'mass.v': sequences start from measured states. "
           "Let the training find where they start (x0='fit'), or train on the whole record "
           "(sequence_length=None) with x0='model' or x0={...}.")),
-        ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1}, ac.DataError,
+        ({"data": ["mass.a", "push.f", "mass.s"], "sequence_length": None, "batch_size": 1, "x0": "data"},
+         ac.DataError,
          ("The data lack 'mass.v', with which the record starts: "
-          "give x0={'mass.v': ...}, or x0='model' for the model's start values.")),
+          "leave out x0='data' to have them found, or give x0={'mass.v': ...}.")),
         ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is not a state of the model: did you mean 'mass.v'?"),
         ({"x0": {"mass.s": float("nan")}}, ac.DataError, "x0: 'mass.s' is nan; give a finite number."),
         ({"x0": {"mass.s": "rest"}}, ac.DataError, "x0: 'mass.s' is 'rest'; give a finite number."),
@@ -474,4 +506,6 @@ def test_a_parameter_at_zero_cannot_be_modified():
     with pytest.raises(
         ac.TrainingError, match=r"Parameter 'spring\.d' is 0, and a modifier multiplies"
     ):
-        modifiers(["spring.d"], 0.2, params, plain().layout.why_not_free)
+        modifiers(
+            ["spring.d"], 0.2, params, plain().layout.why_not_free, plain().layout.declared_range
+        )

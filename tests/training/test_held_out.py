@@ -96,7 +96,7 @@ def test_another_record_is_held_out():
 
 
 def test_coarser_records_are_integrated_as_finely():
-    data = record(end=5.0)
+    data = record(cubic=5.0, end=5.0)
     coarse = {"time": data.time[::4], **{n: v[::4] for n, v in data.signals.items()}}
     fit = ac.fit(
         plain(), data, "mass.a", modifiers=["mass.m"], strategy="whole_record", epochs=1, dt=0.005,
@@ -165,7 +165,7 @@ def test_it_is_drawn(tmp_path: Path):
             "validation=nan is not a fraction; give a number between 0 and 1.",
         ),
         ({"validation": np.float32(1.5)}, "validation=1.5 of 501 samples leaves -251 to train on"),
-        ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'mass.s'"),
+        ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'push.f'"),
         ({"patience": 0}, "patience=0; at least one evaluation is needed."),
     ],
 )

@@ -12,7 +12,7 @@ import pytest
 import acausal as ac
 from acausal.components import translational as tl
 from acausal.training.objective.modifiers import Factor, Modifiers, modifiers
-from tests.support.oscillator import M, force, plain, record
+from tests.support.oscillator import C, D, M, force, plain, record
 
 INF = float("inf")
 ZERO = (
@@ -25,8 +25,13 @@ def nothing(name: str) -> None:
     """No parameter of the model that `name` could be, free or not."""
 
 
+def anything(name: str) -> tuple[float, float]:
+    """No declared bounds."""
+    return -INF, INF
+
+
 def chosen(kind: Any, value: float) -> Modifiers:
-    return modifiers({"p": kind}, 0.2, {"p": value}, nothing)
+    return modifiers({"p": kind}, 0.2, {"p": value}, nothing, anything)
 
 
 @pytest.mark.parametrize(
@@ -79,6 +84,40 @@ class Wall(ac.Component):
         self.connect(self.wall.flange, self.spring.flange_a)
         self.connect(self.spring.flange_b, self.mass.flange_a)
         self.connect(self.push.flange, self.mass.flange_b)
+
+
+def test_a_list_of_names_leaves_parameters_free_within_their_declared_bounds():
+    """Mass, stiffness and damping begin 50, 40 and 100 % off; a gamma of 0.2 stops them near its limits."""
+    wrong = {"mass.m": 1.5 * M, "spring.c": 0.6 * C, "spring.d": 2.0 * D}
+    fit = ac.fit(
+        plain(), record(cubic=0.0, end=5.0), "mass.s", modifiers=list(wrong), params=wrong,
+        strategy="gauss_newton", solver="rk4", progress=False,
+    )  # fmt: skip
+    assert fit.params["mass.m"] == pytest.approx(M, rel=1e-3)
+    assert fit.params["spring.c"] == pytest.approx(C, rel=1e-3)
+    assert fit.params["spring.d"] == pytest.approx(D, rel=1e-3)
+    assert fit.modifiers["mass.m"] == pytest.approx(-1 / 3, rel=1e-3)  # relative, as with a gamma
+
+
+@pytest.mark.parametrize(
+    ("declared", "value"), [((0, INF), 2.0), ((-INF, 0), -2.0), ((0, 3), 2.0), ((-INF, INF), -2.0)]
+)
+def test_a_free_parameter_stays_within_what_it_declares(
+    declared: tuple[float, float], value: float
+):
+    free = modifiers(["p"], None, {"p": value}, nothing, lambda name: declared)
+
+    def moved(delta: float) -> float:
+        return float(free.apply({"p": value}, {"p": jnp.asarray(delta)})["p"])
+
+    assert moved(0.0) == value
+    assert all(declared[0] <= moved(delta) <= declared[1] for delta in (-30.0, -0.5, 0.5, 30.0))
+    assert (moved(0.5) - value) * (moved(-0.5) - value) < 0
+    if np.isinf(declared).sum() == 1:
+        assert moved(0.7) / value == pytest.approx(np.exp(0.7 * np.sign(value)))
+        assert not free.at_limit({"p": -0.999}, lambda name: "")
+    if declared == (0, 3):
+        assert "+50 %" in free.at_limit({"p": 0.499}, lambda name: "")["p"]
 
 
 def test_an_offset_is_found_from_zero_and_a_damping_within_its_bounds():
@@ -152,7 +191,7 @@ def test_the_prior_deviation_of_a_change(kind: Any, value: float, size: float):
 
 
 def test_one_name_is_no_list_of_letters():
-    assert modifiers("mass", 0.2, {"mass": 1.0}, nothing).names == ("mass",)
+    assert modifiers("mass", 0.2, {"mass": 1.0}, nothing, anything).names == ("mass",)
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,10 @@ def test_the_given_start_is_the_first_and_trains_as_it_does_alone():
     table = starts()
     np.testing.assert_allclose(table.values[0], (12.5, 0.2))
     assert len(table) == len(np.unique(table.values[:, 0])) == 12
-    with pytest.warns(UserWarning, match=r"spring\.d.*limit"):
+    with (
+        pytest.warns(UserWarning, match=r"spring\.d.*limit"),
+        pytest.warns(UserWarning, match="no better than the targets' mean"),
+    ):
         alone = train(starts=1, epochs=halving(12, 40).rungs[0].at)
     assert table.loss_before[0] == pytest.approx(alone.loss_before)
     assert table.loss[0] <= alone.loss * (1 + 1e-9)

@@ -125,5 +125,5 @@ def judged_on(
     )
     if fold.record:
         starts = first_states(problem.system, data, of_others(x0, data), trained=False)
-        judged = replace(judged, first_states=starts, shooting=None)
+        judged = replace(judged, first_states=starts, start_prior=None, shooting=None)
     return HeldOut(judged)

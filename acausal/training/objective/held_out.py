@@ -117,6 +117,7 @@ def hold_out(problem: Problem, split: Split, x0: InitialState) -> HeldOut | None
             other,
             records=replace(records, weight=weight, known=True),
             first_states=problem.first_states,
+            start_prior=problem.start_prior,
             shooting=problem.shooting,
         )
     )
@@ -156,6 +157,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         records=replace(records, sigma=problem.records.sigma, known=False),
         sequences=whole_records(records),
         first_states=starts,
+        start_prior=None,
         shooting=None,
         substeps=substeps,
         mesh=None,

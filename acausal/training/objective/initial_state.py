@@ -20,13 +20,14 @@ from acausal.errors import DataError, listing, nearest, shown
 if TYPE_CHECKING:
     from acausal.system import System
 
-OfRecord = Literal["data", "model", "steady", "fit"] | Mapping[str, float]
-"""As measured, as the model starts, at rest, trained, or values by name that replace the measured ones."""
+OfRecord = Literal["auto", "data", "model", "steady", "fit"] | Mapping[str, float]
+"""Measured or as the model starts, and found within what is known of that; as measured; as the model starts; at rest;
+trained; or values by name that replace the measured ones."""
 
 InitialState = OfRecord | Mapping[str, OfRecord]
 """The same for all records, or by record."""
 
-KINDS = ("data", "model", "steady", "fit")
+KINDS = ("data", "model", "steady", "fit", "auto")
 GIVEN, MODEL, STEADY, FIT = range(4)
 
 
@@ -105,7 +106,7 @@ def first_states(
 
     Raises:
         DataError: for another word, a name that is neither a state nor a record, a value that is not a number, or a
-            state that is neither in the data nor in ``x0``.
+            state that is not in the data where ``x0`` says so.
     """
     starts = [
         _start(system, d, of, trained=trained)
@@ -153,7 +154,7 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
 
 def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
     measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
-    if isinstance(x0, str) and x0 != "data":
+    if isinstance(x0, str) and x0 not in ("data", "auto"):
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
         if x0 == "fit" and not trained:
@@ -169,9 +170,11 @@ def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
             raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
     state = np.array([given.get(n, v) for n, v in zip(system.states, measured, strict=True)], float)
     unknown = [n for n, v in zip(system.states, state, strict=True) if np.isnan(v)]
+    if unknown and x0 != "data":
+        return Start(MODEL, state)
     if unknown:
         raise DataError(
             f"The data lack {listing(unknown)}, with which the record starts: "
-            f"give x0={{'{unknown[0]}': ...}}, or x0='model' for the model's start values."
+            f"leave out x0='data' to have them found, or give x0={{'{unknown[0]}': ...}}."
         )
     return Start(GIVEN, state)

@@ -20,8 +20,17 @@ from acausal.errors import TrainingError, nearest, shown
 REACHED, GAMMA_REACHED = 0.99, 0.95
 """A parameter has reached a bound, or a factor's limit ±γ, when it has gone this fraction of the way."""
 
+ALL_BUT_ALL = 1 - 1e-6
+"""The same for a parameter that is free to move by a factor: it has all but vanished."""
+
 DECADE = 10 * (1 - 1e-9)
 """Positive bounds with such a ratio, or a larger one, leave the magnitude of a parameter open."""
+
+FROM_ZERO = (
+    "Parameter '{0}' is 0, and a modifier multiplies; give it a value to start from, "
+    "or let it move by a sum: modifiers={{'{0}': ac.Shift(...)}}."
+)
+"""Why a change that is relative cannot begin at 0."""
 
 Scalar = Float[Array, ""]
 Number = Any
@@ -110,10 +119,7 @@ class Factor(_Relative):
         if not 0 < self.gamma < 1:
             return f"The modifier of '{{}}' has gamma={self.gamma}; choose it between 0 and 1."
         if value == 0.0:
-            return (
-                "Parameter '{0}' is 0, and a modifier multiplies; give it a value to start from, "
-                "or let it move by a sum: modifiers={{'{0}': ac.Shift(...)}}."
-            )
+            return FROM_ZERO
         return None
 
 
@@ -215,6 +221,47 @@ class Bounded(_Absolute):
         return f"Parameter '{{}}' starts at {value:g}, not between its bounds {self.low:g} and {self.high:g}."
 
 
+@dataclass(frozen=True)
+class Free(_Relative):
+    """A parameter is free within the bounds that it declares: a positive one by any factor.
+
+    It moves as `Bounded` does, or as a `Shift` by its own size where it declares no bounds; the change is relative.
+
+    Attributes:
+        low, high: the declared bounds, which may both be infinite.
+    """
+
+    low: float
+    high: float
+
+    def _within(self, value: Number) -> Bounded | Shift:
+        free = np.isinf(self.low) and np.isinf(self.high)
+        return Shift(abs(value)) if free else Bounded(self.low, self.high)
+
+    def change(self, value: Scalar, delta: Scalar) -> Scalar:
+        """That of `Bounded` or `Shift`, over the parameter."""
+        return self._within(value).change(value, delta) / value
+
+    def prior_deviation(self, value: float) -> float:
+        """The whole parameter."""
+        return 1.0
+
+    def free(self, value: float, share: float) -> float:
+        """As of `Bounded` or `Shift`."""
+        return self._within(value).free(value, share)
+
+    def limit(self, value: float, change: float) -> float | None:
+        """The way to a declared bound; of a factor, which comes ever nearer to its only one, all but all of it."""
+        ends = self.low / value - 1, self.high / value - 1
+        return _reached(change, *ends, ALL_BUT_ALL if np.isinf(ends).any() else REACHED)
+
+    def refusal(self, value: float) -> str | None:
+        """A parameter that is 0, or begins at one of its bounds."""
+        if value == 0.0:
+            return FROM_ZERO
+        return self._within(value).refusal(value)
+
+
 def _logit(low: float, point: float, high: float) -> float:
     return float(np.log((point - low) / (high - point)))
 
@@ -281,17 +328,19 @@ class Modifiers(eqx.Module):
 
 def modifiers(
     given: Mapping[str, float | Modifier] | Iterable[str] | None,
-    gamma: float,
+    gamma: float | None,
     params: Mapping[str, Any],
     why_not_free: Callable[[str], str | None],
+    declared: Callable[[str], tuple[float, float]],
 ) -> Modifiers:
     """Check a user's choice: names with a modifier or a γ each, or names that share ``gamma``.
 
     Arguments:
         given: the choice.
-        gamma: of names without a modifier.
+        gamma: of names without a modifier; ``None`` leaves them free within their declared bounds.
         params: all parameters where training starts.
         why_not_free: why a parameter is not among them, see `ParameterLayout.why_not_free`.
+        declared: the bounds that a parameter declares.
 
     Raises:
         TrainingError: for a name that is not a numeric parameter, or a modifier that does not fit its value.
@@ -306,7 +355,9 @@ def modifiers(
             raise TrainingError(
                 f"There is no parameter '{name}' to train: {why_not_free(name) or nearest(name, numbers)}"
             )
-        kind = Factor(float(wanted)) if isinstance(wanted, Real) else wanted
+        kind: Any = Factor(float(wanted)) if isinstance(wanted, Real) else wanted
+        if wanted is None and name not in by_name:
+            kind = Free(*declared(name))
         if not hasattr(kind, "refusal"):
             raise TrainingError(
                 f"The modifier of '{name}' is {shown(wanted)}; give a gamma, ac.Shift(...) or ac.Bounded(...)."

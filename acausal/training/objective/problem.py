@@ -100,7 +100,9 @@ class Problem(Simulator):
         networks = {n: eqx.filter(self.params[n], eqx.is_inexact_array) for n in self.networks}
         states = None if self.shooting is None else jnp.zeros_like(self.shooting.start)
         own = self.per_record.start(self.records.count)
-        return Trainable(networks, self.modifiers.start(), own, states)
+        prior = self.start_prior
+        starts = None if prior is None else jnp.zeros_like(prior.scale)
+        return Trainable(networks, self.modifiers.start(), own, states, starts)
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
         """Physical values, networks, delays and lags for some state of the training: those common to all records."""
@@ -130,7 +132,7 @@ class Problem(Simulator):
         if self.records.known:
             return trainable
         own = self.per_record.expected(trainable.per_record, self.records.count)
-        return replace(trainable, per_record=own, states=None)
+        return replace(trainable, per_record=own, states=None, starts=None)
 
     def weighed(self, loss: Float[Array, ""], trainable: Trainable) -> Float[Array, ""]:
         """The loss, and what is known without data: a loss ℓ of n samples counts as the likelihood ``ℓ^-n``.
@@ -138,7 +140,7 @@ class Problem(Simulator):
         That is the likelihood of normal errors whose size is not known; its largest value is that of the root mean
         square. A loss that is a logarithm itself counts as ``e^-nℓ``.
         """
-        if not self.per_record.names and self.prior is None:
+        if not self.per_record.names and self.prior is None and self.start_prior is None:
             return loss
         known = self.log_prior(trainable)
         if self.counts_as_logarithm:
@@ -149,6 +151,8 @@ class Problem(Simulator):
         """Minus the logarithm of the prior density of what is trained, for each measured sample."""
         samples = jnp.sum(self.records.weight > 0)
         known = self.per_record.log_prior(trainable.per_record)
+        if self.start_prior is not None:
+            known += self.start_prior.log_prior(trainable.starts)
         if self.prior is not None:
             known += self.prior.log_prior(self.assemble(trainable))
         return known / samples

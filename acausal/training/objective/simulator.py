@@ -26,6 +26,7 @@ from acausal.training.objective.multiple_shooting import ShootingStates
 from acausal.training.objective.per_record import PerRecord, for_records
 from acausal.training.objective.records import Records
 from acausal.training.objective.sensors import Sensors
+from acausal.training.objective.start_prior import StartPrior
 from acausal.training.objective.timing import Timing
 from acausal.training.objective.trainable import Trainable
 
@@ -57,6 +58,7 @@ class Simulator(eqx.Module):
         timing: delays and lags; those that are trained are among ``modifiers``.
         records: the data.
         first_states: the states at which records start, where they are not trained.
+        start_prior: what is known of those that the training finds within that; ``None`` where all are known.
         shooting: the states at which sequences begin, where they are trained, too.
         solver, substeps: the scheme, and the number of its steps from sample to sample; or adaptive steps.
         dtype: the precision of steps; of weights and losses it is double.
@@ -68,6 +70,7 @@ class Simulator(eqx.Module):
     timing: Timing
     records: Records
     first_states: FirstStates
+    start_prior: StartPrior | None
     shooting: ShootingStates | None
     solver: Scheme | Adaptive = eqx.field(static=True)
     substeps: int = eqx.field(static=True)
@@ -109,6 +112,8 @@ class Simulator(eqx.Module):
         first = self.steps(packed, records.first)
         all_packed = for_records(packed.common, self.per_record.places, packed.own, records.count)
         states = self.first_states(self.system, all_packed, first.t, first.inputs.start)
+        if self.start_prior is not None:
+            states = self.start_prior.moved(states, trainable.starts)
         if self.shooting is None:
             return states
         trained = self.shooting.of_first(trainable.states)

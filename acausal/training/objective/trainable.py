@@ -20,12 +20,14 @@ class Trainable(eqx.Module):
         modifiers: the free variable δ of every parameter that is trained, by name.
         per_record: by parameter, the deviation of every record, in the units of `PerRecord`.
         states: where sequences begin, in the units of `ShootingStates`; ``None`` where that is not trained.
+        starts: where records start, in the units of `StartPrior`; ``None`` where that is known.
     """
 
     networks: dict[str, Any]
     modifiers: dict[str, Float[Array, ""]]
     per_record: dict[str, Float[Array, " R"]] = eqx.field(default_factory=dict)
     states: Float[Array, "n_parts n_states"] | None = None
+    starts: Float[Array, "R n_states"] | None = None
 
 
 class Simulated(NamedTuple):

@@ -25,7 +25,7 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
-from acausal.networks import kept_promises, law_of, output_scale
+from acausal.networks import bounds_of, kept_promises, law_of, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior, law_at
 from acausal.training.objective.problem import Problem
@@ -34,7 +34,8 @@ from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
-from acausal.training.uncertainty.residuals import correlation_time
+from acausal.training.uncertainty.residuals import correlation_time, unexplained
+from acausal.training.uncertainty.step_error import largest_move, step_error
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
 
 BAND_POINTS = 201
@@ -55,6 +56,12 @@ CORRELATED = 2.0
 POINTS_EACH = 4
 """Points for each bump at which a later training compares a law with what is known."""
 
+BAD = 0.05
+"""Residuals are bad if they leave more than this part of a target unexplained beside noise."""
+
+MOVED = 1.0
+"""So many standard deviations are too much to move by the error of the integration's steps."""
+
 LEAST_NOISE = 1e-12
 """The smallest noise that is considered possible, relative to a target's standard deviation."""
 
@@ -67,25 +74,35 @@ class Band:
         x: the argument or the time.
         law, sigma: mean and standard deviation there; other arguments of a law are held at their mean.
         sign: of the law where its promises settle it, 1 or −1; else 0. `bounds` are within it.
+        limits: the least and the largest value that the law can have, likewise.
+        rising: 1 for a law that never falls, −1 for one that never rises, else 0; neither do its `bounds` then.
     """
 
     x: Float[np.ndarray, " points"]
     law: Float[np.ndarray, " points"]
     sigma: Float[np.ndarray, " points"]
     sign: Float[np.ndarray, " points"] | float = 0.0
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    rising: int = 0
 
     @property
     def bounds(self) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
         """Two standard deviations to either side, as far as the law's promises allow."""
         low, high = self.law - 2 * self.sigma, self.law + 2 * self.sigma
         low = np.where(self.sign > 0, np.maximum(low, 0.0), low)
-        return low, np.where(self.sign < 0, np.minimum(high, 0.0), high)
+        high = np.where(self.sign < 0, np.minimum(high, 0.0), high)
+        if self.rising:  # what it reached before, it keeps
+            along = slice(None, None, self.rising)
+            low = np.maximum.accumulate(low[along])[along]
+            high = np.minimum.accumulate(high[along][::-1])[::-1][along]
+        return np.maximum(low, self.limits[0]), np.minimum(high, self.limits[1])
 
     def times(self, factor: float) -> Band:
         """The band of a multiple."""
-        return Band(
-            self.x, factor * self.law, abs(factor) * self.sigma, np.sign(factor) * self.sign
-        )
+        side = int(np.sign(factor))
+        low, high = sorted(factor * limit if factor else 0.0 for limit in self.limits)
+        law, sigma = factor * self.law, abs(factor) * self.sigma
+        return Band(self.x, law, sigma, side * self.sign, (low, high), side * self.rising)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +120,9 @@ class Confidence:
             the common value.
         noise: standard deviation of the residuals, by target; as given to the loss, or as estimated by it.
         alike: by target, how many neighbouring residuals are worth one independent sample; 1 for white noise.
+        unexplained: by target, what its residuals have beside white noise, relative to the target's deviation.
+        step_move: by how many standard deviations the error of the integration's steps moves laws and parameters at
+            most; the deviations do not count it.
         about: how well each parameter is known, one sentence each.
         prior: the same as the prior of a later training, which `acausal.fit` takes from ``prior=fit``.
     """
@@ -114,6 +134,8 @@ class Confidence:
     per_record: dict[str, Float[np.ndarray, " R"]]
     noise: dict[str, float]
     alike: dict[str, float]
+    unexplained: dict[str, float]
+    step_move: float
     about: tuple[str, ...]
     prior: Prior
 
@@ -152,7 +174,22 @@ class Confidence:
             for n, count in self.alike.items()
             if count > CORRELATED
         ]
-        return [*self.about, *confused, *taken, *slow]
+        return [*self.about, *confused, *taken, *slow, *self._ignored()]
+
+    def _ignored(self) -> list[str]:
+        """What the deviations do not count."""
+        bad = [
+            f"The residuals of '{n}' leave {100 * left:.2g} % of it unexplained beside noise: the deviations tell "
+            "how well the data determine a model that does not follow them, not how far it is from the truth."
+            for n, left in self.unexplained.items()
+            if left > BAD
+        ]
+        if self.step_move > MOVED:
+            bad.append(
+                f"The error of the integration's steps moves laws and parameters by up to {self.step_move:.2g} "
+                "standard deviations, which do not count it: take a smaller dt, or solver='rk4'."
+            )
+        return bad
 
     def __repr__(self) -> str:
         return "\n".join(
@@ -228,6 +265,7 @@ def confidence(
             strict=True,
         )
     ]
+    error = np.where(counts, step_error(problem, trainable) * (factor / least), 0.0)
     blocks += _earlier(problem, changed, len(scale), blocks[0])
     samples = float(np.sum(n / alike)) + sum(len(b.common) for b in blocks[problem.records.count :])
     found = posterior_covariance(blocks, samples)
@@ -257,11 +295,24 @@ def confidence(
         {n: each[:, i] for i, n in enumerate(problem.per_record.names)},
         dict(zip(problem.targets, noise.tolist(), strict=True)),
         dict(zip(problem.targets, alike.tolist(), strict=True)),
+        _unexplained(problem, left),
+        largest_move(blocks[: problem.records.count], error.ravel()),
         _about(problem, trainable, sigma, prior, taken),
         _as_prior(
             problem, params, bumped, seen, found.root / deviations, float(n @ alike / n.sum())
         ),
     )
+
+
+def _unexplained(problem: Problem, left: Float[np.ndarray, "N n_targets"]) -> dict[str, float]:
+    """By target, what its residuals have beside white noise, relative to its deviation."""
+    records = problem.records
+    known = np.where(np.asarray(records.weight) > 0, left, np.nan)
+    pieces = [known[records.rows_of(k)] for k in range(records.count)]
+    return {
+        name: unexplained([piece[:, i] for piece in pieces], float(records.sigma[i]))
+        for i, name in enumerate(problem.targets)
+    }
 
 
 def _earlier(
@@ -346,7 +397,8 @@ def _prior(problem: Problem, params: dict[str, Any]) -> Float[np.ndarray, " n_pa
 
 def _own_deviations(problem: Problem, trainable: Trainable) -> Float[np.ndarray, " n_own"]:
     """The prior standard deviations of what each record has for itself: its parameters, and a trained initial state."""
-    states = 0 if trainable.states is None else trainable.states.shape[1]
+    found = (trainable.states, trainable.starts)
+    states = sum(a.shape[1] for a in found if a is not None)
     return np.concatenate([np.asarray(problem.per_record.scale), np.ones(states)])
 
 
@@ -357,12 +409,15 @@ def _moved(problem: Problem, trainable: Trainable, own: Float[Array, " n_own"]) 
     """
     names, scale = problem.per_record.names, problem.per_record.scale
     per_record = {n: trainable.per_record[n] + own[i] / scale[i] for i, n in enumerate(names)}
-    states = trainable.states
+    states, starts = trainable.states, trainable.starts
+    moves = own[len(names) :]
+    if starts is not None:
+        starts, moves = starts + moves[: starts.shape[1]], moves[starts.shape[1] :]
     if states is not None and problem.shooting is not None:
         all_first = len(states) == problem.records.count
         first = jnp.arange(len(states)) if all_first else problem.shooting.first
-        states = states.at[first].add(own[len(names) :])
-    return replace(trainable, per_record=per_record, states=states)
+        states = states.at[first].add(moves)
+    return replace(trainable, per_record=per_record, states=states, starts=starts)
 
 
 def _noise(
@@ -431,4 +486,6 @@ def _band(
         law if law.ndim == 1 else law[:, 0],
         np.sqrt(np.maximum(variance, 0.0)),
         1.0 if "positive" in kept else sign,
+        bounds_of(network),
+        int("monotone" in kept),
     )

@@ -60,7 +60,7 @@ class Conformal:
     def predict(
         self,
         data: Data | Mapping[str, ArrayLike],
-        x0: InitialState = "data",
+        x0: InitialState = "auto",
     ) -> dict[str, Prediction]:
         """The targets over another record, by name; arguments as those of `Fit.conformal`."""
         ((time, y, _),) = predicted(self.problem, self.trained, data, x0)
@@ -72,7 +72,7 @@ class Conformal:
     def coverage(
         self,
         data: RecordsLike,
-        x0: InitialState = "data",
+        x0: InitialState = "auto",
     ) -> dict[str, float]:
         """How often the bands hold the targets of further records, by name; arguments as those of `Fit.conformal`."""
         found = predicted(self.problem, self.trained, data, x0)

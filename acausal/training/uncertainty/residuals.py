@@ -11,6 +11,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.signal import correlate
 
+from acausal.training.objective.noise import noise_level
+
 LAGS = 50
 """The largest lag at which correlations are computed."""
 
@@ -19,6 +21,10 @@ CHANCE = 4.0
 
 NEGLIGIBLE = 1e-6
 """Residuals of a smaller share of the target count as none: no measurement resolves them."""
+
+
+LITTLE, MUCH = 0.01, 0.3
+"""Parts of a target's deviation that are little, and much, to leave unexplained."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +39,7 @@ class Residuals:
         inputs: by input that is not constant, the correlation with it at the lags −lags to lags.
         bound: the largest autocorrelation that can be due to chance.
         bounds: the same for the correlations with the inputs, by input.
+        noise: the standard deviation of white noise among them, relative to that of the target.
     """
 
     target: str
@@ -42,6 +49,7 @@ class Residuals:
     inputs: dict[str, Float[np.ndarray, " 2*lags+1"]]
     bound: float
     bounds: dict[str, float]
+    noise: float
 
     @property
     def is_white(self) -> bool:
@@ -72,14 +80,28 @@ class Residuals:
             largest = max(float(np.max(np.abs(self.inputs[n]))) for n in self.drivers)
             return (
                 f"'{self.target}': the residuals still follow {', '.join(map(repr, self.drivers))}, up to "
-                f"a correlation of {largest:.2g}: the model lacks something, or trained too little."
+                f"a correlation of {largest:.2g}: {self._grade('the model lacks something, or trained too little')}"
             )
         if self.is_white:
             return f"'{self.target}': the residuals look like white noise; there is nothing more to learn from them."
         return (
             f"'{self.target}': the residuals are not white noise, up to a correlation of "
-            f"{np.max(np.abs(self.own)):.2g}: coloured noise, or something that the model lacks."
+            f"{np.max(np.abs(self.own)):.2g}: {self._grade('coloured noise, or something that the model lacks')}"
         )
+
+    @property
+    def unexplained(self) -> float:
+        """The part of the target's deviation that is left beside white noise: what a better model could explain."""
+        return float(np.sqrt(max(self.share**2 - self.noise**2, 0.0)))
+
+    def _grade(self, why: str) -> str:
+        """How much is left to explain, and what to make of it."""
+        left = f"{100 * self.unexplained:.2g} % of it"
+        if self.unexplained < max(LITTLE, self.noise / 2):
+            return f"{left} could still be explained, which is little."
+        if self.unexplained < MUCH:
+            return f"{left} could still be explained: {why}."
+        return f"{left} is not explained: do not use the model before you know why."
 
 
 class Piece(NamedTuple):
@@ -124,7 +146,14 @@ def residuals(target: str, pieces: Sequence[Piece], sigma: float) -> Residuals:
         {n: _together(values, us, lags) for n, us in varying.items()},
         float(chance),
         {n: bound(us) for n, us in varying.items()},
+        noise_level(values) / sigma,
     )
+
+
+def unexplained(pieces: Sequence[Float[np.ndarray, " n"]], sigma: float) -> float:
+    """What residuals, NaN where nothing is measured, have beside white noise, relative to the target's deviation."""
+    values = np.concatenate(pieces)
+    return float(np.sqrt(max(np.nanvar(values) - noise_level(pieces) ** 2, 0.0)) / sigma)
 
 
 def correlation_time(values: Float[np.ndarray, " N"]) -> float:

@@ -1,0 +1,58 @@
+"""Sizes of states whose start is not measured, and which starts a training finds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import jax.numpy as jnp
+import numpy as np
+
+from acausal.errors import listing
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.start_prior import StartPrior
+
+FOLLOWS = 10.0
+"""A model before training tells how large its states are as long as its targets are not so many deviations off."""
+
+
+def found_starts(problem: Problem) -> str:
+    """A clause on the states whose starts the training has found, and near what; empty where there are none."""
+    if problem.start_prior is None:
+        return ""
+    found = np.asarray(problem.start_prior.scale) > 0
+    measured = np.isfinite(np.asarray(problem.first_states.given))
+    clauses: list[str] = []
+    for rows, where in ((found & measured, "measured"), (found & ~measured, "model's")):
+        states = [problem.system.states[i] for i in np.unique(np.nonzero(rows)[1])]
+        clauses += [f"{listing(states)} near the {where} start"] if states else []
+    return "; ".join(clauses)
+
+
+def with_sizes(problem: Problem) -> Problem:
+    """The same problem with sizes of the states that are not measured, in the place of NaN.
+
+    A size is half of the range that the state passes before training, as long as the model follows its records
+    somehow; its nominal value where it does not move.
+    """
+    prior = problem.start_prior
+    if prior is None or not np.isnan(np.asarray(prior.scale)).any():
+        return problem
+    known = replace(
+        problem, start_prior=StartPrior(jnp.where(jnp.isnan(prior.scale), 1.0, prior.scale))
+    )
+    simulated, records = known.simulate(known.start()), problem.records
+    x, y = np.asarray(simulated.x), np.asarray(simulated.y)
+    with np.errstate(all="ignore"):
+        far = np.abs(y - np.asarray(records.y)) > FOLLOWS * np.asarray(records.sigma)
+        off = (far & (np.asarray(records.weight) > 0)) | ~np.isfinite(y)
+        lost = np.atleast_1d(off.any(axis=1))
+    scale = np.array(prior.scale)
+    for k in range(records.count):
+        rows = np.arange(len(x))[records.rows_of(k)]
+        end = rows[0] + 1 + int(np.argmax(np.append(lost[rows], True)))
+        passed = x[rows[0] : end]
+        passed = passed[np.isfinite(passed).all(axis=1)]
+        half = np.ptp(passed, axis=0) / 2 if len(passed) else np.zeros(len(scale[k]))
+        size = np.where(half > 0, half, problem.system.nominal)
+        scale[k] = np.where(np.isnan(scale[k]), size, scale[k])
+    return replace(problem, start_prior=StartPrior(jnp.asarray(scale)))

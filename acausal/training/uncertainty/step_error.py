@@ -1,0 +1,55 @@
+"""How far the error of fixed steps moves what is trained, in standard deviations that do not count it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+from jaxtyping import Float
+
+from acausal.simulation import Adaptive
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
+from acausal.training.uncertainty.elimination import Blocks
+
+PARTS = 2
+"""Steps in the place of each, whose predictions count as exact."""
+
+
+def step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n_targets"]:
+    """What shorter steps change in the predictions; zero for adaptive steps, which know their error.
+
+    Nothing is known where inputs are delayed by a time that is trained, as they are laid out for these steps: zero.
+    """
+    known = np.asarray(problem.simulate(trainable).y)
+    if isinstance(problem.solver, Adaptive) or problem.timing.delays:
+        return np.zeros_like(known)
+    finer = replace(problem, substeps=PARTS * problem.substeps)
+    return np.asarray(finer.simulate(trainable).y) - known
+
+
+def largest_move(blocks: Sequence[Blocks], error: Float[np.ndarray, " rows"]) -> float:
+    """By how many standard deviations an error of the predictions moves what all records have in common, at most.
+
+    Arguments:
+        blocks: the Jacobian by record; the error is in standard deviations of the residuals, too.
+        error: by all rows, one after the other.
+
+    What each record has for itself takes its part of the error first.
+    """
+    ends = np.cumsum([0, *(len(b.common) for b in blocks)]).tolist()
+    rows: list[np.ndarray] = []
+    left: list[np.ndarray] = []
+    for block, (a, b) in zip(blocks, pairwise(ends), strict=True):
+        m = block.own.shape[1]
+        basis = np.linalg.qr(np.concatenate([block.own, np.eye(m)]))[0]  # with its prior
+        common = np.concatenate([block.common, np.zeros((m, block.common.shape[1]))])
+        shift = np.concatenate([error[a:b], np.zeros(m)])
+        rows.append(common - basis @ (basis.T @ common))
+        left.append(shift - basis @ (basis.T @ shift))
+    n = blocks[0].common.shape[1]
+    matrix = np.concatenate([*rows, np.eye(n)])  # the prior
+    basis = np.linalg.qr(matrix)[0][: len(matrix) - n]
+    return float(np.linalg.norm(basis.T @ np.concatenate(left)))

@@ -1,0 +1,104 @@
+"""States at which records start: found within what is known of them, by default."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import translational as tl
+from acausal.training.objective.noise import noise_level
+from tests.support.oscillator import force, plain, record
+
+QUIET = {"strategy": "gauss_newton", "solver": "rk4", "progress": False}
+
+
+def noisy(data: ac.Data, share: float, leave_out: tuple[str, ...] = ()) -> ac.Data:
+    rng = np.random.default_rng(3)
+    signals = {n: np.asarray(x) for n, x in data.signals.items()}
+    shaken = {
+        n: x + (n != "push.f") * share * x.std() * rng.standard_normal(len(x))
+        for n, x in signals.items()
+    }
+    return ac.Data(data.time, {n: x for n, x in shaken.items() if n not in leave_out})
+
+
+@pytest.mark.parametrize("count", [60, 2000])
+def test_the_noise_of_a_signal_is_told_from_the_signal(count: int):
+    t = np.linspace(0, 10, count)
+    rng = np.random.default_rng(0)
+    pieces = [np.sin(t), np.cos(2 * t)]
+    noise = [0.03 * rng.standard_normal(count) for _ in pieces]
+    level = noise_level([a + b for a, b in zip(pieces, noise, strict=True)])
+    assert level == pytest.approx(0.03, rel=0.25)
+    assert noise_level(pieces) < 1e-3 * level
+    with_gap = pieces[0] + noise[0]
+    with_gap[5:9] = np.nan
+    assert noise_level([with_gap]) == pytest.approx(0.03, rel=0.4)
+
+
+def test_measured_starts_are_found_within_their_noise():
+    """Taken as true, the first noisy samples make the mass pay for them."""
+    clean = record(cubic=0.0).between(4.0, 10.0)
+    data = noisy(clean, 0.1)
+    fit = ac.fit(plain(), data, ["mass.s"], modifiers=["mass.m"], **QUIET)
+    for name in ("mass.s", "mass.v"):
+        noise = 0.1 * np.std(clean[name])
+        assert abs(fit.x0[name] - clean[name][0]) < 0.5 * noise
+        assert abs(data[name][0] - clean[name][0]) > 0.6 * noise  # as measured
+    assert "x0        found: 'mass.s', 'mass.v' near the measured start" in repr(fit)
+    given = ac.fit(plain(), data, ["mass.s"], modifiers=["mass.m"], x0="data", **QUIET)
+    assert given.x0["mass.s"] == data["mass.s"][0]
+    assert given.trained.starts is None
+    assert given.loss > 1.05 * fit.loss
+
+
+def test_a_start_that_is_not_measured_is_found_near_that_of_the_model():
+    clean = record(cubic=0.0).between(4.0, 10.0)
+    data = noisy(clean, 0.01, ("mass.v",))
+    fit = ac.fit(plain(), data, ["mass.s", "mass.a"], modifiers=["mass.m"], **QUIET)
+    assert fit.x0["mass.v"] == pytest.approx(clean["mass.v"][0], abs=0.01 * np.std(clean["mass.v"]))
+    assert "'mass.v' near the model's start" in repr(fit)
+    assert fit.params["mass.m"] == pytest.approx(2.0, rel=3e-3)
+    assert fit.confidence().parameters["mass.m"] < 3e-3
+    known = ac.fit(
+        plain(), data, ["mass.s", "mass.a"], modifiers=["mass.m"], x0={"mass.s": 0.25}, **QUIET
+    )
+    assert known.x0["mass.s"] == 0.25  # exactly as given
+    assert known.x0["mass.v"] != 0
+
+
+def test_starts_without_noise_are_exact():
+    fit = ac.fit(plain(), record(cubic=0.0, end=3.0), ["mass.s"], modifiers=["mass.m"], **QUIET)
+    assert fit.trained.starts is None
+    assert "x0 " not in repr(fit)
+
+
+class Sledge(ac.Component):
+    """A mass that a damper brakes: nothing depends on its position."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.ground, self.damper = tl.Fixed(), tl.Damper(d=1.0)
+        self.mass, self.push = tl.Mass(m=1.0), tl.Force()
+        self.connect(self.ground.flange, self.damper.flange_a)
+        self.connect(self.damper.flange_b, self.mass.flange_a)
+        self.connect(self.mass.flange_b, self.push.flange)
+
+
+@pytest.mark.parametrize("given", [{}, {"x0": {"mass.v": 0.0}}])
+def test_nothing_is_demanded_of_a_position_on_which_nothing_depends(given: dict[str, object]):
+    t = np.linspace(0, 4, 201)
+    true = ac.simulate(ac.compile(Sledge()), (0, 4), dt=0.02, inputs={"push.f": force(t)})
+    data = ac.Data(t, {"push.f": force(t), "mass.v": np.asarray(true["mass.v"])})
+    start = {"damper.d": 2.0}
+    fit = ac.fit(
+        ac.compile(Sledge()),
+        data,
+        ["mass.v"],
+        modifiers=list(start),
+        params=start,
+        **given,
+        **QUIET,
+    )
+    assert fit.params["damper.d"] == pytest.approx(1.0, rel=1e-3)
