@@ -26,6 +26,7 @@ from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, TrainingError, listing, shown, user_level
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
+from acausal.training.auto.automatic import Automatic, automatic
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
@@ -43,7 +44,7 @@ from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
 from acausal.training.starts import spread_starts, starts_of
-from acausal.training.strategy import Leg, legs
+from acausal.training.strategy import Leg, legs, stages
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -68,6 +69,7 @@ class Training:
         legs: what to do, one part after the other.
         options: how to train.
         seeds: one for each training; ``params``: the parameters where each starts.
+        automatic: what was chosen from the data, with ``strategy="auto"``.
     """
 
     problem: Problem
@@ -77,6 +79,7 @@ class Training:
     options: FitOptions
     seeds: Sequence[int]
     params: Sequence[Mapping[str, Any]]
+    automatic: Automatic | None = None
 
 
 def prepare(
@@ -115,10 +118,15 @@ def prepare(
     kept = split(records, options.validation)
     names = names_in(targets, "targets")
     check_records(options.x0, (*records, *(kept.held or {})))
+    chosen = None
+    if options.automatic:
+        chosen = automatic(system, kept.training, names, starts, options)
+        options, starts = chosen.options, list(chosen.params)
     problem = build_problem(system, kept.training, names, starts[0], options)
     held = hold_out(problem, kept, options.x0)
-    plan = legs(problem, options, _limit_of(options))
-    return Training(problem, kept.training, held, plan, options, seeds, starts)
+    planned = stages(options) if chosen is None else chosen.stages
+    plan = legs(problem, planned, options, _limit_of(options))
+    return Training(problem, kept.training, held, plan, options, seeds, starts, chosen)
 
 
 def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:
@@ -136,6 +144,8 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     plan, seeds, epochs = training.legs, training.seeds, sum(leg.epochs for leg in training.legs)
     problems = [_from(problem, own) for own in training.params]
     starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
+    if training.automatic is not None and options.starts == 1:
+        starts = [training.automatic.begin(problem, start) for start in starts]
     keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
     identity = (
         {}
