@@ -27,6 +27,7 @@ from acausal.errors import DataError, TrainingError, listing, shown, user_level
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic
+from acausal.training.auto.verdict import stage_results
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
@@ -177,8 +178,19 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     settings = [{"seed": str(seed), **options.described()} for seed in seeds]
+    chosen = training.automatic
+    linear = None if chosen is None or chosen.linear is None else chosen.linear.loss
+    not_laws = None if chosen is None else chosen.not_laws
     return tuple(
-        result(own, one, judged or held, spread, said)
+        result(
+            own,
+            one,
+            judged or held,
+            spread,
+            said,
+            stage_results(one.history, plan, linear),
+            not_laws,
+        )
         for own, one, said in zip(problems, trained, settings, strict=True)
     )
 

@@ -56,7 +56,7 @@ class Automatic:
         stages: what to do.
         linear: the linear start; ``None`` where no network lacks scales.
         noise: the loss that the noise alone leaves; ``None`` where the loss is no root mean square.
-        lacking: networks that are no laws of the library, which are trained from where they are.
+        not_laws: networks that are no laws of the library, which are trained from where they are.
     """
 
     options: FitOptions
@@ -64,7 +64,7 @@ class Automatic:
     stages: tuple[Stage, ...]
     linear: LinearStart | None
     noise: float | None
-    lacking: tuple[str, ...]
+    not_laws: tuple[str, ...]
 
     def begin(self, problem: Problem, start: Trainable) -> Trainable:
         """The start of a training, with parameters and first states where the linear start found them."""
@@ -112,30 +112,29 @@ def automatic(
         own = own if x0 is None else replace(own, x0=x0)
         return build_problem(system, data, targets, {**params[0], **linear}, own)
 
-    level = np.sqrt(len(targets))
-    best: tuple[Step, LinearStart] | None = None
-    for step in tried_steps(options):
-        found = _start(problem_of(part, step), shapes)
-        if best is None or found.loss < 0.8 * best[1].loss:
-            best = step, found
-        if best[1].loss < EXPLAINS * level:
+    level = EXPLAINS * np.sqrt(len(targets))
+    step, start, explains = Step(None), None, False
+    for trial in tried_steps(options):
+        found = _start(problem_of(part, trial), shapes)
+        if start is None or found.loss < 0.8 * start.loss:
+            step, start, explains = trial, found, found.loss < level
+        if explains:
             break
-    assert best is not None
-    step, start = best
-    explains = start.loss < EXPLAINS * level
-    if not explains and shapes and start.problem.records.x is not None:
-        pieces = _pieces(part)
+        pieces = _pieces(part) if shapes and found.problem.records.x is not None else {}
         if pieces:
-            short = _start(problem_of(pieces, step, "data"), shapes)
+            short = _start(problem_of(pieces, trial, "data"), shapes)
             if np.isfinite(short.loss):
-                start = replace(short, trainable=replace(short.trainable, states=None))
+                step, start = trial, replace(short, trainable=replace(short.trainable, states=None))
+                break
+    assert start is not None
     scale = options.loss == "nrmse"
-    noise = noise_loss(start.problem.records) if scale else None
+    noise = noise_loss(problem_of(part, step).records) if scale else None
     step = chosen_steps(step, start.problem, start.trainable, noise, options)
     laws = _scales(start, shapes, explains)
     new = tuple({**own, **{n: with_scales(own[n], *laws[n]) for n in shapes}} for own in params)
     settled = step.of(options, records)
-    stages = _stages(start.problem, new[0], names, explains, noise, options)
+    rows = int(np.median([len(data) for data in records.values()]))
+    stages = _stages(start.problem, rows, new[0], names, explains, noise, options)
     return Automatic(settled, new, stages, start if shapes else None, noise, fixed)
 
 
@@ -218,6 +217,7 @@ def _scales_of(
 
 def _stages(
     problem: Problem,
+    rows: int,
     params: Mapping[str, Any],
     names: Sequence[str],
     explains: bool,
@@ -236,7 +236,6 @@ def _stages(
     enough = 0.0 if noise is None else GOOD * noise
     measured = problem.records.x is not None
     whole = Stage(kind, epochs, gain=GAIN, title="whole record")
-    rows = int(np.median(np.asarray(problem.records.last - problem.records.first))) + 1
     lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
     windows = [
         Stage(

@@ -19,10 +19,11 @@ from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Float
 
 from acausal.networks import Affine, BesideLinear, BesideQuadratic, Shape
+from acausal.simulation import EXPLICIT
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.objective.whole_record import over_whole_record
-from acausal.training.optimizers.gradients import with_gauss_newton_hessian
+from acausal.training.optimizers.gradients import total, with_gauss_newton_hessian
 
 BATCH = 32
 """Points that are evaluated at once."""
@@ -154,6 +155,7 @@ class _Points:
 
     def __init__(self, objective: Problem, size: int) -> None:
         self.objective, self.size = objective, size
+        self.forward = isinstance(objective.solver, EXPLICIT)
         self.batch = objective.draw(jax.random.key(0))
 
     def losses(self, points: Sequence[np.ndarray]) -> np.ndarray:
@@ -164,14 +166,13 @@ class _Points:
         """Of up to `BATCH` points: losses, gradients, Hessians."""
         count = len(points)
         filled = np.stack([*points, *[points[-1]] * (BATCH - count)])
+        evaluate = _evaluate if self.forward else _losses
         loss, gradient, hessian = map(
-            np.asarray, _evaluate(self.objective, self.batch, jnp.asarray(filled))
+            np.asarray, evaluate(self.objective, self.batch, jnp.asarray(filled))
         )
-        sound = (
-            np.isfinite(loss)
-            & np.isfinite(hessian).all(axis=(1, 2))
-            & np.isfinite(gradient).all(axis=1)
-        )
+        sound = np.isfinite(loss)
+        if self.forward:
+            sound &= np.isfinite(hessian).all(axis=(1, 2)) & np.isfinite(gradient).all(axis=1)
         return np.where(sound, loss, np.inf)[:count], gradient[:count], hessian[:count]
 
 
@@ -184,6 +185,20 @@ def _evaluate(
     def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
         found = with_gauss_newton_hessian(objective, unravel(point), batch)
         return found.total, ravel_pytree(found.gradient)[0], found.hessian
+
+    return jax.vmap(one)(points)
+
+
+@eqx.filter_jit
+def _losses(
+    objective: Problem, batch: Any, points: Float[Array, "n P"]
+) -> tuple[Array, Array, Array]:
+    """The same without derivatives, for steps that have none in forward mode."""
+    _, unravel = ravel_pytree(objective.start())
+
+    def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
+        loss = total(objective, unravel(point), batch)[0]
+        return loss, jnp.zeros_like(point), jnp.zeros((point.size, point.size))
 
     return jax.vmap(one)(points)
 
