@@ -67,14 +67,26 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
         raise DataError(
             f"'{path}' does not hold {KIND}, but: {about.get('kind', 'something unnamed')}."
         )
+    settings: Mapping[str, str] = about["settings"]
+    like = {name: _like_saved(name, leaf, settings) for name, leaf in like.items()}
     params = filled_like(like, arrays, f"'{path}'")
     for place, here in _settings(like, ""):
-        there = about["settings"].get(place, here)
+        there = settings.get(place, here)
         if there != here:
             raise DataError(
                 f"'{path}' has '{place}' as {there}, but here it is {here}: it belongs to another network."
             )
     return {name: params[name] for name in like}  # JAX sorts them
+
+
+def _like_saved(name: str, leaf: Any, settings: Mapping[str, str]) -> Any:
+    """A network with the scales of the saved one, where a training has chosen them."""
+    if not hasattr(leaf, "like_saved"):
+        return leaf
+    own = f"{name}."
+    return leaf.like_saved(
+        {n.removeprefix(own): s for n, s in settings.items() if n.startswith(own)}
+    )
 
 
 def _kind(thing: object) -> str:

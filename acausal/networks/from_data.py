@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -116,6 +118,29 @@ def with_scales(network: Any, scales: Scales, law: Affine) -> Scaled | EnergyLaw
     if isinstance(network, EnergyLaw):
         return EnergyLaw(inner, reach, output * reach[0], network.inputs)
     return Scaled(inner, reach, output, centre if any(centre) else 0.0)
+
+
+def like_saved(network: Any, settings: Mapping[str, str]) -> Any:
+    """A network that lacks scales, with those of a saved one; any other network as it is.
+
+    Arguments:
+        network: the model's own.
+        settings: of the saved network, as texts by field.
+    """
+    if not lacks_scales(network) or settings.get("left_open") != "()":
+        return network
+    known = ("input_scale", "output_scale", "energy_scale", "centre")
+    values = {name: ast.literal_eval(settings[name]) for name in known if name in settings}
+    reach = values["input_scale"]
+    if not isinstance(reach, tuple):
+        return network
+    energy = values.get("energy_scale")
+    output = values["output_scale"] if energy is None else energy / reach[0]
+    shape = linear_shape(network)
+    centre = values.get("centre", 0.0)
+    middle = centre if isinstance(centre, tuple) else (0.0,) * len(reach)
+    slope = tuple(output / r for r in reach[: shape.inputs])
+    return replace(with_scales(network, Scales(middle, reach, output), Affine(slope)), **values)
 
 
 def _beside(net: Any, shape: Shape, slope: list[float], offset: float) -> Any:

@@ -121,7 +121,11 @@ def prepare(
     check_records(options.x0, (*records, *(kept.held or {})))
     chosen = None
     if options.automatic:
-        chosen = automatic(system, kept.training, names, starts, options)
+        with (
+            warnings.catch_warnings()
+        ):  # what there is to warn of, the problem of the training says again
+            warnings.simplefilter("ignore")
+            chosen = automatic(system, kept.training, names, starts, options)
         options, starts = chosen.options, list(chosen.params)
     problem = build_problem(system, kept.training, names, starts[0], options)
     held = hold_out(problem, kept, options.x0)

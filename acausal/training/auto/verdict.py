@@ -64,7 +64,7 @@ def stage_results(
 
 
 def step_error(problem: Problem, trainable: Trainable, simulated: Simulated) -> float | None:
-    """How much twice as many steps change the predictions, as the loss counts it; ``None`` for other than fixed steps."""
+    """How much twice as many steps change the predictions, as the loss counts it; ``None`` for adaptive steps."""
     if not isinstance(problem.solver, EXPLICIT) or problem.system.events is not None:
         return None
     fine = replace(problem, substeps=2 * problem.substeps).simulate(trainable)
