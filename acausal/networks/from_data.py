@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
+from acausal.data import like_saved
 from acausal.networks.beside_linear import BesideLinear, BesideQuadratic
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
 from acausal.networks.min_slope import WithMinCurvature, WithMinSlope, start_at
@@ -120,7 +121,10 @@ def with_scales(network: Any, scales: Scales, law: Affine) -> Scaled | EnergyLaw
     return Scaled(inner, reach, output, centre if any(centre) else 0.0)
 
 
-def like_saved(network: Any, settings: Mapping[str, str]) -> Any:
+@like_saved.register(MLP)
+@like_saved.register(Scaled)
+@like_saved.register(EnergyLaw)
+def _(network: Any, settings: Mapping[str, str]) -> Any:
     """A network that lacks scales, with those of a saved one; any other network as it is.
 
     Arguments:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import equinox as eqx
@@ -107,12 +107,6 @@ class MLP(Layered):
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             h = activation(product(weight, h) + bias)
         return self.output_scale * (product(self.weights[-1], h) + self.biases[-1])[0]
-
-    def like_saved(self, settings: Mapping[str, str]) -> eqx.Module:
-        """With the scales of a saved network, if this one has none; ``settings`` of that as texts by field."""
-        from acausal.networks.from_data import like_saved
-
-        return like_saved(self, settings)
 
     def __repr__(self) -> str:
         sizes = [self.in_size, *(len(b) for b in self.biases)]

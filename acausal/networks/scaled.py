@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 import equinox as eqx
 import jax
@@ -40,12 +40,6 @@ class Scaled(eqx.Module):
         numbers = jnp.clip(scaled(inputs, self.input_scale), -REACH, REACH)
         return self.output_scale * self.net(*numbers)
 
-    def like_saved(self, settings: Mapping[str, str]) -> eqx.Module:
-        """With the scales of a saved network, if this one has none; ``settings`` of that as texts by field."""
-        from acausal.networks.from_data import like_saved
-
-        return like_saved(self, settings)
-
 
 class EnergyLaw(eqx.Module):
     """An energy ``W(x) = energy_scale · net(x / input_scale)``, whose derivative is a law, `law`.
@@ -73,12 +67,6 @@ class EnergyLaw(eqx.Module):
         others = inputs[self.inputs :]
         forces = jax.grad(lambda point: self(*point, *others))(moved)
         return forces[0] if self.inputs == 1 else jnp.stack(forces)
-
-    def like_saved(self, settings: Mapping[str, str]) -> eqx.Module:
-        """With the scales of a saved network, if this one has none; ``settings`` of that as texts by field."""
-        from acausal.networks.from_data import like_saved
-
-        return like_saved(self, settings)
 
     @property
     def output_scale(self) -> float:

@@ -21,7 +21,7 @@ class Layers(TypedDict):
 
     width: int
     depth: int
-    activation: str | None
+    activation: str
     key: Key
 
 

@@ -127,7 +127,7 @@ def prepare(
             warnings.simplefilter("ignore")
             chosen = automatic(system, kept.training, names, starts, options)
         options, starts = chosen.options, list(chosen.params)
-    problem = build_problem(system, kept.training, names, starts[0], options)
+    problem = build_problem(system, kept.training, names, dict(starts[0]), options)
     held = hold_out(problem, kept, options.x0)
     planned = stages(options) if chosen is None else chosen.stages
     plan = legs(problem, planned, options, _limit_of(options))

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -224,8 +225,6 @@ def _stages(
     noise: float | None,
     options: FitOptions,
 ) -> tuple[Stage, ...]:
-    import equinox as eqx
-
     leaves = [
         leaf for n in names for leaf in jax.tree.leaves(eqx.filter(params[n], eqx.is_inexact_array))
     ]
@@ -249,10 +248,4 @@ def _stages(
         return (*windows, whole)
     if noise is None or not names:
         return (whole,)
-    rescue = [replace_above(stage, enough) for stage in (*windows, whole)]
-    return (whole, *rescue)
-
-
-def replace_above(stage: Stage, above: float) -> Stage:
-    """The same, only where the loss is above a level."""
-    return stage._replace(above=above)
+    return (whole, *(stage._replace(above=enough) for stage in (*windows, whole)))

@@ -38,9 +38,9 @@ STEPS, ENOUGH = 15, 1e-3
 """Steps of Gauss-Newton at most; it ends when the loss falls by less than this part."""
 
 
-def nothing(*inputs: Any) -> float:
+def nothing(*inputs: Any) -> Array:
     """The network beside which a law is linear alone."""
-    return 0.0
+    return jnp.zeros(())
 
 
 def linear_module(shape: Shape, law: Affine | None = None) -> BesideLinear | BesideQuadratic:
@@ -184,6 +184,7 @@ def _evaluate(
 
     def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
         found = with_gauss_newton_hessian(objective, unravel(point), batch)
+        assert found.hessian is not None
         return found.total, ravel_pytree(found.gradient)[0], found.hessian
 
     return jax.vmap(one)(points)

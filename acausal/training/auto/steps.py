@@ -10,7 +10,6 @@ import numpy as np
 
 from acausal.data import Data
 from acausal.simulation import for_fixed_steps, solver_named
-from acausal.training.objective.lay_out import sample_time
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
@@ -43,9 +42,8 @@ class Step(NamedTuple):
         """The options with these steps."""
         if self.solver is None:
             return options
-        even = sample_time(data.values())
-        shortest = even or float(np.median(np.diff(next(iter(data.values())).time)))
-        dt = options.dt if self.parts == 1 else shortest / self.parts
+        usual = float(np.median(np.concatenate([np.diff(d.time) for d in data.values()])))
+        dt = options.dt if self.parts == 1 else usual / self.parts
         return replace(options, solver=self.solver, dt=dt)
 
 
