@@ -14,7 +14,11 @@ from acausal.data.formats import (
     Formats as Formats,
     ReadOptions as ReadOptions,
 )
-from acausal.data.params_file import load_params as load_params, save_params as save_params
+from acausal.data.params_file import (
+    like_saved as like_saved,
+    load_params as load_params,
+    save_params as save_params,
+)
 from acausal.data.readers import is_data_frame as is_data_frame
 from acausal.data.record import Data as Data
 from acausal.data.samples import check_resolution as check_resolution

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from functools import singledispatch
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,14 +68,33 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
         raise DataError(
             f"'{path}' does not hold {KIND}, but: {about.get('kind', 'something unnamed')}."
         )
+    settings: Mapping[str, str] = about["settings"]
+    like = {n: like_saved(leaf, _settings_of(n, settings)) for n, leaf in like.items()}
     params = filled_like(like, arrays, f"'{path}'")
     for place, here in _settings(like, ""):
-        there = about["settings"].get(place, here)
+        there = settings.get(place, here)
         if there != here:
             raise DataError(
                 f"'{path}' has '{place}' as {there}, but here it is {here}: it belongs to another network."
             )
     return {name: params[name] for name in like}  # JAX sorts them
+
+
+def _settings_of(name: str, settings: Mapping[str, str]) -> dict[str, str]:
+    """The settings of one network, by field."""
+    own = f"{name}."
+    return {n.removeprefix(own): s for n, s in settings.items() if n.startswith(own)}
+
+
+@singledispatch
+def like_saved(leaf: Any, settings: Mapping[str, str]) -> Any:
+    """A network like a saved one, where a training chooses settings that it was made without; others as they are.
+
+    Arguments:
+        leaf: the model's own.
+        settings: of the saved one, as texts by field.
+    """
+    return leaf
 
 
 def _kind(thing: object) -> str:

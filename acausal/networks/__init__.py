@@ -13,6 +13,10 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
 from acausal.networks.arity import check_inputs as check_inputs
+from acausal.networks.beside_linear import (
+    BesideLinear as BesideLinear,
+    BesideQuadratic as BesideQuadratic,
+)
 from acausal.networks.bounded import Between as Between, Positive as Positive
 from acausal.networks.convex import Convex as Convex
 from acausal.networks.dry_friction_factor import DryFrictionFactor as DryFrictionFactor
@@ -23,6 +27,14 @@ from acausal.networks.extrapolation import (
     ContinuedEnergy as ContinuedEnergy,
 )
 from acausal.networks.fourier import Fourier as Fourier
+from acausal.networks.from_data import (
+    Affine as Affine,
+    Scales as Scales,
+    Shape as Shape,
+    lacks_scales as lacks_scales,
+    linear_shape as linear_shape,
+    with_scales as with_scales,
+)
 from acausal.networks.law_spec import Law as Law
 from acausal.networks.min_slope import (
     WithMinCurvature as WithMinCurvature,

@@ -88,9 +88,10 @@ class Energy(NetworkSpec):
         """An energy with fresh weights."""
         own = self.layers(key)
         net = self._convex(own) if self.convex else self._free(own)
-        scale = self.input_scale[0] if isinstance(self.input_scale, tuple) else self.input_scale
+        inner, outer = self.scales
+        scale = inner[0] if isinstance(inner, tuple) else inner
         net = self.continued(net, ContinuedEnergy)
-        return EnergyLaw(net, self.input_scale, scale * self.output_scale, self.inputs)
+        return EnergyLaw(net, inner, scale * outer, self.inputs, self.left_open)
 
     def _free(self, own: Layers) -> Net:
         net = MLP(self.in_size, **own)

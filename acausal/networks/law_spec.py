@@ -86,12 +86,19 @@ class Law(NetworkSpec):
         """A network with fresh weights."""
         own = self.layers(key)
         if not (self.monotone or self.vanishes or self.extrapolation):
-            scales = self.input_scale, self.output_scale
-            return MLP(self.in_size, **own, input_scale=scales[0], output_scale=scales[1])
+            return MLP(
+                self.in_size,
+                self.width,
+                self.depth,
+                self.activation,
+                input_scale=self.input_scale,
+                output_scale=self.output_scale,
+                key=key,
+            )
         net = self._monotone(own) if self.monotone else self._free(own)
         passive = self.passive or (self.monotone and self.zero_crossing == "exact")
         net = self.continued(net, Continued, rising=passive)
-        return Scaled(net, self.input_scale, self.output_scale)
+        return Scaled(net, *self.scales, left_open=self.left_open)
 
     def _free(self, own: Layers) -> Net:
         net = MLP(self.in_size, **own)

@@ -56,9 +56,10 @@ class MLP(Layered):
         in_size: number of scalar inputs.
         width: neurons in each hidden layer.
         depth: number of hidden layers.
-        activation: of the hidden layers, by name (`ACTIVATIONS`); the last layer is linear.
+        activation: of the hidden layers, by name (`ACTIVATIONS`); the last layer is linear. ReLU by default.
         input_scale: typical magnitude of each input, in its unit (one number for all, or a tuple).
-        output_scale: typical magnitude of the output, in its unit.
+        output_scale: typical magnitude of the output, in its unit. Scales that are not given are 1, until
+            `acausal.fit` chooses them from the data (`with_scales`).
         last_layer: factor on the initial weights of the last layer; with a small one training starts near F = 0,
             that is with the model without the network.
         key: a JAX key, or a seed.
@@ -76,24 +77,28 @@ class MLP(Layered):
     activation: str = eqx.field(static=True)
     input_scale: Scale = eqx.field(static=True)
     output_scale: float = eqx.field(static=True)
+    left_open: tuple[str, ...] = eqx.field(static=True)
 
     def __init__(
         self,
         in_size: int = 1,
         width: int = 16,
         depth: int = 2,
-        activation: str = "relu",
+        activation: str | None = None,
         *,
-        input_scale: Scale = 1.0,
-        output_scale: float = 1.0,
+        input_scale: Scale | None = None,
+        output_scale: float | None = None,
         last_layer: float = 0.1,
         key: Key,
     ) -> None:
-        self.activation = checked(activation)
-        check_sizes(in_size, width, depth, input_scale)
+        given = {"activation": activation, "input_scale": input_scale, "output_scale": output_scale}
+        self.left_open = tuple(name for name, value in given.items() if value is None)
+        self.activation = checked(activation or "relu")
+        self.input_scale = 1.0 if input_scale is None else input_scale
+        self.output_scale = 1.0 if output_scale is None else output_scale
+        check_sizes(in_size, width, depth, self.input_scale)
         self.weights, self.biases = layers(in_size, width, depth, last_layer, key)
         self.in_size = in_size
-        self.input_scale, self.output_scale = input_scale, output_scale
 
     def evaluate(self, inputs: Sequence[ArrayLike], product: Product) -> Float[Array, ""]:
         """The output, given a function for the product of a matrix and a vector."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from acausal.networks.beside_linear import BesideLinear, BesideQuadratic
 from acausal.networks.bounded import Between, Positive
 from acausal.networks.convex import Convex
 from acausal.networks.energy import Bowl, FromRest, Levelled
@@ -96,6 +97,7 @@ _LAWS: dict[type, Rule] = {
     Continued: _continued,
     Monotone: lambda net, inside: {"monotone"},
     WithMinSlope: lambda net, inside: inside & {"monotone", "odd", "zero", "passive"},
+    BesideLinear: lambda net, inside: inside & {"odd", "zero"} if net.offset is None else set(),
     Odd: lambda net, inside: (inside & {"monotone"}) | {"odd", "zero"},
     Even: lambda net, inside: (inside & {"positive", "bounded"}) | {"even"},
     Passive: lambda net, inside: _product(net, inside) | {"passive"},
@@ -110,7 +112,8 @@ _LAWS: dict[type, Rule] = {
 _ENERGIES: dict[type, Rule] = {
     ContinuedEnergy: _continued,
     Convex: lambda net, inside: {"convex"},
-    WithMinCurvature: lambda net, inside: inside & {"convex", "even"},
+    WithMinCurvature: lambda net, inside: inside & {"convex", "even", "passive", "zero"},
+    BesideQuadratic: lambda net, inside: inside & {"even", "zero"} if net.offset is None else set(),
     Even: lambda net, inside: inside | {"even"},
     Bowl: lambda net, inside: (inside & {"even"}) | {"passive", "zero"},
     FromRest: lambda net, inside: inside | ({"passive"} if {"even", "convex"} <= inside else set()),

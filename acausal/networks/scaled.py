@@ -19,15 +19,24 @@ REACH = 1e6
 
 
 class Scaled(eqx.Module):
-    """A law ``F(x) = output_scale · net(x / input_scale)`` of physical quantities."""
+    """A law ``F(x) = output_scale · net((x − centre) / input_scale)`` of physical quantities.
+
+    Attributes:
+        left_open: names of the arguments of its specification that were not given, and that a training may choose.
+    """
 
     net: Callable[..., Array]
     input_scale: Scale = eqx.field(static=True, default=1.0)
     output_scale: float = eqx.field(static=True, default=1.0)
+    centre: Scale = eqx.field(static=True, default=0.0)
+    left_open: tuple[str, ...] = eqx.field(static=True, default=())
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
         _check_scales(self, inputs)
+        if self.centre != 0.0:
+            middle = self.centre if isinstance(self.centre, tuple) else (self.centre,) * len(inputs)
+            inputs = tuple(jnp.asarray(x) - c for x, c in zip(inputs, middle, strict=True))
         numbers = jnp.clip(scaled(inputs, self.input_scale), -REACH, REACH)
         return self.output_scale * self.net(*numbers)
 
@@ -38,12 +47,14 @@ class EnergyLaw(eqx.Module):
     Attributes:
         energy_scale: magnitude of the energy; that of the law is ``energy_scale / input_scale``.
         inputs: how many of the first inputs the law is the derivative by.
+        left_open: as of `Scaled`.
     """
 
     net: Callable[..., Array]
     input_scale: Scale = eqx.field(static=True, default=1.0)
     energy_scale: float = eqx.field(static=True, default=1.0)
     inputs: int = eqx.field(static=True, default=1)
+    left_open: tuple[str, ...] = eqx.field(static=True, default=())
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The energy for scalar inputs."""

@@ -42,8 +42,9 @@ class NetworkSpec:
         secondary: number of further inputs, after those that the promises apply to.
         width, depth: neurons in each hidden layer, and hidden layers.
         activation: of the hidden layers, by name; ``None`` takes the default.
-        input_scale: magnitude of the inputs: one number, or one for each.
-        output_scale: magnitude of the law.
+        input_scale: magnitude of the inputs: one number, or one for each. By default `acausal.fit` takes it from the
+            data; until then it is 1.
+        output_scale: magnitude of the law, likewise.
         odd: the law is odd, ``F(−x) = −F(x)``; its energy is even.
         zero_crossing: why the law vanishes at zero: a ``"regularizer"`` penalizes its offset in training, and the
             network itself does nothing; its ``"offset"`` is subtracted, ``F(x) − F(0)``; or it is ``"exact"``, zero by
@@ -62,8 +63,8 @@ class NetworkSpec:
     width: int = 16
     depth: int = 2
     activation: str | None = None
-    input_scale: Scale = 1.0
-    output_scale: float = 1.0
+    input_scale: Scale | None = None
+    output_scale: float | None = None
     odd: bool = False
     zero_crossing: ZeroCrossing | None = None
     extrapolation: Extrapolation | None = None
@@ -82,9 +83,10 @@ class NetworkSpec:
             raise DeclarationError(
                 f"secondary={shown(self.secondary)} is a number of further inputs; give zero or more"
             )
-        check_sizes(self.in_size, self.width, self.depth, self.input_scale)
-        scales = self.input_scale if isinstance(self.input_scale, tuple) else (self.input_scale,)
-        if not all(_is_number(s) and s > 0 for s in (*scales, self.output_scale)):
+        inner, outer = self.scales
+        check_sizes(self.in_size, self.width, self.depth, inner)
+        scales = inner if isinstance(inner, tuple) else (inner,)
+        if not all(_is_number(s) and s > 0 for s in (*scales, outer)):
             raise DeclarationError(
                 "input_scale and output_scale are magnitudes; give positive numbers"
             )
@@ -111,6 +113,18 @@ class NetworkSpec:
                 self.check_bound(name)
 
     @property
+    def scales(self) -> tuple[Scale, float]:
+        """Magnitudes of inputs and law; 1 where none is given."""
+        inner, outer = self.input_scale, self.output_scale
+        return 1.0 if inner is None else inner, 1.0 if outer is None else outer
+
+    @property
+    def left_open(self) -> tuple[str, ...]:
+        """The arguments that were not given, and that a training may choose."""
+        names = ("activation", "input_scale", "output_scale", "limits")
+        return tuple(name for name in names if getattr(self, name) is None)
+
+    @property
     def in_size(self) -> int:
         """Number of all inputs."""
         raise NotImplementedError
@@ -131,7 +145,8 @@ class NetworkSpec:
         Raises:
             DeclarationError: for limits that do not enclose an interval, or that a promise does not allow.
         """
-        scale = self.input_scale[0] if isinstance(self.input_scale, tuple) else self.input_scale
+        inner, _ = self.scales
+        scale = inner[0] if isinstance(inner, tuple) else inner
         limits = self.limits
         if limits is None:
             return -KNOWN, KNOWN

@@ -72,7 +72,7 @@ def build_problem(
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     system.pack(params)  # refuses what does not fit
-    chosen = _networks(system, options.train, params)
+    chosen = trained_networks(system, options.train, params)
     layout = system.layout
     changed = modifiers(
         options.modifiers, options.gamma, params, layout.why_not_free, layout.declared_range
@@ -154,13 +154,14 @@ def build_problem(
 def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     """The steps of the integration: adaptive ones where tolerances or a solver ask for them."""
     fixed = options.dt is not None
-    chosen = None if options.solver == "auto" else solver_named(options.solver, fixed=fixed)
+    solver = "heun" if options.solver is None else options.solver
+    chosen = None if solver == "auto" else solver_named(solver, fixed=fixed)
     by_tolerance = options.rtol is not None or options.atol is not None
     if chosen is not None and not isinstance(chosen, BDF) and not by_tolerance:
         return for_fixed_steps(chosen, dtype)
     if options.dt is not None:
         raise TrainingError(
-            f"dt={options.dt:g} is for fixed steps, but solver={shown(options.solver)}"
+            f"dt={options.dt:g} is for fixed steps, but solver={shown(solver)}"
             f"{' with rtol or atol' if by_tolerance else ''} chooses its own: leave one of them out."
         )
     rtol = Adaptive.rtol if options.rtol is None else options.rtol
@@ -169,7 +170,7 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     return Adaptive(None if chosen is None else for_adaptive_steps(chosen), rtol, atol)
 
 
-def _networks(
+def trained_networks(
     system: System, train: Iterable[str] | None, params: Mapping[str, Any]
 ) -> tuple[str, ...]:
     """The networks to train: by default all that an equation calls."""

@@ -74,7 +74,7 @@ def fingerprint(
         ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.first_states, problem.start_prior, problem.shooting is None),
-        "strategy": [leg.name for leg in legs],
+        "strategy": [leg.stage for leg in legs],
         "epochs": [leg.epochs for leg in legs],
         "evaluate_every": [leg.evaluate_every for leg in legs],
         "patience": [leg.patience for leg in legs],

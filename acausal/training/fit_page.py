@@ -80,6 +80,7 @@ def fit_content(
         "Laws": {"Learned laws": [Text(SURE), *(b for blocks in laws.values() for b in blocks)] if laws else []},
         "Training": {
             "Losses": [table(("figure", "before", "after"), losses), *_losses(fit)],
+            "Stages": _stages(fit),
             "Trained parameters": _parameters(fit, sure),
             "Parameters of records": [_own(fit, sure)],
         },
@@ -102,6 +103,11 @@ def fit_content(
 
 
 # -- training ------------------------------------------------------------------------------------------------
+
+
+def _stages(fit: Trained) -> list[Block]:
+    rows = [(s.title, f"{s.loss:.4g}", str(s.updates)) for s in fit.stages]
+    return [table(("stage", "loss reached", "updates"), rows)] if rows else []
 
 
 def _losses(fit: Trained) -> Iterable[Block]:

@@ -71,6 +71,7 @@ class History:
             ``full_loss``.
         tried: loss where each update was tried: as ``loss``, but for trials that were turned down, whose loss may be
             of any size or not a number.
+        part: of the strategy, to which each update belongs, counted from 0.
     """
 
     loss: Float[np.ndarray, " epochs"]
@@ -82,6 +83,7 @@ class History:
     divergences: tuple[Divergence, ...]
     events: dict[str, Int[np.ndarray, " k"]] = field(default_factory=dict[str, np.ndarray])
     tried: Float[np.ndarray, " epochs"] = field(default_factory=lambda: np.zeros(0))
+    part: Int[np.ndarray, " epochs"] = field(default_factory=lambda: np.zeros(0, int))
 
     @property
     def event_changes(self) -> tuple[EventChange, ...]:
@@ -197,7 +199,7 @@ class Log:
         modifiers: tuple[str, ...],
     ) -> None:
         self._places, self._penalties, self._modifiers = places, penalties, modifiers
-        whole = {n: np.zeros(0, int) for n in ("diverged", "exploded", "first")}
+        whole = {n: np.zeros(0, int) for n in ("diverged", "exploded", "first", "part")}
         names = ("loss", "seconds", *map(_penalty, penalties), *map(_modifier, modifiers))
         numbers = {n: np.zeros(0) for n in names}
         flags = {n: np.zeros(0, bool) for n in ("rejected", "turned_down")}
@@ -207,8 +209,10 @@ class Log:
         self.divergences: list[Divergence] = []
         self.epochs = 0
 
-    def add(self, entry: LogEntry, count: int, started: float, ended: float) -> list[Divergence]:
-        """Add the first ``count`` rows of a chunk's log; returns its divergences."""
+    def add(
+        self, entry: LogEntry, count: int, started: float, ended: float, part: int = 0
+    ) -> list[Divergence]:
+        """Add the first ``count`` rows of a chunk's log, of a part of the strategy; returns its divergences."""
         reported = {
             "loss": entry.loss,
             "diverged": entry.diverged,
@@ -221,7 +225,7 @@ class Log:
         }
         seconds = started + (ended - started) * np.arange(1, count + 1) / count
         rows = {n: np.asarray(column)[:count] for n, column in reported.items()}
-        return self._append({**rows, "seconds": seconds})
+        return self._append({**rows, "seconds": seconds, "part": np.full(count, part)})
 
     def _append(self, chunk: dict[str, np.ndarray]) -> list[Divergence]:
         diverged, exploded, first, rejected, turned_down = (
@@ -270,6 +274,7 @@ class Log:
         ):  # logs of earlier versions tell neither exploded gradients nor trials
             chunk.setdefault("exploded", np.zeros_like(chunk["diverged"]))
             chunk.setdefault("turned_down", np.zeros(len(chunk["diverged"]), bool))
+            chunk.setdefault("part", np.zeros(len(chunk["diverged"]), int))
         if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)
@@ -295,6 +300,7 @@ class Log:
             tuple(self.divergences),
             dict(zip(self._places.names, evaluations[:, 3:].T.astype(int), strict=False)),
             columns["loss"],
+            columns["part"],
         )
 
 

@@ -80,6 +80,8 @@ def train(
         first, state = run.resume(stored, starts)
     try:
         for i in range(first, len(legs)):
+            if state is None and run.can_skip(i):
+                continue
             run.follow(i, run.enter(i) if state is None else state)
             state = None
     except KeyboardInterrupt:
@@ -131,7 +133,7 @@ class _Run:
         self.planned = [0, *itertools.accumulate(leg.epochs for leg in legs)]
         self.epochs = self.planned[-1]
         self.compiling = self.updating = 0.0
-        self.evaluated = -1
+        self.evaluated = self.last = -1
         self.before = self.done = 0
         self.going = list(range(len(keys)))
         self.converged = [False] * len(keys)
@@ -167,7 +169,14 @@ class _Run:
         self.before = self.done
         for member in self.members:
             member.before = member.log.epochs
-        return replicate(self._begin(i, [m.best.trainable for m in self.members]), self.mesh)
+        entries = [m.best.trainable for m in self.members]
+        if i and self.legs[i - 1].stage.onward and self.last == i - 1:
+            entries = unstacked(self.candidates[-1], len(self.members))
+        return replicate(self._begin(i, entries), self.mesh)
+
+    def can_skip(self, i: int) -> bool:
+        """Whether all trainings are good enough to leave a leg out."""
+        return all(m.best.loss <= self.legs[i].stage.above for m in self.members)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
         leg = self.legs[i]
@@ -180,7 +189,7 @@ class _Run:
 
     def follow(self, i: int, state: State) -> None:
         """Do the remaining updates of a leg."""
-        leg = self.legs[i]
+        leg, self.last = self.legs[i], i
         objective = replicate(leg.objective, self.mesh)
         self._choose(i)
         self._keep(i, state)
@@ -260,7 +269,7 @@ class _Run:
         for k, entry in enumerate(unstacked(jax.tree.map(np.asarray, entries), size, axis=1)):
             log = self.members[k].log
             if counts[k]:
-                new += log.add(entry, counts[k], started, ended)
+                new += log.add(entry, counts[k], started, ended, self.last)
                 check_rejections(log, rejected[k], self.members[k].problem, tried[k])
         self.done += max(counts)
         self.candidates = candidates(state)
@@ -289,7 +298,9 @@ class _Run:
         ended = unstacked(converged(state), len(self.members))
         patience = math.inf if leg.patience is None else leg.patience
         return all(
-            bool(ended[k]) or self.members[k].evaluations_without_improvement() >= patience
+            bool(ended[k])
+            or self.members[k].evaluations_without_improvement() >= patience
+            or self.members[k].gained_less(leg.stage.gain)
             for k in self.going
         )
 

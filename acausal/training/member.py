@@ -116,6 +116,13 @@ class Member:
         begin = max(self.before, self.best.epoch)
         return sum(evaluation.epoch > begin for evaluation in self.log.evaluations)
 
+    def gained_less(self, part: float) -> bool:
+        """Whether the last of some evaluations in this leg lowered the loss by less than a part of it."""
+        losses = [e.loss for e in self.log.evaluations if e.epoch >= self.before]
+        if part == 0.0 or len(losses) < 3 or not math.isfinite(losses[-2]):
+            return False
+        return min(losses) > (1 - part) * min(losses[:-1])
+
 
 def stacked(trees: Sequence[Tree]) -> Tree:
     """Trees of all members with their arrays stacked; the tree of a single member stays as it is."""

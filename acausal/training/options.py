@@ -33,8 +33,19 @@ from acausal.training.objective.timing import Delay, Lag
 from acausal.training.objective.weighting import RecordWeights, Weight
 from acausal.training.progress import Observer
 
-UPDATES = {"sequences": 1000, "equation_error": 300, "whole_record": 200, "gauss_newton": 50}
+UPDATES = {
+    "auto": 200,
+    "sequences": 1000,
+    "equation_error": 300,
+    "whole_record": 200,
+    "gauss_newton": 50,
+}
 """The parts that a strategy is made of, and how many updates each makes by default."""
+
+OF_SEQUENCES: dict[str, Any] = {
+    "sequence_length": None, "batch_size": 1, "subsample": None, "optimizer": None
+}  # fmt: skip
+"""Options that only sequences have, and their defaults: where one is given, ``"auto"`` means ``"sequences"``."""
 
 
 def _is_number(value: Any) -> bool:
@@ -133,7 +144,7 @@ class FitKeywords(TypedDict, total=False):
     epochs: int | Sequence[int] | None
     optimizer: optax.GradientTransformation | None
     dt: float | None
-    solver: str | Solver
+    solver: str | Solver | None
     rtol: float | None
     atol: float | None
     x0: InitialState
@@ -194,6 +205,8 @@ class FitOptions:
             the best quarter goes on, after 0.6 a quarter of these; the best is returned, and ``fit.starts`` tells how
             many reached it. Networks start the same each time.
         strategy: what to do, or several parts one after the other, each from where the one before was best:
+            ``"auto"`` finds scales and a linear law for every network that has no scales, the method and the length of
+            the steps, and the parts from the data (`Fit.stages`); with an option of sequences it is ``"sequences"``.
             ``"sequences"`` as the options above say; ``"equation_error"``: targets computed from measured
             states without simulation, in a second or so, biased by noise; ``"whole_record"``: L-BFGS on the
             simulation of the whole record; ``"gauss_newton"``: damped Gauss-Newton steps (Levenberg-Marquardt) on it,
@@ -204,7 +217,8 @@ class FitOptions:
         optimizer: of sequences: any optax optimizer; by default Adam, its rate falling from 0.01 to 0.0001 as a
             cosine.
         dt: step of the integration in seconds, a whole part of the sample time (the default).
-        solver: of the fixed steps, by name or a diffrax solver. ``"auto"`` and ``"bdf"`` choose their steps, and any
+        solver: of the fixed steps, by name or a diffrax solver; by default chosen by measurement with
+            ``strategy="auto"``, else ``"heun"``. ``"auto"`` and ``"bdf"`` choose their steps, and any
             solver with an error estimate does if ``rtol`` or ``atol`` is given. Such steps end at every sample of a
             model with inputs. ``"stiff"`` is BDF, and Kvaerno3 with ``dt``.
         rtol: relative tolerance of adaptive steps, 1e-6 by default.
@@ -250,11 +264,11 @@ class FitOptions:
     batch_size: int = 1
     subsample: float | None = None
     starts: int = 1
-    strategy: str | Sequence[str] = "sequences"
+    strategy: str | Sequence[str] = "auto"
     epochs: int | Sequence[int] | None = None
     optimizer: optax.GradientTransformation | None = None
     dt: float | None = None
-    solver: str | Solver = "heun"
+    solver: str | Solver | None = None
     rtol: float | None = None
     atol: float | None = None
     x0: InitialState = "auto"
@@ -310,6 +324,8 @@ class FitOptions:
                 raise TrainingError(
                     f"{shown(function)} is not a function, but the training calls it."
                 )
+        if "auto" in self.parts and len(self.parts) > 1:
+            raise TrainingError("strategy='auto' chooses all parts itself; give it alone.")
         for name in self.parts:
             if name not in UPDATES:
                 raise TrainingError(f"No strategy '{name}': {nearest(name, UPDATES)}")
@@ -363,7 +379,14 @@ class FitOptions:
     @cached_property
     def parts(self) -> tuple[str, ...]:
         """The parts of the strategy."""
+        if self.strategy == "auto" and any(getattr(self, n) != d for n, d in OF_SEQUENCES.items()):
+            return ("sequences",)
         return (self.strategy,) if isinstance(self.strategy, str) else tuple(self.strategy)
+
+    @property
+    def automatic(self) -> bool:
+        """Whether the stages are chosen from the data."""
+        return self.parts == ("auto",)
 
     @cached_property
     def updates(self) -> tuple[int, ...]:
@@ -385,7 +408,11 @@ _NOT_DESCRIBED = (
 def _name_of_optimizer(options: FitOptions) -> str:
     if options.optimizer is not None:
         return "of the user (optax)"
-    known = {"whole_record": "L-BFGS", "gauss_newton": "Levenberg-Marquardt"}
+    known = {
+        "auto": "L-BFGS or Levenberg-Marquardt",
+        "whole_record": "L-BFGS",
+        "gauss_newton": "Levenberg-Marquardt",
+    }
     adam = "Adam, its rate falling from 0.01 to 0.0001 as a cosine"
     return ", then ".join(known.get(part, adam) for part in options.parts)
 

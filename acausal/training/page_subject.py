@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.reporting import InputStatistics
+from acausal.training.auto.verdict import StageResult
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.starts import Starts
@@ -41,6 +42,8 @@ class Trained(TrainedModel, Protocol):
 
     @property
     def starts(self) -> Starts | None: ...  # noqa: D102
+    @property
+    def stages(self) -> tuple[StageResult, ...]: ...  # noqa: D102
     @property
     def problem(self) -> Problem: ...  # noqa: D102
     @property

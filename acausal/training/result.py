@@ -18,6 +18,12 @@ from acausal.errors import TrainingError, nearest, need_path
 from acausal.networks import remove_offset
 from acausal.pages import write_page
 from acausal.reporting import PageContent
+from acausal.training.auto.verdict import (
+    StageResult,
+    Verdict,
+    step_error,
+    verdict,
+)
 from acausal.training.export_with_card import export_with_card
 from acausal.training.fit_page import fit_content
 from acausal.training.fit_view import fit_view
@@ -88,6 +94,10 @@ class Fit:
         starts: what several starts of the parameters reached; ``None`` for one.
         problem, trained: the training problem and what was trained, for further questions.
         settings: how it was trained: the seed and the options, as texts by name.
+        stages: what the training did, one part after the other, and the loss that each reached.
+        step_error: how much twice as many steps change the predictions, relative to the targets' deviations; measured
+            with ``strategy="auto"`` and fixed steps.
+        not_laws: networks of which ``strategy="auto"`` knew no scales: modules of your own.
     """
 
     system: System
@@ -110,6 +120,19 @@ class Fit:
     trained: Trainable
     starts: Starts | None = None
     settings: Mapping[str, str] = field(default_factory=dict[str, str])
+    stages: tuple[StageResult, ...] = ()
+    step_error: float | None = None
+    not_laws: tuple[str, ...] = ()
+
+    @cached_property
+    def verdict(self) -> Verdict | None:
+        """Whether the fit explains the records down to their noise; ``None`` for other losses than ``"nrmse"``."""
+        return verdict(self)
+
+    def stages_summary(self) -> str:
+        """The stages and what each reached, in a line."""
+        line = " → ".join(f"{stage.title} {stage.loss:.4g}" for stage in self.stages)
+        return line if self.verdict is None else f"{line}; noise {self.verdict.noise:.4g}"
 
     @property
     def x0(self) -> dict[str, float]:
@@ -330,6 +353,7 @@ class Fit:
             f"{trained} trained on {self.samples_trained} samples of {', '.join(self.problem.targets)} in "
             f"{self.seconds:.3g} s, {self.history.epochs} updates{end}."
         )
+        lead += "" if self.verdict is None else f" The model {self.verdict}"
         return fit_content(self, self.before, title or "Training", lead, self._losses(), profiles)
 
     def _losses(self) -> list[tuple[str, str, str]]:
@@ -454,6 +478,8 @@ class Fit:
         lines += [f"  times     {', '.join(late)}"] if late else []
         found = found_starts(self.problem)
         lines += [f"  x0        found: {found}"] if found else []
+        lines += [f"  stages    {self.stages_summary()}"] if self.stages else []
+        lines += [] if self.verdict is None else [f"  verdict   {self.verdict}"]
         diverged = self.history.divergences
         lines += (
             [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
@@ -473,8 +499,10 @@ def result(
     held: HeldOut | None = None,
     starts: Starts | None = None,
     settings: Mapping[str, str] | None = None,
+    stages: tuple[StageResult, ...] = (),
+    not_laws: tuple[str, ...] | None = None,
 ) -> Fit:
-    """The result of a training."""
+    """The result of a training; ``not_laws`` is not None for one whose steps were chosen by measurement."""
     best, history = on_default_device(trained.best, problem.mesh), trained.history
     problem = replace(problem, mesh=None)
     seen = problem.seen(best.trainable, best.simulated.x)
@@ -500,4 +528,9 @@ def result(
         trained=best.trainable,
         starts=starts,
         settings=dict(settings or {}),
+        stages=stages,
+        step_error=None
+        if not_laws is None
+        else step_error(problem, best.trainable, best.simulated),
+        not_laws=not_laws or (),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -12,7 +12,11 @@ from acausal.errors import TrainingError
 from acausal.training.objective.equation_error import EquationError, equation_error
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import changes_of
-from acausal.training.objective.whole_record import gauss_newton, over_whole_record
+from acausal.training.objective.whole_record import (
+    gauss_newton,
+    over_whole_record,
+    over_windows,
+)
 from acausal.training.optimizers.descent import DescentMethod
 from acausal.training.optimizers.gradients import (
     Evaluate,
@@ -28,11 +32,35 @@ EVALUATIONS = 10
 """Evaluations over the whole record in each leg, by default."""
 
 
+class Stage(NamedTuple):
+    """What a part of a training does, before there is a problem.
+
+    Attributes:
+        kind: one of the `UPDATES` of the options.
+        epochs: updates at most.
+        title: what to call it.
+        rows: of windows that lie side by side and start from measured states; ``None`` for what the options say.
+        descent: whether windows are trained by L-BFGS, all at once.
+        above: it is left out where the loss over the whole record is not above.
+        onward: whether the next part goes on from its end, and not from the best over the whole record.
+        gain: it ends when an evaluation is not better by this part than the one before.
+    """
+
+    kind: str
+    epochs: int
+    title: str = ""
+    rows: int | None = None
+    descent: bool = False
+    above: float = 0.0
+    onward: bool = False
+    gain: float = 0.0
+
+
 class Leg(NamedTuple):
     """A part of a training.
 
     Attributes:
-        name: of its kind.
+        stage: what it does.
         objective: what it minimises.
         trainer: how.
         epochs: updates at most; fewer where the optimizer finds nothing better.
@@ -40,16 +68,21 @@ class Leg(NamedTuple):
         patience: evaluations without a better one after which it ends; ``None`` for never.
     """
 
-    name: str
+    stage: Stage
     objective: Problem | EquationError
     trainer: Trainer
     epochs: int
     evaluate_every: int
     patience: int | None
 
+    @property
+    def name(self) -> str:
+        """Of its kind."""
+        return self.stage.kind
+
     def over(self, problem: Problem) -> Leg:
         """The same part with the same trainer, and so the same program, for a problem of the same shapes."""
-        return self._replace(objective=KINDS[self.name].objective(problem))
+        return self._replace(objective=_objective(self.stage, problem))
 
 
 class _Kind(NamedTuple):
@@ -75,21 +108,34 @@ KINDS = {
 """The kinds of legs; their names and numbers of updates are in `UPDATES` of the options."""
 
 
-def legs(problem: Problem, options: FitOptions, limit: float) -> tuple[Leg, ...]:
+def stages(options: FitOptions) -> tuple[Stage, ...]:
+    """The stages of a strategy that the user has named."""
+    parts = zip(options.parts, options.updates, strict=True)
+    return tuple(Stage(name, count, name.replace("_", " ")) for name, count in parts)
+
+
+def legs(
+    problem: Problem, planned: Sequence[Stage], options: FitOptions, limit: float
+) -> tuple[Leg, ...]:
     """The legs of a training; a sequence with a loss above the limit has diverged.
 
     Raises:
         TrainingError: for an optimizer or a problem that a leg cannot have.
     """
-    return tuple(
-        _leg(problem, name, count, options, limit)
-        for name, count in zip(options.parts, options.updates, strict=True)
-    )
+    return tuple(_leg(problem, stage, options, limit) for stage in planned)
 
 
-def _leg(problem: Problem, name: str, epochs: int, options: FitOptions, limit: float) -> Leg:
-    kind = KINDS[name]
-    if kind.optimizer is not None:
+def _objective(stage: Stage, problem: Problem) -> Problem | EquationError:
+    if stage.rows is None:
+        return KINDS[stage.kind].objective(problem)
+    return over_windows(problem, stage.rows)
+
+
+def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> Leg:
+    epochs, kind = stage.epochs, KINDS[stage.kind]
+    if stage.descent:
+        chosen = lbfgs()
+    elif kind.optimizer is not None:
         chosen = kind.optimizer()
     else:
         chosen = default_optimizer(epochs) if options.optimizer is None else options.optimizer
@@ -102,7 +148,7 @@ def _leg(problem: Problem, name: str, epochs: int, options: FitOptions, limit: f
     every = options.evaluate_every
     if every is None:
         every = max(1, epochs // EVALUATIONS)
-    return Leg(name, kind.objective(problem), trainer, epochs, every, options.patience)
+    return Leg(stage, _objective(stage, problem), trainer, epochs, every, options.patience)
 
 
 @cache

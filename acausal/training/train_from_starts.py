@@ -26,6 +26,8 @@ from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, TrainingError, listing, shown, user_level
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
+from acausal.training.auto.automatic import Automatic, automatic
+from acausal.training.auto.verdict import stage_results
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
@@ -45,7 +47,7 @@ from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
 from acausal.training.starts import spread_starts, starts_of
-from acausal.training.strategy import Leg, legs
+from acausal.training.strategy import Leg, legs, stages
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -70,6 +72,7 @@ class Training:
         legs: what to do, one part after the other.
         options: how to train.
         seeds: one for each training; ``params``: the parameters where each starts.
+        automatic: what was chosen from the data, with ``strategy="auto"``.
     """
 
     problem: Problem
@@ -79,6 +82,7 @@ class Training:
     options: FitOptions
     seeds: Sequence[int]
     params: Sequence[Mapping[str, Any]]
+    automatic: Automatic | None = None
 
 
 def prepare(
@@ -117,10 +121,19 @@ def prepare(
     kept = split(records, options.validation)
     names = names_in(targets, "targets")
     check_records(options.x0, (*records, *(kept.held or {})))
-    problem = build_problem(system, kept.training, names, starts[0], options)
+    chosen = None
+    if options.automatic:
+        with (
+            warnings.catch_warnings()
+        ):  # what there is to warn of, the problem of the training says again
+            warnings.simplefilter("ignore")
+            chosen = automatic(system, kept.training, names, starts, options)
+        options, starts = chosen.options, list(chosen.params)
+    problem = build_problem(system, kept.training, names, dict(starts[0]), options)
     held = hold_out(problem, kept, options.x0)
-    plan = legs(problem, options, _limit_of(options))
-    return Training(problem, kept.training, held, plan, options, seeds, starts)
+    planned = stages(options) if chosen is None else chosen.stages
+    plan = legs(problem, planned, options, _limit_of(options))
+    return Training(problem, kept.training, held, plan, options, seeds, starts, chosen)
 
 
 def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:
@@ -138,6 +151,8 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     plan, seeds, epochs = training.legs, training.seeds, sum(leg.epochs for leg in training.legs)
     problems = [_from(problem, own) for own in training.params]
     starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
+    if training.automatic is not None and options.starts == 1:
+        starts = [training.automatic.begin(problem, start) for start in starts]
     keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
     identity = (
         {}
@@ -169,8 +184,19 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     settings = [{"seed": str(seed), **options.described()} for seed in seeds]
+    chosen = training.automatic
+    linear = None if chosen is None or chosen.linear is None else chosen.linear.loss
+    not_laws = None if chosen is None else chosen.not_laws
     return tuple(
-        result(own, one, judged or held, spread, said)
+        result(
+            own,
+            one,
+            judged or held,
+            spread,
+            said,
+            stage_results(one.history, plan, linear),
+            not_laws,
+        )
         for own, one, said in zip(problems, trained, settings, strict=True)
     )
 

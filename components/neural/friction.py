@@ -22,6 +22,9 @@ class PartialFrictionCurve(PartialNetwork):
     of the speed, ``output_scale`` of the friction, from which training starts.
     """
 
+    input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")
+    output_scale = ac.Option(1.0, doc="magnitude of the output")
+
     def _spec(self) -> Callable[[Any], Any]:
         return partial(_positive, **self._sizes)
 

@@ -42,6 +42,8 @@ class Hysteresis(PartialTwoPort, PartialNetwork):
             may be networks of your own; what is proved above is then for them to keep.
     """
 
+    input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")
+    output_scale = ac.Option(1.0, doc="magnitude of the output")
     odd = ac.Option(False, doc="the same in both directions")
     memory = ac.Module("_fresh_memory", doc="how fast the memory fades")
     z = ac.Variable(state="prefer", doc="what the element remembers")

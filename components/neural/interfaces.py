@@ -81,8 +81,10 @@ class PartialNetwork(ac.Component):
     width = ac.Option(16, doc="neurons in each hidden layer")
     depth = ac.Option(2, doc="hidden layers")
     activation = ac.Option(None, doc="of the hidden layers, by name; None takes the default")
-    input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")
-    output_scale = ac.Option(1.0, doc="magnitude of the output")
+    input_scale = ac.Option(
+        None, doc="magnitude of the inputs, one number or one for each; None takes it from the data"
+    )
+    output_scale = ac.Option(None, doc="magnitude of the output; None takes it from the data")
     net = ac.Module("_fresh", doc="the law")
 
     promises: tuple[str, ...] = ()

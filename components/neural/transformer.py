@@ -47,6 +47,8 @@ class LossyTransformer(PartialNetwork, PartialElementaryConditionalHeatPortWitho
     """
 
     ratio = ac.Parameter(1.0, doc="rate at a over rate at b")
+    input_scale = ac.Option(1.0, doc="magnitude of the inputs, one number or one for each")
+    output_scale = ac.Option(1.0, doc="magnitude of the output")
     P_small = ac.Parameter(1e-3, unit="W", min=0, doc="power around which the direction changes")
     P_a = ac.Variable(unit="W", doc="power into port a")
 

@@ -360,7 +360,13 @@ def test_a_derivative_is_compiled_with_its_function():
 def test_fit_differentiates_the_record_and_says_so_once():
     true, _ = follow({REFERENCE: position})
     record = ac.Data(T, {REFERENCE: position(T), "second.s": true["second.s"]})
-    options = {"modifiers": ["spring.c"], "x0": "model", "epochs": 2, "progress": False}
+    options = {
+        "modifiers": ["spring.c"],
+        "x0": "model",
+        "strategy": "sequences",
+        "epochs": 2,
+        "progress": False,
+    }
     with pytest.warns(UserWarning, match=r"differentiates input 'drive\.s_ref'") as said:
         fit = ac.fit(driven(), record, "second.s", validation=0.3, **options)
     assert [str(w.message) for w in said] == [SAID.format("cubic")]

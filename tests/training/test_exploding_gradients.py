@@ -26,7 +26,7 @@ def record() -> ac.Data:
 def train(**options):
     return ac.fit(
         sticking(), record(), ["v", "w"], modifiers=["limit"], params={"limit": 51.0},
-        solver="euler", progress=False, **options,
+        solver="euler", strategy="sequences", progress=False, **options,
     )  # fmt: skip
 
 

@@ -71,6 +71,8 @@ def test_a_model_without_events_has_none() -> None:
 
     ts = np.linspace(0.0, 1.0, 11)
     data = ac.Data(ts, {"x": np.exp(-ts)})
-    fit = ac.fit(ac.compile(Lag()), data, targets=["x"], modifiers=["k"], epochs=1)
+    fit = ac.fit(
+        ac.compile(Lag()), data, targets=["x"], modifiers=["k"], strategy="sequences", epochs=1
+    )
     assert fit.history.events == {}
     assert fit.history.event_changes == ()

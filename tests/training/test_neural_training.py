@@ -131,5 +131,7 @@ def test_a_network_that_no_equation_calls_is_not_trained() -> None:
     t = np.linspace(0, 1, 11)
     data = ac.Data(t, {"x": np.exp(-t)})
     with pytest.warns(UserWarning, match="no better than the targets' mean"):
-        fit = ac.fit(ac.compile(Half()), data, ["x"], epochs=2, progress=False)
+        fit = ac.fit(
+            ac.compile(Half()), data, ["x"], strategy="sequences", epochs=2, progress=False
+        )
     assert list(fit.seen) == ["used"]

@@ -74,7 +74,7 @@ def test_a_model_with_a_spread_bears_another_offset(pushed) -> None:
 
 def test_the_old_name_of_the_option_still_works(pushed) -> None:
     system, record = pushed
-    given: dict[str, Any] = {"epochs": 1, "progress": False}
+    given: dict[str, Any] = {"strategy": "sequences", "epochs": 1, "progress": False}
     with pytest.warns(DeprecationWarning, match="tolerances=.* is now called parameter_spread="):
         old = ac.fit(system, record, "mass.s", tolerances={"offset.f_constant": 0.2}, **given)
     new = ac.fit(system, record, "mass.s", parameter_spread={"offset.f_constant": 0.2}, **given)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import jax
+import jax.numpy as jnp
+import numpy as np
 
 from acausal.errors import TrainingError
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.sequences import whole_records
+from acausal.training.objective.sequences import Sequences, whole_records
 
 MEMORY = 2**30
 """Bytes that the Jacobian of predictions may take; all in all a few times as much is needed."""
@@ -19,6 +21,28 @@ def over_whole_record(problem: Problem) -> Problem:
     shooting = None if problem.shooting is None else problem.shooting.of_records()
     whole = whole_records(problem.records)
     return replace(problem, sequences=whole, shooting=shooting, mesh=None)
+
+
+def over_windows(problem: Problem, rows: int) -> Problem:
+    """The same problem with windows of so many rows that lie side by side and start from measured states."""
+    records = problem.records
+    first, last = np.asarray(records.first), np.asarray(records.last)
+    starts = np.concatenate(
+        [np.arange(a, b + 2 - rows, rows) for a, b in zip(first, last, strict=True)]
+    )
+    assert records.x is not None
+    starts = starts[np.isfinite(np.asarray(records.x)[starts]).all(axis=1)]
+    cut = Sequences(
+        jnp.asarray(starts),
+        jnp.ones(len(starts)),
+        rows,
+        batch_size=len(starts),
+        points=None,
+        whole=False,
+        side_by_side=True,
+    )
+    cut = cut if problem.weighting.alike else cut.weighted(records)
+    return replace(problem, sequences=cut, shooting=None, mesh=None)
 
 
 def gauss_newton(problem: Problem) -> Problem:

@@ -1,0 +1,196 @@
+"""Scales and a linear law from data, for networks that were made without scales."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from acausal.data import like_saved
+from acausal.networks.beside_linear import BesideLinear, BesideQuadratic
+from acausal.networks.extrapolation import Continued, ContinuedEnergy
+from acausal.networks.min_slope import WithMinCurvature, WithMinSlope, start_at
+from acausal.networks.mlp import MLP
+from acausal.networks.monotone import Monotone
+from acausal.networks.promises import kept_promises
+from acausal.networks.scaled import EnergyLaw, Scaled
+from acausal.networks.secondary import number_of
+
+SCALES = ("input_scale", "output_scale")
+
+LEAST = 1e-3
+"""Least slope of a law that must not fall, relative to its scales."""
+
+
+class Affine(NamedTuple):
+    """A law ``offset + Σ slope_i x_i`` in physical units."""
+
+    slope: tuple[float, ...]
+    offset: float = 0.0
+
+
+class Scales(NamedTuple):
+    """What the inputs of a law are about: ``centre ± reach``; and the magnitude of the law."""
+
+    centre: tuple[float, ...]
+    reach: tuple[float, ...]
+    output: float
+
+
+class Shape(NamedTuple):
+    """What a linear law must be like to stand beside a network without breaking its promises.
+
+    Attributes:
+        inputs: how many of the first inputs have a slope.
+        every: how many inputs there are.
+        rising: whether the slope must not be negative.
+        through_zero: whether it must vanish at zero.
+        energy: whether the network is an energy, whose derivative is the law.
+        divides: whether the model is likely to divide by the slope, which has a start of its own.
+    """
+
+    inputs: int
+    every: int
+    rising: bool
+    through_zero: bool
+    energy: bool
+    divides: bool
+
+
+def lacks_scales(network: object) -> bool:
+    """Whether a network was made without scales, which a training can choose."""
+    return any(name in getattr(network, "left_open", ()) for name in SCALES)
+
+
+def linear_shape(network: Any) -> Shape:
+    """What linear law can stand beside a network that lacks scales."""
+    promised = kept_promises(network)
+    energy = isinstance(network, EnergyLaw)
+    zero, rising = bool(promised & {"zero", "odd"}), bool(promised & {"passive", "monotone"})
+    inner = network
+    while not hasattr(inner, "in_size"):
+        inner = inner.net
+    every = int(inner.in_size)
+    inputs = network.inputs if energy else (1 if zero or rising else every)
+    return Shape(inputs, every, rising, zero, energy, _own_start(network) is not None)
+
+
+def with_scales(network: Any, scales: Scales, law: Affine) -> Scaled | EnergyLaw:
+    """A network that lacks scales, with scales and beside a linear law; scales that it has stay as they are.
+
+    Arguments:
+        network: one of which `lacks_scales` is true; its weights stay.
+        scales: of its arguments and results.
+        law: the linear law.
+    """
+    shape, open_ = linear_shape(network), network.left_open
+    centred = not (shape.through_zero or shape.energy or "input_scale" not in open_)
+    centre = scales.centre if centred else (0.0,) * shape.every
+    far = [max(abs(c) + r, 1e-300) for c, r in zip(scales.centre, scales.reach, strict=True)]
+    reach = tuple(scales.reach) if centred else tuple(far)
+    if "input_scale" not in open_:
+        given = network.input_scale
+        reach = given if isinstance(given, tuple) else (given,) * shape.every
+    output = scales.output if "output_scale" in open_ else network.output_scale
+    if shape.divides and "output_scale" in open_:
+        output = max(abs(law.slope[0]) * reach[0], 1e-300)
+    slope = [s * r / output for s, r in zip(law.slope, reach, strict=False)]
+    if shape.energy:
+        slope = [s * r / reach[0] for s, r in zip(slope, reach, strict=False)]
+    offset = law.offset + sum(s * c for s, c in zip(law.slope, centre, strict=False))
+    inner = network if isinstance(network, MLP) else network.net
+    if "activation" in open_:
+        inner = _smooth(inner)
+    if isinstance(inner, MLP):
+        inner = _unscaled(inner)
+    if isinstance(inner, Continued | ContinuedEnergy):
+        limits = (inner.low, inner.high)
+        if "limits" not in open_ and "input_scale" in open_:
+            limits = (inner.low / reach[0], inner.high / reach[0])
+        beside = _beside(inner.net, shape, slope, offset / output)
+        inner = replace(inner, net=beside, low=limits[0], high=limits[1])
+    else:
+        inner = _beside(inner, shape, slope, offset / output)
+    if isinstance(network, EnergyLaw):
+        return EnergyLaw(inner, reach, output * reach[0], network.inputs)
+    return Scaled(inner, reach, output, centre if any(centre) else 0.0)
+
+
+@like_saved.register(MLP)
+@like_saved.register(Scaled)
+@like_saved.register(EnergyLaw)
+def _(network: Any, settings: Mapping[str, str]) -> Any:
+    """A network that lacks scales, with those of a saved one; any other network as it is.
+
+    Arguments:
+        network: the model's own.
+        settings: of the saved network, as texts by field.
+    """
+    if not lacks_scales(network) or settings.get("left_open") != "()":
+        return network
+    known = ("input_scale", "output_scale", "energy_scale", "centre")
+    values = {name: ast.literal_eval(settings[name]) for name in known if name in settings}
+    reach = values["input_scale"]
+    if not isinstance(reach, tuple):
+        return network
+    energy = values.get("energy_scale")
+    output = values["output_scale"] if energy is None else energy / reach[0]
+    shape = linear_shape(network)
+    centre = values.get("centre", 0.0)
+    middle = centre if isinstance(centre, tuple) else (0.0,) * len(reach)
+    slope = tuple(output / r for r in reach[: shape.inputs])
+    return replace(with_scales(network, Scales(middle, reach, output), Affine(slope)), **values)
+
+
+def _beside(net: Any, shape: Shape, slope: list[float], offset: float) -> Any:
+    """The network beside a linear law, in numbers about one."""
+    if shape.divides:
+        return net
+    if shape.rising:
+        start = start_at(max(slope[0], LEAST))
+        if shape.energy:
+            return WithMinCurvature(net, 0.0, start, shape.inputs)
+        return WithMinSlope(net, 0.0, start)
+    beside = BesideQuadratic if shape.energy else BesideLinear
+    level = None if shape.through_zero else jnp.asarray(offset, float)
+    return beside(net, jnp.asarray(slope[: shape.inputs], float), level)
+
+
+def _own_start(network: Any) -> Array | None:
+    """The start of the slope that a network has in itself."""
+    part = network
+    while part is not None:
+        if isinstance(part, WithMinSlope | WithMinCurvature) and part.more is not None:
+            return part.more
+        part = getattr(part, "net", None)
+    return None
+
+
+def _smooth(net: Any) -> Any:
+    """The same weights with tanh in place of ReLU."""
+    if isinstance(net, MLP | Monotone):
+        if net.activation != "relu":
+            return net
+        width, depth = len(net.biases[0]), len(net.biases) - 1
+        if isinstance(net, MLP):
+            like: Any = MLP(net.in_size, width, depth, "tanh", key=0)
+        else:
+            like = Monotone(number_of(net.secondary), width, depth, "tanh", key=0)
+        return _filled(like, net)
+    return replace(net, net=_smooth(net.net)) if hasattr(net, "net") else net
+
+
+def _unscaled(net: MLP) -> MLP:
+    """The same weights without scales."""
+    width, depth = len(net.biases[0]), len(net.biases) - 1
+    like = MLP(net.in_size, width, depth, net.activation, input_scale=1.0, output_scale=1.0, key=0)
+    return _filled(like, net)
+
+
+def _filled(like: Any, net: Any) -> Any:
+    return jax.tree.unflatten(jax.tree.structure(like), jax.tree.leaves(net))

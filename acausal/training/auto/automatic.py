@@ -1,0 +1,251 @@
+"""What ``strategy="auto"`` chooses from the data: scales, a linear start, steps of the integration, and stages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from acausal.data import Data
+from acausal.networks import Affine, Scales, Shape, lacks_scales, linear_shape, with_scales
+from acausal.training.auto.linear_start import LinearStart, linear_module, linear_start
+from acausal.training.auto.noise import noise_loss
+from acausal.training.auto.steps import Step, chosen_steps, tried_steps
+from acausal.training.build_problem import build_problem, trained_networks
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
+from acausal.training.options import FitOptions
+from acausal.training.strategy import Stage
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+MOST = 4000
+"""Rows of the part of the records in which the linear start is sought."""
+
+EXPLAINS = 0.5
+"""The linear start explains a record if it leaves less than this part of the targets' deviation."""
+
+PIECE, PIECES = 25, 60
+"""Samples of the pieces of records in which it is sought where it explains nothing; and how many pieces."""
+
+GOOD = 1.1
+"""A fit with a loss below this many times that of the noise needs no further stages."""
+
+FEW = 60
+"""Up to so many numbers are trained by Gauss-Newton."""
+
+WINDOWS = 100
+"""Updates over windows."""
+
+GAIN = 2e-3
+"""A stage over whole records ends when its loss has not fallen by this part since the last evaluation."""
+
+
+@dataclass(frozen=True, eq=False)
+class Automatic:
+    """What was chosen.
+
+    Attributes:
+        options: with steps.
+        params: where each training starts.
+        stages: what to do.
+        linear: the linear start; ``None`` where no network lacks scales.
+        noise: the loss that the noise alone leaves; ``None`` where the loss is no root mean square.
+        not_laws: networks that are no laws of the library, which are trained from where they are.
+    """
+
+    options: FitOptions
+    params: tuple[Mapping[str, Any], ...]
+    stages: tuple[Stage, ...]
+    linear: LinearStart | None
+    noise: float | None
+    not_laws: tuple[str, ...]
+
+    def begin(self, problem: Problem, start: Trainable) -> Trainable:
+        """The start of a training, with parameters and first states where the linear start found them."""
+        if self.linear is None:
+            return start
+        found, states = self.linear.trainable, start.states
+        own = self.linear.problem.shooting
+        if found.states is not None and problem.shooting is not None and own is not None:
+            first = own.of_first(found.states)
+            whole = problem.shooting
+            if len(whole.first) == len(first) and states is not None:
+                moves = (first - whole.start[whole.first]) / whole.scale
+                states = states.at[whole.first].set(moves)
+        return replace(start, modifiers=found.modifiers, states=states)
+
+
+def automatic(
+    system: System,
+    records: dict[str, Data],
+    targets: tuple[str, ...],
+    params: Sequence[dict[str, Any]],
+    options: FitOptions,
+) -> Automatic:
+    """Choose scales, a start, steps and stages.
+
+    Everything follows from the arguments alone, so that a training that is resumed chooses the same.
+
+    Arguments:
+        system, records, targets: as of `build_problem`.
+        params: where each training would start.
+        options: those of the user; what they say stays.
+
+    Raises:
+        DataError, TrainingError: as `build_problem` does.
+    """
+    names = trained_networks(system, options.train, params[0])
+    shapes = {n: linear_shape(params[0][n]) for n in names if lacks_scales(params[0][n])}
+    fixed = tuple(n for n in names if n not in shapes and not hasattr(params[0][n], "left_open"))
+    linear = {n: linear_module(shape) for n, shape in shapes.items()}
+    part = _part(records, MOST)
+    base = replace(options, sequence_length=None, strategy="whole_record", epochs=None)
+
+    def problem_of(data: dict[str, Data], step: Step, x0: Any = None) -> Problem:
+        own = step.of(base, data)
+        own = own if x0 is None else replace(own, x0=x0)
+        return build_problem(system, data, targets, {**params[0], **linear}, own)
+
+    level = EXPLAINS * np.sqrt(len(targets))
+    step, start, explains = Step(None), None, False
+    for trial in tried_steps(options):
+        found = _start(problem_of(part, trial), shapes)
+        if start is None or found.loss < 0.8 * start.loss:
+            step, start, explains = trial, found, found.loss < level
+        if explains:
+            break
+        pieces = _pieces(part) if shapes and found.problem.records.x is not None else {}
+        if pieces:
+            short = _start(problem_of(pieces, trial, "data"), shapes)
+            if np.isfinite(short.loss):
+                step, start = trial, replace(short, trainable=replace(short.trainable, states=None))
+                break
+    assert start is not None
+    scale = options.loss == "nrmse"
+    noise = noise_loss(problem_of(part, step).records) if scale else None
+    step = chosen_steps(step, start.problem, start.trainable, noise, options)
+    laws = _scales(start, shapes, explains)
+    new = tuple({**own, **{n: with_scales(own[n], *laws[n]) for n in shapes}} for own in params)
+    settled = step.of(options, records)
+    rows = int(np.median([len(data) for data in records.values()]))
+    stages = _stages(start.problem, rows, new[0], names, explains, noise, options)
+    return Automatic(settled, new, stages, start if shapes else None, noise, fixed)
+
+
+def _start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
+    if shapes:
+        return linear_start(problem, shapes)
+    trainable = problem.start()
+    loss = float(problem.simulate(trainable).loss)
+    return LinearStart({}, {}, loss if np.isfinite(loss) else np.inf, problem, trainable)
+
+
+def _part(records: dict[str, Data], most: int) -> dict[str, Data]:
+    """The records, or their beginnings, with so many rows at most."""
+    lengths = [len(d) for d in records.values()]
+    if sum(lengths) <= most:
+        return records
+    found: dict[str, Data] = {}
+    for name, data in sorted(records.items(), key=lambda item: -len(item[1])):
+        left = most - sum(len(d) for d in found.values())
+        if left < 2:
+            break
+        found[name] = data if len(data) <= left else data.between(data.time[0], data.time[left - 1])
+    return {n: found[n] for n in records if n in found}
+
+
+def _pieces(records: dict[str, Data]) -> dict[str, Data]:
+    """Short pieces of records."""
+    cuts = [
+        (name, data, k)
+        for name, data in records.items()
+        for k in range(0, len(data) - PIECE, PIECE)
+    ]
+    chosen = cuts[:: max(1, -(-len(cuts) // PIECES))]
+    return {
+        f"{name} from {data.time[k]:g} s": data.between(data.time[k], data.time[k + PIECE - 1])
+        for name, data, k in chosen
+    }
+
+
+def _scales(
+    start: LinearStart, shapes: dict[str, Shape], explains: bool
+) -> dict[str, tuple[Scales, Affine]]:
+    """By network, its scales and its linear law."""
+    if not shapes:
+        return {}
+    problem, records = start.problem, start.problem.records
+    x = problem.simulate(start.trainable).x
+    if not explains and records.x is not None:
+        x = records.x
+    known = jnp.asarray(np.flatnonzero(np.isfinite(np.asarray(x)).all(axis=1)))
+    seen = problem.seen(start.trainable, x, known)
+    return {
+        n: _scales_of(np.asarray(seen[n]), start.laws[n], start.sensitive[n], shapes[n])
+        for n in shapes
+    }
+
+
+def _scales_of(
+    seen: np.ndarray, law: Affine, sensitive: Affine, shape: Shape
+) -> tuple[Scales, Affine]:
+    low, high = (
+        (seen.min(axis=0), seen.max(axis=0))
+        if len(seen)
+        else (-np.ones(shape.every), np.ones(shape.every))
+    )
+    middle, reach = (low + high) / 2, (high - low) / 2
+    reach = np.where(reach > 1e-9 * np.abs(middle), reach, np.maximum(np.abs(middle), 1.0))
+    centre = np.where(np.abs(middle) > 0.3 * reach, middle, 0.0)
+    reach = np.where(centre == 0.0, np.maximum(np.abs(low), np.abs(high)), reach)
+    reach = np.where(reach > 0, reach, 1.0)
+    n = shape.inputs
+    values = law.offset + (seen[:, :n] @ np.asarray(law.slope) if len(seen) else np.zeros(1))
+    size = float(np.std(values))
+    left = [s * r for s, r in zip(sensitive.slope, reach, strict=False)] + [sensitive.offset]
+    wide = min((s for s in left if np.isfinite(s) and s > 0), default=0.0)
+    output = float(np.hypot(size, min(wide, 10 * size) if size > 0 else wide)) or 1.0
+    scales = Scales(tuple(centre.tolist()), tuple(reach.tolist()), output)
+    return scales, law
+
+
+def _stages(
+    problem: Problem,
+    rows: int,
+    params: Mapping[str, Any],
+    names: Sequence[str],
+    explains: bool,
+    noise: float | None,
+    options: FitOptions,
+) -> tuple[Stage, ...]:
+    leaves = [
+        leaf for n in names for leaf in jax.tree.leaves(eqx.filter(params[n], eqx.is_inexact_array))
+    ]
+    count = sum(leaf.size for leaf in leaves) + len(problem.modifiers.names)
+    few = count <= FEW
+    epochs = options.updates[0] if options.epochs is not None else (50 if few else 200)
+    kind = "gauss_newton" if few else "whole_record"
+    enough = 0.0 if noise is None else GOOD * noise
+    measured = problem.records.x is not None
+    whole = Stage(kind, epochs, gain=GAIN, title="whole record")
+    lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]
+    windows = [
+        Stage(
+            "sequences", WINDOWS, rows=n, onward=True, title=f"windows of {n} samples", descent=True
+        )
+        for n in lengths
+    ]
+    if not measured:
+        return (whole,)
+    if not explains:
+        return (*windows, whole)
+    if noise is None or not names:
+        return (whole,)
+    return (whole, *(stage._replace(above=enough) for stage in (*windows, whole)))

@@ -1,0 +1,247 @@
+"""A linear law in the place of every network: its order of magnitude by trials, then Gauss-Newton.
+
+All trials of both are rows of one program: batches of `BATCH` points, each with its loss, gradient and Gauss-Newton
+Hessian. A step of Gauss-Newton is tried with several dampings at once, from the best few points.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.flatten_util import ravel_pytree
+from jaxtyping import Array, Float
+
+from acausal.networks import Affine, BesideLinear, BesideQuadratic, Shape
+from acausal.simulation import EXPLICIT
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
+from acausal.training.objective.whole_record import over_whole_record
+from acausal.training.optimizers.gradients import total, with_gauss_newton_hessian
+
+BATCH = 32
+"""Points that are evaluated at once."""
+
+BEST = 4
+"""Points from which Gauss-Newton goes on."""
+
+SIZES = tuple(10.0 ** (k / 2) for k in range(-18, 19))
+"""Slopes and offsets that are tried, with both signs."""
+
+STEPS, ENOUGH = 15, 1e-3
+"""Steps of Gauss-Newton at most; it ends when the loss falls by less than this part."""
+
+
+def nothing(*inputs: Any) -> Array:
+    """The network beside which a law is linear alone."""
+    return jnp.zeros(())
+
+
+def linear_module(shape: Shape, law: Affine | None = None) -> BesideLinear | BesideQuadratic:
+    """A linear law, or the energy of one; by default zero."""
+    slope = np.zeros(shape.inputs) if law is None else np.asarray(law.slope)
+    offset = None if shape.through_zero else jnp.asarray(law.offset if law else 0.0, float)
+    kind = BesideQuadratic if shape.energy else BesideLinear
+    return kind(nothing, jnp.asarray(slope, float), offset)
+
+
+@dataclass(frozen=True, eq=False)
+class LinearStart:
+    """What linear laws explain of records.
+
+    Attributes:
+        laws: by network.
+        sensitive: by network, the change of the law that changes the predictions as much as the error that is left:
+            of the slope of each input, and of the offset.
+        loss: over the records.
+        problem, trainable: for what else is asked.
+    """
+
+    laws: dict[str, Affine]
+    sensitive: dict[str, Affine]
+    loss: float
+    problem: Problem
+    trainable: Trainable
+
+
+def linear_start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:
+    """The linear laws that explain records best.
+
+    Arguments:
+        problem: with the `linear_module` of every network in ``shapes``; what else it trains is trained, too.
+        shapes: by network, what linear laws may be like.
+    """
+    objective = over_whole_record(problem)
+    start, unravel = ravel_pytree(objective.start())
+    places = _places(objective, shapes)
+    found = _Points(objective, len(start))
+    base = np.asarray(start)
+    best: dict[str, list[np.ndarray]] = {}
+    for name in sorted(shapes, key=lambda n: not shapes[n].divides):
+        own = _decades(base, places[name], shapes[name])
+        losses = found.losses(own)
+        kept: list[np.ndarray] = []
+        for place in places[name]:  # the best of every slope, and of the offset
+            rows = [k for k, point in enumerate(own) if point[place] != base[place]]
+            if rows and np.isfinite(losses[rows]).any():
+                kept.append(own[min(rows, key=losses.__getitem__)] - base)
+        best[name] = kept
+        if shapes[name].divides and kept:
+            base = base + kept[0]
+            best[name] = []
+    choices = [[np.zeros_like(base), *rows] for rows in best.values()]
+    joint = [
+        base + sum(rows, np.zeros_like(base))
+        for rows in itertools.islice(itertools.product(*choices), 64)
+    ]
+    point, loss, hessian = _gauss_newton(found, joint, _rising(places, shapes))
+    trainable = unravel(jnp.asarray(point))
+    laws = {n: _law(point, places[n], shapes[n]) for n in shapes}
+    diagonal = np.diag(hessian) if np.isfinite(loss) else np.zeros(len(base))
+    moves = (
+        np.sqrt(max(loss, 1e-300) / np.maximum(diagonal, 1e-300)) if np.isfinite(loss) else diagonal
+    )
+    sensitive = {n: _law(moves, places[n], shapes[n]) for n in shapes}
+    return LinearStart(laws, sensitive, loss, objective, trainable)
+
+
+def _places(problem: Problem, shapes: dict[str, Shape]) -> dict[str, list[int]]:
+    """Where each network's slopes and offset are in the vector of all that is trained."""
+    start = problem.start()
+    size = ravel_pytree(start)[0].size
+    _, unravel = ravel_pytree(start)
+    rows = unravel(jnp.arange(size, dtype=float))
+    return {
+        n: np.concatenate([np.ravel(leaf) for leaf in jax.tree.leaves(rows.networks[n])])
+        .astype(int)
+        .tolist()
+        for n in shapes
+    }
+
+
+def _law(point: np.ndarray, places: Sequence[int], shape: Shape) -> Affine:
+    values = [float(point[k]) for k in places]
+    return Affine(tuple(values[: shape.inputs]), 0.0 if shape.through_zero else values[-1])
+
+
+def _rising(places: dict[str, list[int]], shapes: dict[str, Shape]) -> list[int]:
+    return [k for n, shape in shapes.items() if shape.rising for k in places[n][: shape.inputs]]
+
+
+def _decades(base: np.ndarray, places: Sequence[int], shape: Shape) -> list[np.ndarray]:
+    """Points that differ from another one by one slope, or the offset, of one law."""
+    points: list[np.ndarray] = [base]
+    for i, place in enumerate(places):
+        signs = (1.0,) if shape.rising and i < shape.inputs else (1.0, -1.0)
+        for value in itertools.product(SIZES, signs):
+            point = base.copy()
+            point[place] = value[0] * value[1]
+            points.append(point)
+    return points
+
+
+def _batches(points: Sequence[np.ndarray]) -> Iterator[Sequence[np.ndarray]]:
+    return (points[k : k + BATCH] for k in range(0, len(points), BATCH))
+
+
+class _Points:
+    """Losses and their derivatives at points."""
+
+    def __init__(self, objective: Problem, size: int) -> None:
+        self.objective, self.size = objective, size
+        self.forward = isinstance(objective.solver, EXPLICIT)
+        self.batch = objective.draw(jax.random.key(0))
+
+    def losses(self, points: Sequence[np.ndarray]) -> np.ndarray:
+        """Infinite where the model diverges."""
+        return np.concatenate([self.at(rows)[0] for rows in _batches(points)])
+
+    def at(self, points: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of up to `BATCH` points: losses, gradients, Hessians."""
+        count = len(points)
+        filled = np.stack([*points, *[points[-1]] * (BATCH - count)])
+        evaluate = _evaluate if self.forward else _losses
+        loss, gradient, hessian = map(
+            np.asarray, evaluate(self.objective, self.batch, jnp.asarray(filled))
+        )
+        sound = np.isfinite(loss)
+        if self.forward:
+            sound &= np.isfinite(hessian).all(axis=(1, 2)) & np.isfinite(gradient).all(axis=1)
+        return np.where(sound, loss, np.inf)[:count], gradient[:count], hessian[:count]
+
+
+@eqx.filter_jit
+def _evaluate(
+    objective: Problem, batch: Any, points: Float[Array, "n P"]
+) -> tuple[Array, Array, Array]:
+    _, unravel = ravel_pytree(objective.start())
+
+    def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
+        found = with_gauss_newton_hessian(objective, unravel(point), batch)
+        assert found.hessian is not None
+        return found.total, ravel_pytree(found.gradient)[0], found.hessian
+
+    return jax.vmap(one)(points)
+
+
+@eqx.filter_jit
+def _losses(
+    objective: Problem, batch: Any, points: Float[Array, "n P"]
+) -> tuple[Array, Array, Array]:
+    """The same without derivatives, for steps that have none in forward mode."""
+    _, unravel = ravel_pytree(objective.start())
+
+    def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
+        loss = total(objective, unravel(point), batch)[0]
+        return loss, jnp.zeros_like(point), jnp.zeros((point.size, point.size))
+
+    return jax.vmap(one)(points)
+
+
+def _gauss_newton(
+    found: _Points, starts: list[np.ndarray], rising: list[int]
+) -> tuple[np.ndarray, float, np.ndarray]:
+    """The best point, its loss and Hessian."""
+    rows = [(found.at(part), part) for part in _batches(starts)]
+    known = [
+        (loss[k], part[k], gradient[k], hessian[k])
+        for (loss, gradient, hessian), part in rows
+        for k in range(len(part))
+    ]
+    known = sorted(known, key=lambda row: row[0])[:BEST]
+    dampings = np.geomspace(1e-6, 1e2, BATCH // BEST)
+    for _ in range(STEPS):
+        before = known[0][0]
+        if not np.isfinite(before):
+            break
+        trials: list[np.ndarray] = []
+        for loss, point, gradient, hessian in known:
+            for damping in dampings:
+                trial = point + _step(gradient, hessian, damping) if np.isfinite(loss) else point
+                trial[rising] = np.where(trial[rising] < 0, 0.1 * point[rising], trial[rising])
+                trials.append(trial)
+        loss, gradient, hessian = found.at(trials)
+        for k in range(len(known)):
+            own = slice(k * len(dampings), (k + 1) * len(dampings))
+            j = int(np.argmin(loss[own])) + own.start
+            if loss[j] < known[k][0]:
+                known[k] = (loss[j], trials[j], gradient[j], hessian[j])
+        known.sort(key=lambda row: row[0])
+        if known[0][0] > before * (1 - ENOUGH):
+            break
+    loss, point, _, hessian = known[0]
+    return point, float(loss), hessian
+
+
+def _step(gradient: np.ndarray, hessian: np.ndarray, damping: float) -> np.ndarray:
+    """Of Levenberg and Marquardt, damped relative to the Hessian's diagonal."""
+    diagonal = np.diag(hessian)
+    unit = np.where(diagonal > 0, 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0)), 0.0)
+    matrix = hessian * np.outer(unit, unit) + damping * np.eye(len(unit))
+    return -unit * np.linalg.lstsq(matrix, unit * gradient, rcond=None)[0]

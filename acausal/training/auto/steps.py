@@ -1,0 +1,92 @@
+"""The method and length of steps, by measurement: their error stays below a tenth of what the noise leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from acausal.data import Data
+from acausal.simulation import for_fixed_steps, solver_named
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
+from acausal.training.options import FitOptions
+
+ORDER = {"heun": 2, "rk4": 4, "kvaerno3": 3}
+MANY = 10_000
+"""Rows from which on a method of second order is tried, which takes half of the time."""
+
+SHARE, LEAST = 0.1, 1e-3
+"""The largest error, relative to the noise; and the least noise, relative to the targets, that is reckoned with."""
+
+FINEST = 32
+"""Steps between two samples at most."""
+
+
+class Step(NamedTuple):
+    """How a training integrates.
+
+    Attributes:
+        solver: its name; ``None`` where the user has chosen.
+        parts: steps from sample to sample.
+        error: of the steps, relative to the targets' deviation; NaN where it was not measured.
+    """
+
+    solver: str | None
+    parts: int = 1
+    error: float = float("nan")
+
+    def of(self, options: FitOptions, data: Mapping[str, Data]) -> FitOptions:
+        """The options with these steps."""
+        if self.solver is None:
+            return options
+        usual = float(np.median(np.concatenate([np.diff(d.time) for d in data.values()])))
+        dt = options.dt if self.parts == 1 else usual / self.parts
+        return replace(options, solver=self.solver, dt=dt)
+
+
+def tried_steps(options: FitOptions) -> Iterator[Step]:
+    """The steps with which a start is sought, until one explains something."""
+    given = (options.solver, options.rtol, options.atol)
+    if any(value is not None for value in given):
+        yield Step(None)
+        return
+    yield Step("rk4")
+    if options.dt is None:
+        yield Step("kvaerno3")
+
+
+def chosen_steps(
+    step: Step, problem: Problem, trainable: Trainable, noise: float | None, options: FitOptions
+) -> Step:
+    """The steps whose error is small enough, for some state of the training."""
+    if step.solver is None or options.dt is not None or not isinstance(problem.substeps, int):
+        return step
+    allowed = SHARE * max(noise or 0.0, LEAST)
+    coarse = np.asarray(problem.simulate(trainable).y)
+    fine = np.asarray(replace(problem, substeps=2 * problem.substeps).simulate(trainable).y)
+    error = difference(problem, coarse, fine)
+    if not np.isfinite(error):
+        return step
+    order = ORDER[step.solver]
+    if error > allowed:
+        parts = int(np.ceil((error / allowed) ** (1 / order)))
+        parts = min(1 << (parts - 1).bit_length(), FINEST)
+        return Step(step.solver, parts, error / parts**order)
+    if len(problem.records) >= MANY // 4 and step.solver == "rk4" and options.dt is None:
+        heun = for_fixed_steps(solver_named("heun", fixed=False), problem.dtype)
+        rough = difference(
+            problem, np.asarray(replace(problem, solver=heun).simulate(trainable).y), fine
+        )
+        if rough <= allowed:
+            return Step("heun", 1, rough)
+    return step._replace(error=error)
+
+
+def difference(problem: Problem, one: np.ndarray, other: np.ndarray) -> float:
+    """The root mean square difference of predictions, as the loss counts it."""
+    counts = np.asarray(problem.records.weight) > 0
+    squares = np.where(counts, (one - other) / np.asarray(problem.records.sigma), 0.0) ** 2
+    return float(np.sqrt(np.sum(squares.sum(axis=0) / np.maximum(counts.sum(axis=0), 1))))

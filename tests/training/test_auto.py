@@ -1,0 +1,162 @@
+"""A model, a record and no options: the law comes out, or the fit says that it did not."""
+
+from functools import cache
+from pathlib import Path
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import neural, translational as tl
+from acausal.networks import (
+    Affine,
+    Law,
+    Scaled,
+    Scales,
+    kept_promises,
+    lacks_scales,
+    linear_shape,
+    with_scales,
+)
+from acausal.training.auto.noise import noise_of
+from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
+
+
+class Pushed(ac.Component):
+    """A mass of a gram that an unknown element brakes."""
+
+    def __init__(self, damper: ac.Component) -> None:
+        super().__init__()
+        self.wall, self.damper = tl.Fixed(), damper
+        self.mass, self.push = tl.Mass(m=1e-3), tl.Force()
+        self.connect(self.wall.flange, self.damper.flange_a)
+        self.connect(self.damper.flange_b, self.mass.flange_a)
+        self.connect(self.mass.flange_b, self.push.flange)
+
+
+FIRST, SECOND = 2e-4, 2e-3
+
+
+def law(v: jax.Array) -> jax.Array:
+    return FIRST * v + SECOND * v * jnp.abs(v)
+
+
+@cache
+def data() -> ac.Data:
+    t, fine = np.linspace(0.0, 5.0, 251), np.linspace(0.0, 5.0, 250 * 200 + 1)
+    force = 3e-3 * (np.sin(3 * t) + np.sin(7.1 * t + 1))
+    v, s = np.zeros_like(fine), np.zeros_like(fine)
+    pushed = np.interp(fine, t, force)
+    for k, h in enumerate(np.diff(fine)):  # Euler, in fine steps
+        v[k + 1] = v[k] + h * (pushed[k] - FIRST * v[k] - SECOND * v[k] * abs(v[k])) / 1e-3
+        s[k + 1] = s[k] + h * v[k]
+    v, s = v[::200], s[::200]
+    rng = np.random.default_rng(0)
+    noisy = {
+        n: y + 0.01 * y.std() * rng.standard_normal(len(t))
+        for n, y in (("mass.v", v), ("mass.s", s))
+    }
+    noisy = {n: np.where(t == 0, 0.0, y) for n, y in noisy.items()}
+    return ac.Data(t, {"push.f": force, **noisy})
+
+
+def train(**options) -> ac.Fit:
+    system = ac.compile(Pushed(neural.Resistance(width=6, depth=1)))
+    return ac.fit(system, data(), "mass.v", progress=False, **{"epochs": 60, **options})
+
+
+@cache
+def trained() -> ac.Fit:
+    return train()
+
+
+def test_a_law_comes_out_without_options() -> None:
+    fit = trained()
+    v = jnp.linspace(*np.quantile(fit.arguments["damper.net"], [0.02, 0.98]), 50)
+    learned = jax.vmap(fit.params["damper.net"])(v)
+    assert float(jnp.max(jnp.abs(learned - law(v)))) < 0.05 * float(jnp.ptp(law(v)))
+    assert fit.verdict is not None
+    assert fit.verdict.good
+    assert fit.loss < 1.15 * 0.01
+    first, *_, last = fit.stages
+    assert first.title == "linear law"
+    assert last.title == "whole record"
+    assert first.loss > 2 * last.loss
+    assert "explains the record down to its noise" in repr(fit)
+    assert "damper.net was seen between" in repr(fit)
+    assert fit.step_error is not None
+    assert fit.step_error < 1e-3
+
+
+def test_scales_go_along_in_files(tmp_path: Path) -> None:
+    fit = trained()
+    net = fit.params["damper.net"]
+    assert isinstance(net, Scaled)
+    assert not lacks_scales(net)
+    ac.save_params(fit.params, tmp_path / "p.safetensors")
+    loaded = ac.load_params(tmp_path / "p.safetensors", fit.system)
+    for v in (-30.0, 0.5, 100.0):
+        assert float(loaded["damper.net"](v)) == float(net(v))
+    far = [float(net(v)) for v in (400.0, 500.0, 600.0)]  # along the linear law
+    assert far[2] - far[1] == pytest.approx(far[1] - far[0], rel=1e-6)
+
+
+def test_a_trained_law_is_where_the_next_training_begins() -> None:
+    fit = trained()
+    again = ac.fit(fit.system, data(), "mass.v", params=fit.params, epochs=2, progress=False)
+    assert again.loss_before == pytest.approx(fit.loss, rel=1e-6)
+    assert "linear law" not in [stage.title for stage in again.stages]
+
+
+def test_a_fit_that_is_not_good_says_so() -> None:
+    """Nothing moves as the force that is said to push it."""
+    t = np.linspace(0.0, 5.0, 251)
+    rng = np.random.default_rng(1)
+    speed = np.sin(40 * t**2 / 25) + 0.01 * rng.standard_normal(251)
+    wrong = ac.Data(t, {"push.f": 3e-3 * np.sin(t), "mass.v": speed, "mass.s": 0 * t})
+    fit = ac.fit(
+        trained().system, wrong, "mass.v", params=trained().params, epochs=2, progress=False
+    )
+    assert fit.verdict is not None
+    assert not fit.verdict.good
+    assert "does not explain the record" in repr(fit)
+
+
+@pytest.mark.parametrize(
+    "promises",
+    [{}, {"passive": True}, {"odd": True}, {"monotone": True}, {"passive": True, "monotone": True},
+     {"zero_crossing": "exact"}, {"monotone": True, "start": 1.0}, {"secondary": 1}, {"extrapolation": "linear"}],
+)  # fmt: skip
+def test_promises_are_kept_beside_a_linear_law(promises: dict) -> None:
+    fresh = Law(**promises)(0)
+    shape = linear_shape(fresh)
+    slope = (3.0,) * shape.inputs
+    centre, reach = (20.0,) * shape.every, (5.0,) * shape.every
+    net = with_scales(
+        fresh, Scales(centre, reach, 15.0), Affine(slope, 0.0 if shape.through_zero else -2.0)
+    )
+    assert kept_promises(fresh) <= kept_promises(net)
+    low, high = (float(net(*([v] * shape.every))) for v in (15.0, 25.0))
+    assert (high - low) / 10 == pytest.approx(sum(slope), abs=2.5)
+
+
+def test_noise_is_found_beside_a_smooth_signal() -> None:
+    problem = trained().problem
+    (noise,) = noise_of(problem.records)
+    assert noise / float(problem.records.sigma[0]) == pytest.approx(0.01, rel=0.25)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["friction, acceleration", "circuit in microseconds", "house, a month",
+                                  "motor's load", "tanks", "limit cycle"])  # fmt: skip
+def test_problems_without_options(name: str) -> None:
+    problem = PROBLEMS[name]
+    _, noisy, _ = record(problem, NOISE, 0)
+    fit = by_default(problem, noisy["run 0"])
+    assert fit.loss < 1.15 * NOISE
+    assert fresh_error(problem, fit) < 3 * NOISE
+    assert law_error(problem, fit) < (0.1 if name == "limit cycle" else 0.05)
+    assert fit.verdict is not None
+    assert fit.verdict.good
