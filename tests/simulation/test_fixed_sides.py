@@ -169,3 +169,29 @@ def test_a_training_with_a_delayed_input_simulates_that_delay(held, kind):
     )
     assert float(fit.loss_before) < 1e-7
     assert float(fit.params["k"]) == pytest.approx(1.0, abs=1e-6)
+
+
+class Counted(ac.Component):
+    """The same lag beside a counter, so that the model has events."""
+
+    x = ac.Variable(start=0.3, fixed=True)
+    u = ac.Input()
+    k = ac.Parameter(1.0)
+    n = ac.Discrete(0, kind="int")
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.k * self.x)
+        yield ac.When(ac.sample(0.1, 0.25), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+@pytest.mark.slow
+def test_a_delayed_held_input_divides_rows_of_models_with_events():
+    system, ts = ac.compile(Counted()), np.arange(51) * 0.02
+    us, late = np.sin(9 * ts), 0.013
+    inputs = {"u": ac.Signal(ts, us, "previous").delayed(late)}
+    fine = ac.simulate(system, (0, 1), dt=1e-3, saveat=ts, solver="rk4", inputs=inputs)
+    data = ac.Data(ts, {"u": us, "x": np.asarray(fine["x"])}, interpolation={"u": "previous"})
+    options = {"modifiers": ["k"], "delays": {"u": late}, "solver": "rk4", "progress": False}
+    fit = ac.fit(system, data, ["x"], epochs=2, strategy="gauss_newton", **options)
+    assert float(fit.loss_before) < 1e-7
+    assert float(fit.params["k"]) == pytest.approx(1.0, abs=1e-6)
