@@ -78,6 +78,17 @@ def test_edges_within_steps_divide_them_when_jax_compiles_and_maps(lag):
         assert [by_start[k], by_period[k]] == pytest.approx(slopes, rel=1e-4)
 
 
+@pytest.mark.parametrize("wrap", [lambda f: f, jax.jit], ids=["known", "compiled"])
+def test_edges_at_ends_of_steps_have_a_gradient(lag, wrap):
+    def last(start):
+        params = lag.parameters() | {"s.startTime": start}
+        return ac.simulate(lag, 3.8, dt=0.1, params=params, solver="rk4")["f.y"][-1]
+
+    edges = 0.5 + 0.5 * np.arange(7)
+    terms = 2.0 * (-1.0) ** np.arange(7) * -np.exp(-(3.8 - edges) / T) / T
+    assert float(wrap(jax.grad(last))(0.5)) == pytest.approx(terms.sum(), rel=1e-4)
+
+
 @pytest.fixture(scope="module")
 def held():
     return ac.compile(
