@@ -58,9 +58,8 @@ def simulate_fixed(
     start = run.start._replace(t=jnp.asarray(ends[0]))  # an array: other times need no compilation
     start, steps = cast((start, steps), dtype)
     scheme = solvers.for_fixed_steps(solver, dtype, direct=direct)
-    divided = (
-        direct or known(run.start.packed) is None
-    )  # else `are_split` has seen no edge within a step
+    # where values are known, `are_split` has seen no edge within a step; those at ends of steps move what is traced
+    divided = direct or traced(run.start.packed)
     x = _scan_steps(run.system, start, steps, scheme, direct, divided)
     if not traced(x):
         _check(run, ends, np.asarray(x))

@@ -259,7 +259,7 @@ def integrate(
         return jax.lax.scan(lambda x, j: (over(ends(j), x, within, None), None), x, rest)[0]
 
     def whole(x: State, within: Within, first: State | None) -> State:
-        cuts = _cuts(system, within, divided)
+        cuts, moved = _cuts(system, within, divided)
         if cuts is None:
             return in_parts(0.0, 1.0, x, within, first)
 
@@ -269,7 +269,8 @@ def integrate(
 
         x = in_parts(jnp.zeros_like(cuts[0]), cuts[0], x, within, first)
         later = cuts, jnp.append(cuts[1:], jnp.ones((), cuts.dtype))
-        return jax.lax.scan(next_part, x, later)[0]
+        x = jax.lax.scan(next_part, x, later)[0]
+        return x if moved is None else _with_edge_at_end(system, within, x, *moved)
 
     def observe(x: State, within: Within) -> tuple[State | None, Array | None]:
         if not outputs:
@@ -303,27 +304,51 @@ def _is_whole(low: ArrayLike, high: ArrayLike) -> bool:
     return _is_zero(low) and isinstance(high, float) and high == 1.0
 
 
-def _cuts(system: System, within: Within, divided: bool) -> Float[Array, " p"] | None:
-    """The fractions of a step, above 0 and increasing, at which edges of sources, or inputs, divide it."""
+def _cuts(
+    system: System, within: Within, divided: bool
+) -> tuple[Float[Array, " p"] | None, tuple[Array, Array] | None]:
+    """The fractions of a step, above 0 and increasing, at which edges of sources, or inputs, divide it.
+
+    And whether an edge is at its end, and by what that moves: zero, with derivatives.
+    """
     step = within.step
     found = [] if step.parts is None else [*step.parts.cuts]
     signals = [f for f in within.functions if isinstance(f, Signal)]
     signals = [f for f in signals if f.jumps or f.interpolation == "linear"]
+    moved = None
     if divided and (system.edges or signals):
         end = step.t + step.h
         eps = SIDE * jnp.finfo(jnp.result_type(step.t)).eps
         apart = eps * jnp.maximum(jnp.abs(step.t), jnp.abs(end))
-        t = step.t
+        t, moved = step.t, (jnp.array(False), jnp.zeros_like(step.t))
         for _ in range(EDGES):
             times = [_next_sample(f, t + apart) for f in signals]
             if system.edges:
                 ahead = system.edges.ahead(within.values.packed, t, apart)
                 times += [ahead.jump, ahead.bend]
             t = jnp.min(jnp.stack([jnp.asarray(v, step.t.dtype) for v in times]))
-            is_within = t < end - apart
+            is_within, is_last = t < end - apart, jnp.abs(t - end) <= apart
+            shift = jnp.where(is_last, t - jax.lax.stop_gradient(t), 0.0)
+            moved = moved[0] | is_last, moved[1] + shift
             t = jnp.where(is_within, t, end)
             found.append(jnp.where(is_within, (t - step.t) / step.h, 1.0))
-    return jnp.sort(jnp.stack(found)) if found else None
+    return jnp.sort(jnp.stack(found)) if found else None, moved
+
+
+def _with_edge_at_end(
+    system: System, within: Within, x: State, there: Array, shift: Array
+) -> State:
+    """The same state, with derivatives by the time of an edge at the end of a step."""
+
+    def moved() -> State:
+        before = within.at(1.0, x, (0.5, 1.0))
+        end = within.step.time(1.0)
+        eps = 2 * SIDE * jnp.finfo(jnp.result_type(end)).eps
+        after = before._replace(t=end + eps * jnp.maximum(jnp.abs(within.step.t), jnp.abs(end)))
+        change = system.rates(before) - system.rates(after)
+        return x + jax.lax.stop_gradient(change) * shift
+
+    return jax.lax.cond(there, moved, lambda: x)
 
 
 def _next_sample(signal: Signal, t: Array) -> Array:

@@ -78,6 +78,17 @@ def test_edges_within_steps_divide_them_when_jax_compiles_and_maps(lag):
         assert [by_start[k], by_period[k]] == pytest.approx(slopes, rel=1e-4)
 
 
+@pytest.mark.parametrize("wrap", [lambda f: f, jax.jit], ids=["known", "compiled"])
+def test_edges_at_ends_of_steps_have_a_gradient(lag, wrap):
+    def last(start):
+        params = lag.parameters() | {"s.startTime": start}
+        return ac.simulate(lag, 3.8, dt=0.1, params=params, solver="rk4")["f.y"][-1]
+
+    edges = 0.5 + 0.5 * np.arange(7)
+    terms = 2.0 * (-1.0) ** np.arange(7) * -np.exp(-(3.8 - edges) / T) / T
+    assert float(wrap(jax.grad(last))(0.5)) == pytest.approx(terms.sum(), rel=1e-4)
+
+
 @pytest.fixture(scope="module")
 def held():
     return ac.compile(
@@ -167,5 +178,31 @@ def test_a_training_with_a_delayed_input_simulates_that_delay(held, kind):
         solver="rk4",
         progress=False,
     )
+    assert float(fit.loss_before) < 1e-7
+    assert float(fit.params["k"]) == pytest.approx(1.0, abs=1e-6)
+
+
+class Counted(ac.Component):
+    """The same lag beside a counter, so that the model has events."""
+
+    x = ac.Variable(start=0.3, fixed=True)
+    u = ac.Input()
+    k = ac.Parameter(1.0)
+    n = ac.Discrete(0, kind="int")
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.k * self.x)
+        yield ac.When(ac.sample(0.1, 0.25), ac.Eq(self.n, ac.pre(self.n) + 1))
+
+
+@pytest.mark.slow
+def test_a_delayed_held_input_divides_rows_of_models_with_events():
+    system, ts = ac.compile(Counted()), np.arange(51) * 0.02
+    us, late = np.sin(9 * ts), 0.013
+    inputs = {"u": ac.Signal(ts, us, "previous").delayed(late)}
+    fine = ac.simulate(system, (0, 1), dt=1e-3, saveat=ts, solver="rk4", inputs=inputs)
+    data = ac.Data(ts, {"u": us, "x": np.asarray(fine["x"])}, interpolation={"u": "previous"})
+    options = {"modifiers": ["k"], "delays": {"u": late}, "solver": "rk4", "progress": False}
+    fit = ac.fit(system, data, ["x"], epochs=2, strategy="gauss_newton", **options)
     assert float(fit.loss_before) < 1e-7
     assert float(fit.params["k"]) == pytest.approx(1.0, abs=1e-6)
