@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar, cast
+from typing import Any, Literal, TypedDict, TypeVar, cast
 
 import numpy as np
 import optax
@@ -95,7 +95,7 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
         lambda v: hasattr(v, "confidence") and hasattr(v, "params"),
         "the result of a training",
     ),
-    "sequence_length": (_is_number, "a number of seconds"),
+    "sequence_length": (lambda v: v == "auto" or _is_number(v), "a number of seconds"),
     "batch_size": (_is_count, "a whole number"),
     "subsample": (_is_number, "a fraction"),
     "starts": (_is_count, "a whole number"),
@@ -136,8 +136,8 @@ class FitKeywords(TypedDict, total=False):
     sample_weights: Mapping[str, Weight] | None
     regularizers: Regularizer | Iterable[Regularizer]
     prior: Earlier | None
-    sequence_length: float | None
-    batch_size: int
+    sequence_length: float | Literal["auto"] | None
+    batch_size: int | None
     subsample: float | None
     starts: int
     strategy: str | Sequence[str]
@@ -197,8 +197,10 @@ class FitOptions:
         prior: an earlier fit, when new data come without the old ones: what it knew about laws and trained parameters
             (its `Fit.confidence`) is the prior of this training, which starts from its parameters. Directions that the
             new data leave open stay as they were. Train the same parameters again; those left out stay fixed.
-        sequence_length: in seconds; ``None`` takes all of every record at once.
-        batch_size: sequences in each update.
+        sequence_length: in seconds; ``None`` takes all of every record at once. ``"auto"`` is 50 samples where
+            sequences can begin from measured states, else ``None``; a strategy that names ``"sequences"`` has it by
+            default.
+        batch_size: sequences in each update; by default 1, and 16 of those 50 samples.
         subsample: fraction of each sequence's points, drawn at random, that count in the loss.
         starts: starting points of the trained parameters: the given one, and others spread over their modifiers'
             ranges (evenly between bounds, and over decades where these are a decade apart). After 0.3 of the updates
@@ -260,8 +262,8 @@ class FitOptions:
     sample_weights: Mapping[str, Weight] | None = None
     regularizers: Regularizer | Iterable[Regularizer] = ()
     prior: Earlier | None = None
-    sequence_length: float | None = None
-    batch_size: int = 1
+    sequence_length: float | Literal["auto"] | None = None
+    batch_size: int | None = None
     subsample: float | None = None
     starts: int = 1
     strategy: str | Sequence[str] = "auto"
@@ -306,6 +308,9 @@ class FitOptions:
                     stacklevel=3,
                 )
             options[new] = value
+        named = options.get("strategy", ())
+        if "sequences" in ((named,) if isinstance(named, str) else tuple(named)):
+            options.setdefault("sequence_length", "auto")
         return FitOptions(**options)
 
     def __post_init__(self) -> None:

@@ -34,6 +34,7 @@ class RecordFit:
         sigma: standard deviations of the targets over all records.
         x0: the state at the record's start, by name.
         parameters: the values of the parameters that differ between records, by name.
+        arguments: by network, what it was called with at the samples, sample by sample.
     """
 
     name: str
@@ -45,6 +46,7 @@ class RecordFit:
     sigma: Float[np.ndarray, " n_targets"]
     x0: dict[str, float]
     parameters: dict[str, float]
+    arguments: Mapping[str, Float[np.ndarray, "n_calls n_arguments"]]
 
     @property
     def errors(self) -> Float[np.ndarray, "n n_targets"]:
@@ -99,7 +101,8 @@ class _Known(Protocol):
 def out_of_range(record: RecordFit, fit: _Known) -> str:
     """A sentence on what of a record is outside of what a model was trained on; empty where nothing is.
 
-    Inputs and targets count, at samples where a target is measured, from `OUTSIDE` of the range in training on.
+    Inputs, targets and the arguments of networks count, at samples where a target is measured, from `OUTSIDE` of the
+    range in training on.
 
     Arguments:
         record: as predicted by the trained model.
@@ -113,9 +116,10 @@ def out_of_range(record: RecordFit, fit: _Known) -> str:
             continue
         low, high, least, most = known.min(), known.max(), values.min(), values.max()
         if max(low - least, most - high) > OUTSIDE * (high - low):
-            unit = fit.system.unit(name)
+            plain = name in (*record.inputs, *record.targets)
+            what, unit = (f"'{name}'", fit.system.unit(name)) if plain else (name, "")
             found.append(
-                f"'{name}' is from {least:.4g} to {most:.4g} {unit}".rstrip()
+                f"{what} is from {least:.4g} to {most:.4g} {unit}".rstrip()
                 + f" (in training {low:.4g} to {high:.4g})"
             )
     if not found:
@@ -124,13 +128,19 @@ def out_of_range(record: RecordFit, fit: _Known) -> str:
 
 
 def _measured(record: RecordFit) -> dict[str, Float[np.ndarray, " m"]]:
-    """What is measured of inputs and targets, by name, where some target is."""
-    counts = np.isfinite(record.measured).any(axis=1)
+    """Inputs, targets and arguments of networks, by name, where some target is measured."""
+    counts = np.atleast_1d(np.isfinite(record.measured).any(axis=1))
     columns = {
         **record.inputs,
         **{n: record.measured[:, i] for i, n in enumerate(record.targets)},
     }
-    return {n: c[counts & np.isfinite(c)] for n, c in columns.items()}
+    for name, calls in record.arguments.items():
+        at_samples = calls.reshape(len(counts), -1, calls.shape[1])
+        for i in range(calls.shape[1]):
+            which = f"argument {i + 1}" if calls.shape[1] > 1 else "the argument"
+            columns[f"{which} of '{name}'"] = at_samples[:, :, i]
+    rows = {n: c[counts] for n, c in columns.items()}
+    return {n: c[np.isfinite(c)] for n, c in rows.items()}
 
 
 def of_records(
@@ -142,6 +152,8 @@ def of_records(
         np.asarray(a) for a in (records.steps.t, simulated.x, simulated.y, problem.inputs)
     )
     measured = records.measured
+    seen = problem.seen(trainable, simulated.x) if problem.networks else {}
+    calls = {n: np.asarray(a).reshape(len(x), -1, a.shape[-1]) for n, a in seen.items()}
     own = problem.per_record.values(problem.assemble(trainable), trainable.per_record)
 
     def one(k: int, name: str) -> RecordFit:
@@ -156,6 +168,7 @@ def of_records(
             np.asarray(records.sigma),
             dict(zip(problem.system.states, x[rows[0]].tolist(), strict=True)),
             {n: float(values[k]) for n, values in own.items()},
+            {n: a[rows].reshape(-1, a.shape[-1]) for n, a in calls.items()},
         )
 
     return {name: one(k, name) for k, name in enumerate(records.names)}

@@ -41,7 +41,8 @@ def followed(name: str, predicted: Any, scale: float = 1.0, force: float = 2.0) 
     """A record of a sine under a force of some strength, and a prediction."""
     y = scale * np.sin(T)
     return RecordFit(
-        name, ("mass.s",), T, y[:, None], np.asarray(predicted)[:, None], {"push.f": force * y}, np.ones(1), {}, {}
+        name, ("mass.s",), T, y[:, None], np.asarray(predicted)[:, None], {"push.f": force * y}, np.ones(1), {}, {},
+        {"damper.net": 2 * np.asarray(predicted)[:, None]},
     )  # fmt: skip
 
 
@@ -99,6 +100,12 @@ def test_a_record_outside_of_the_trainings_range_says_so():
     assert "'d' is outside of the training's range: 'push.f' is from" in said
     assert "N (in training" in said
     assert "mass.s" not in said
+    assert "net" not in said
+    beyond = out_of_range(followed("e", 3 + np.sin(T)), fit)
+    assert (
+        "'e' is outside of the training's range: the argument of 'damper.net' is from 4 to"
+        in beyond
+    )
     told = {r.name: out_of_range(r, fit) for r in (inside, outside)}
     blocks = list(record_blocks(fit, {"c": inside, "d": outside}, {}, "held out, ", told))
     at = blocks.index(Text(said))

@@ -10,9 +10,10 @@ import pytest
 
 import acausal as ac
 from acausal.simulation import Adaptive
-from acausal.training.build_problem import _solver
+from acausal.training.build_problem import _solver, build_problem
+from acausal.training.objective.sequences import Sequences
 from acausal.training.options import FitKeywords, FitOptions
-from tests.support.oscillator import learned, record
+from tests.support.oscillator import learned, plain, record
 
 
 def test_type_checkers_see_the_options_that_there_are() -> None:
@@ -92,3 +93,34 @@ def test_what_functions_of_a_training_give_is_checked(given: Any, sentence: str)
 def test_stiff_is_a_solver_of_trainings(given, kind):
     options = FitOptions(solver="stiff", **given)
     assert isinstance(_solver(options, np.dtype(float)), kind)
+
+
+@pytest.mark.parametrize(
+    ("given", "length"),
+    [
+        ({"strategy": "sequences"}, "auto"),
+        ({"strategy": ("sequences", "whole_record")}, "auto"),
+        ({"strategy": "sequences", "sequence_length": None}, None),
+        ({"strategy": "whole_record"}, None),
+    ],
+)
+def test_a_strategy_of_sequences_has_sequences_of_a_default_length(given, length):
+    assert FitOptions.of("fit", given).sequence_length == length
+
+
+def test_the_default_length_is_of_measured_states():
+    data = record(end=3.0)
+
+    def cut_of(names: list[str], **more: object) -> Sequences:
+        chosen = ac.Data(data.time, {n: data[n] for n in names}).for_system(plain())
+        options = FitOptions(sequence_length="auto", modifiers=["mass.m"], **more)
+        return build_problem(
+            plain(), {"record": chosen}, ("mass.a",), plain().parameters(), options
+        ).sequences
+
+    every = ["push.f", "mass.a", "mass.s", "mass.v"]
+    found = cut_of(every)
+    assert (found.length, found.batch_size, found.whole) == (50, 16, False)
+    assert cut_of(every, batch_size=3).batch_size == 3
+    assert cut_of(every[:3]).whole
+    assert cut_of(every, x0="fit").whole

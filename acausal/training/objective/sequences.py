@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 import equinox as eqx
 import jax
@@ -16,6 +17,10 @@ from acausal.training.objective.records import Records
 
 LEAST_WEIGHT = 1e-9
 """Weight of a sequence none of whose samples count, relative to the mean."""
+
+
+SAMPLES, SEQUENCES = 50, 16
+"""Length of sequences, in samples, and how many of them are in a batch, where the user does not say."""
 
 
 class Batch(eqx.Module):
@@ -145,8 +150,8 @@ def whole_records(records: Records, points: int | None = None) -> Sequences:
 def cut(
     records: Records,
     weights: Float[np.ndarray, " R"],
-    seconds: float | None,
-    batch_size: int,
+    seconds: float | Literal["auto"] | None,
+    batch_size: int | None,
     fraction: float | None,
     *,
     tiled: bool,
@@ -157,8 +162,9 @@ def cut(
     Arguments:
         records: the records.
         weights: of the records.
-        seconds: length of a sequence; ``None`` takes all of every record.
-        batch_size: sequences in a batch.
+        seconds: length of a sequence; ``None`` takes all of every record, and so does ``"auto"`` where sequences of
+            `SAMPLES` could not begin at measured states, or would be longer than half of a record.
+        batch_size: sequences in a batch; ``None`` for 1, or `SEQUENCES` of that length.
         fraction: part of each sequence's rows that counts; ``None`` takes all.
         tiled: whether sequences lie side by side, a little longer where a record would not be filled otherwise;
             else they begin wherever all states are measured.
@@ -169,7 +175,13 @@ def cut(
     """
     first, last = np.asarray(records.first), np.asarray(records.last)
     rows = last - first + 1
-    n = _length(records, seconds, rows)
+    if seconds == "auto":
+        fits = records.x is not None and not lacking and not tiled and rows.max() >= 2 * SAMPLES
+        seconds, n = (np.inf, SAMPLES) if fits else (None, int(rows.max()))
+        batch_size = (SEQUENCES if fits else 1) if batch_size is None else batch_size
+    else:
+        n = _length(records, seconds, rows)
+    batch_size = 1 if batch_size is None else batch_size
     if batch_size != int(batch_size):
         raise DataError(f"batch_size={batch_size}; give a whole number of sequences.")
     if batch_size < 1 or (seconds is None and batch_size != 1):
