@@ -30,7 +30,7 @@ from acausal.system import System
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
-from acausal.training.strategy import Leg
+from acausal.training.strategy import Leg, Stage
 
 DERIVED = ("context", "shooting", "weighting", "mesh", "first_states", "start_prior")
 """Fields of a problem that follow from the others, or only choose the devices."""
@@ -74,7 +74,7 @@ def fingerprint(
         ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.first_states, problem.start_prior, problem.shooting is None),
-        "strategy": [leg.stage for leg in legs],
+        "strategy": [_stage(leg.stage) for leg in legs],
         "epochs": [leg.epochs for leg in legs],
         "evaluate_every": [leg.evaluate_every for leg in legs],
         "patience": [leg.patience for leg in legs],
@@ -84,6 +84,12 @@ def fingerprint(
         "members": others,
     }
     return {name: digest(part) for name, part in {**named, **planned}.items()}
+
+
+def _stage(stage: Stage) -> str | Stage:
+    """What a stage is besides its number of updates; of one that the user has named, its kind."""
+    bare = stage._replace(epochs=0, title="")
+    return stage.kind if bare == Stage(stage.kind, 0) else bare
 
 
 # -- functions ---------------------------------------------------------------------------------------

@@ -142,6 +142,25 @@ def test_promises_are_kept_beside_a_linear_law(promises: dict) -> None:
     assert (high - low) / 10 == pytest.approx(sum(slope), abs=2.5)
 
 
+@pytest.mark.slow
+def test_a_training_goes_on_bit_for_bit_and_members_share_the_start(tmp_path: Path) -> None:
+    def stop(progress: ac.Progress) -> None:
+        if progress.epoch >= 20:
+            raise KeyboardInterrupt
+
+    chosen = {"checkpoint": tmp_path, "checkpoint_every": 0.0, "epochs": 40}
+    train(**chosen, observers=[stop])
+    resumed, whole = train(**chosen, resume=True), train(epochs=40)
+    for a, b in zip(jax.tree.leaves(resumed.trained), jax.tree.leaves(whole.trained), strict=True):
+        np.testing.assert_array_equal(a, b)
+    assert [s.title for s in resumed.stages] == [s.title for s in whole.stages]
+    system = ac.compile(Pushed(neural.Resistance(width=6, depth=1)))
+    both = ac.ensemble(system, data(), "mass.v", members=2, epochs=40, progress=False)
+    scales = {fit.params["damper.net"].input_scale for fit in both.fits}
+    assert scales == {whole.params["damper.net"].input_scale}
+    assert all(fit.verdict is not None and fit.verdict.good for fit in both.fits)
+
+
 def test_noise_is_found_beside_a_smooth_signal() -> None:
     problem = trained().problem
     (noise,) = noise_of(problem.records)
