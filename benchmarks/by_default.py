@@ -87,7 +87,8 @@ def _oscillator(**own: Any) -> ac.Component:
     return Wired(
         [("wall.flange", "spring.flange_a", "element.flange_a"),
          ("spring.flange_b", "element.flange_b", "mass.flange_a"), ("mass.flange_b", "push.flange")],
-        wall=tl.Fixed(), spring=tl.Spring(c=50.0), element=neural.Resistance(**own), mass=tl.Mass(m=1.0), push=tl.Force(),
+        wall=tl.Fixed(), spring=tl.Spring(c=50.0), element=neural.Resistance(**own), mass=tl.Mass(m=1.0),
+        push=tl.Force(),
     )  # fmt: skip
 
 
@@ -95,7 +96,8 @@ def _sprung(**own: Any) -> ac.Component:
     return Wired(
         [("wall.flange", "damper.flange_a", "element.flange_a"),
          ("damper.flange_b", "element.flange_b", "mass.flange_a"), ("mass.flange_b", "push.flange")],
-        wall=tl.Fixed(), damper=tl.Damper(d=1.0), element=neural.Compliance(**own), mass=tl.Mass(m=2.0), push=tl.Force(),
+        wall=tl.Fixed(), damper=tl.Damper(d=1.0), element=neural.Compliance(**own), mass=tl.Mass(m=2.0),
+        push=tl.Force(),
     )  # fmt: skip
 
 
@@ -193,7 +195,8 @@ PROBLEMS = {
         {"drive.tau": _waves(2.0, 8.0, 33.0)}, "load.w"),
     "five records": Problem(
         _sprung, lambda s: 50 * s + 400 * s**3, "element.net", (0.5, 50.0), 2.0, 201,
-        {"push.f": _waves(15.0, 2.0)}, "mass.s", 5, {"mass.s": lambda k: 0.1 * k - 0.2, "mass.v": lambda k: 1.0 - 0.5 * k}),
+        {"push.f": _waves(15.0, 2.0)}, "mass.s", 5,
+        {"mass.s": lambda k: 0.1 * k - 0.2, "mass.v": lambda k: 1.0 - 0.5 * k}),
     "limit cycle": Problem(
         _oscillator, lambda v: 2 * v**3 - 2 * v, "element.net", (1.0, 2.0), 60.0, 3001,
         {"push.f": _waves(0.3, 7.0, 30.0)}, "mass.s", 1, {"mass.s": lambda k: 0.1}),
@@ -216,7 +219,8 @@ def record(
         inputs = {n: f(t / problem.end, k + 10.0 * seed) for n, f in problem.inputs.items()}
         x0 = {n: f(float(k)) for n, f in problem.start.items()}
         run = ac.simulate(
-            system, (0.0, problem.end), saveat=t, rtol=1e-9, atol=1e-12, inputs={n: (t, u) for n, u in inputs.items()}, x0=x0 or None
+            system, (0.0, problem.end), saveat=t, rtol=1e-9, atol=1e-12,
+            inputs={n: (t, u) for n, u in inputs.items()}, x0=x0 or None,
         )  # fmt: skip
         names = dict.fromkeys((*system.states, problem.target))
         signals = {n: np.asarray(run[n]) for n in names}
@@ -244,7 +248,8 @@ def fresh_error(problem: Problem, fit: ac.Fit) -> float:
     try:
         run = ac.simulate(
             fit.system, (0.0, problem.end), saveat=t, params=fit.params, rtol=1e-8, atol=1e-11,
-            inputs={n: (t, np.asarray(data[n])) for n in fit.system.inputs}, x0={n: float(data[n][0]) for n in fit.system.states},
+            inputs={n: (t, np.asarray(data[n])) for n in fit.system.inputs},
+            x0={n: float(data[n][0]) for n in fit.system.states},
         )  # fmt: skip
     except ac.ModelError:
         return np.inf

@@ -24,7 +24,7 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("acausal")
 
 
-MAPS = 20_000
+MAPS = 8_000
 """Memory maps from which on compiled programs are let go: each takes some, and Linux allows a process 65,530."""
 
 

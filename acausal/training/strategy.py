@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from functools import cache
 from typing import NamedTuple
@@ -51,7 +52,7 @@ class Stage(NamedTuple):
     title: str = ""
     rows: int | None = None
     descent: bool = False
-    above: float = 0.0
+    above: float = -math.inf
     onward: bool = False
     gain: float = 0.0
 

@@ -41,9 +41,9 @@ class PartialNetwork(ac.Component):
     activation: ClassVar[ac.Option]
     """of the hidden layers, by name; None takes the default"""
     input_scale: ClassVar[ac.Option]
-    """magnitude of the inputs, one number or one for each"""
+    """magnitude of the inputs, one number or one for each; None takes it from the data"""
     output_scale: ClassVar[ac.Option]
-    """magnitude of the output"""
+    """magnitude of the output; None takes it from the data"""
     net: ClassVar[ac.Module]
     """the law"""
     def __init__(self, **modifiers: Any) -> None: ...
@@ -88,6 +88,11 @@ class MultiportCompliance(PartialNetwork):
 
 class PartialFrictionCurve(PartialNetwork):
     """Base of friction whose curve is a network ``net`` of the speed, positive for all weights."""
+
+    input_scale: ClassVar[ac.Option]
+    """magnitude of the inputs, one number or one for each"""
+    output_scale: ClassVar[ac.Option]
+    """magnitude of the output"""
     def __init__(self, **modifiers: Any) -> None: ...
 
 class PartialLaw(PartialNetwork):
@@ -141,6 +146,10 @@ class Characteristic(PartialLaw):
 class Hysteresis(PartialTwoPort, PartialNetwork):
     """A neural hysteresis with an internal state ``z``, after Bouc and Wen; passive for all weights."""
 
+    input_scale: ClassVar[ac.Option]
+    """magnitude of the inputs, one number or one for each"""
+    output_scale: ClassVar[ac.Option]
+    """magnitude of the output"""
     odd: ClassVar[ac.Option]
     """the same in both directions"""
     memory: ClassVar[ac.Module]
@@ -166,6 +175,10 @@ class Hysteresis(PartialTwoPort, PartialNetwork):
 class LossyTransformer(PartialNetwork, _thermal.PartialElementaryConditionalHeatPortWithoutT):
     """A transformer with a learned efficiency map: a gear, a motor, a rack; what is lost leaves as heat."""
 
+    input_scale: ClassVar[ac.Option]
+    """magnitude of the inputs, one number or one for each"""
+    output_scale: ClassVar[ac.Option]
+    """magnitude of the output"""
     ratio: ClassVar[ac.Parameter]
     """rate at a over rate at b"""
     P_small: ClassVar[ac.Parameter]

@@ -182,8 +182,8 @@ def test_states_that_are_no_targets_are_part_of_the_data(tmp_path: Path):
     """Trained states begin where measured ones were, and move relative to that."""
     data = record(end=2.0).select(["mass.a", "mass.s", "push.f"])
     chosen: dict[str, Any] = {
-        "x0": "fit", "modifiers": ["mass.m"], "strategy": "sequences", "epochs": 2, "checkpoint": tmp_path, "resume": True,
-        "progress": False,
+        "x0": "fit", "modifiers": ["mass.m"], "strategy": "sequences", "epochs": 2, "checkpoint": tmp_path,
+        "resume": True, "progress": False,
     }  # fmt: skip
     ac.fit(plain(), data, "mass.a", **chosen)
     moved = ac.Data(data.time, {**data.signals, "mass.s": data["mass.s"] + 0.1})

@@ -14,9 +14,9 @@ import numpy as np
 from acausal.data import Data
 from acausal.networks import Affine, Scales, Shape, lacks_scales, linear_shape, with_scales
 from acausal.training.auto.linear_start import LinearStart, linear_module, linear_start
-from acausal.training.auto.noise import noise_loss
 from acausal.training.auto.steps import Step, chosen_steps, tried_steps
 from acausal.training.build_problem import build_problem, trained_networks
+from acausal.training.objective.noise import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
@@ -232,7 +232,7 @@ def _stages(
     few = count <= FEW
     epochs = options.updates[0] if options.epochs is not None else (50 if few else 200)
     kind = "gauss_newton" if few else "whole_record"
-    enough = 0.0 if noise is None else GOOD * noise
+    enough = -np.inf if noise is None else GOOD * noise
     measured = problem.records.x is not None
     whole = Stage(kind, epochs, gain=GAIN, title="whole record")
     lengths = [n for n in (PIECE, 8 * PIECE) if 2 * n < rows]

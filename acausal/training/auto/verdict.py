@@ -10,10 +10,10 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.simulation import EXPLICIT
-from acausal.training.auto.noise import noise_loss
 from acausal.training.auto.steps import LEAST, SHARE, difference
 from acausal.training.history import History
 from acausal.training.objective.losses import LOSSES
+from acausal.training.objective.noise import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.strategy import Leg
