@@ -43,7 +43,7 @@ UPDATES = {
 """The parts that a strategy is made of, and how many updates each makes by default."""
 
 OF_SEQUENCES: dict[str, Any] = {
-    "sequence_length": None, "batch_size": 1, "subsample": None, "optimizer": None
+    "sequence_length": None, "batch_size": None, "subsample": None, "optimizer": None
 }  # fmt: skip
 """Options that only sequences have, and their defaults: where one is given, ``"auto"`` means ``"sequences"``."""
 

@@ -347,6 +347,7 @@ def test_a_training_that_diverges_names_the_state_that_runs_away_and_the_scales(
             "mass.a",
             params={"mass.m": 1e-4},
             epochs=200,
+            strategy="sequences",
             progress=False,
         )
     message = str(error.value)
@@ -359,7 +360,7 @@ def test_a_fit_that_is_no_better_than_the_mean_says_so():
     with pytest.warns(UserWarning, match=expected):
         fit = ac.fit(
             plain(), record(cubic=0.0), ["mass.s", "mass.v"], modifiers={"mass.m": 0.2}, epochs=1,
-            params={"spring.c": 33.6, "spring.d": 0.0}, progress=False,
+            params={"spring.c": 33.6, "spring.d": 0.0}, strategy="sequences", progress=False,
         )  # fmt: skip
     assert fit.loss > np.sqrt(2)
 

@@ -319,7 +319,7 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
         ({"strategy": "equation_error", "targets": "mass.s"},
          ("At an instant no target depends on 'extra.net': the equation error cannot train it. "
           "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out.")),
-        ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('sequences',): give one number, or one for each part."),
+        ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('auto',): give one number, or one for each part."),
         ({"epochs": 0}, "epochs=0; at least one is needed."),
         ({"dt": "0.01"}, "dt='0.01' is not a step; give a positive time in seconds."),
         ({"epochs": 2.5}, "epochs=2.5; give a whole number of updates."),

@@ -14,7 +14,8 @@ from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 from acausal._jax import value_and_jacobian
 
 EXPLODED = 1e15
-"""The largest change of a loss by a change of what is trained; both are pure numbers of about one."""
+"""The largest change of a loss, against the loss where that is above one, by a change of what is trained: numbers of
+about one."""
 
 Scalar = Float[Array, ""]
 
@@ -156,9 +157,9 @@ def with_gauss_newton_hessian(
     if penalties:
         gradient += jax.grad(penalty)(flat)
         hessian += jax.hessian(penalty)(flat)
-    exploded = ~(jnp.max(jnp.abs(gradient)) < EXPLODED)
-    gradient = jnp.where(exploded, jnp.nan, gradient)
     value = loss + _sum(penalties)
+    exploded = ~(jnp.max(jnp.abs(gradient)) < EXPLODED * jnp.maximum(value, 1.0))
+    gradient = jnp.where(exploded, jnp.nan, gradient)
     return Evaluated(mean[None], penalties, value, unravel(gradient), exploded[None], hessian)
 
 
