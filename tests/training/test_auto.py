@@ -22,6 +22,7 @@ from acausal.networks import (
 )
 from acausal.training.objective.noise import noise_of
 from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
+from tests.training.test_checkpoint import stop
 
 
 class Pushed(ac.Component):
@@ -144,12 +145,8 @@ def test_promises_are_kept_beside_a_linear_law(promises: dict) -> None:
 
 @pytest.mark.slow
 def test_a_training_goes_on_bit_for_bit_and_members_share_the_start(tmp_path: Path) -> None:
-    def stop(progress: ac.Progress) -> None:
-        if progress.epoch >= 20:
-            raise KeyboardInterrupt
-
     chosen = {"checkpoint": tmp_path, "checkpoint_every": 0.0, "epochs": 40}
-    train(**chosen, observers=[stop])
+    train(**chosen, observers=[stop(20)])
     resumed, whole = train(**chosen, resume=True), train(epochs=40)
     for a, b in zip(jax.tree.leaves(resumed.trained), jax.tree.leaves(whole.trained), strict=True):
         np.testing.assert_array_equal(a, b)
