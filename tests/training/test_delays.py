@@ -108,6 +108,7 @@ def test_a_late_input_is_found_beside_parameters() -> None:
         delays={"push.f": ac.Delay()},
         strategy="gauss_newton",
         solver="rk4",
+        x0="data",
         progress=False,
     )
     assert fit.delays["push.f"] == pytest.approx(TAU, abs=1e-3 * DT)
