@@ -36,7 +36,8 @@ def data() -> ac.Data:
 @pytest.fixture(scope="module")
 def fit(system: ac.System, data: ac.Data) -> ac.Fit:
     options: dict[str, Any] = {"sequence_length": 0.5, "batch_size": 4, "progress": False}
-    with warnings.catch_warnings(action="ignore"):  # the record is not of this model
+    with warnings.catch_warnings():  # the record is not of this model
+        warnings.filterwarnings("ignore", "The trained model is no better")
         return ac.fit(system, data, ["mass.a"], epochs=3, modifiers=["spring.c"], **options)
 
 

@@ -42,10 +42,8 @@ UPDATES = {
 }
 """The parts that a strategy is made of, and how many updates each makes by default."""
 
-OF_SEQUENCES: dict[str, Any] = {
-    "sequence_length": None, "batch_size": None, "subsample": None, "optimizer": None
-}  # fmt: skip
-"""Options that only sequences have, and their defaults: where one is given, ``"auto"`` means ``"sequences"``."""
+OF_SEQUENCES = ("sequence_length", "batch_size", "subsample", "optimizer")
+"""Options that only sequences have: where one is given, ``"auto"`` means ``"sequences"``."""
 
 
 def _is_number(value: Any) -> bool:
@@ -384,7 +382,7 @@ class FitOptions:
     @cached_property
     def parts(self) -> tuple[str, ...]:
         """The parts of the strategy."""
-        if self.strategy == "auto" and any(getattr(self, n) != d for n, d in OF_SEQUENCES.items()):
+        if self.strategy == "auto" and any(getattr(self, n) is not None for n in OF_SEQUENCES):
             return ("sequences",)
         return (self.strategy,) if isinstance(self.strategy, str) else tuple(self.strategy)
 
