@@ -10,7 +10,7 @@ import inspect
 import math
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, TypedDict, TypeVar, cast
@@ -306,10 +306,11 @@ class FitOptions:
                     stacklevel=3,
                 )
             options[new] = value
-        named = options.get("strategy", ())
-        if "sequences" in ((named,) if isinstance(named, str) else tuple(named)):
-            options.setdefault("sequence_length", "auto")
-        return FitOptions(**options)
+        chosen = FitOptions(**options)
+        named = chosen.strategy != "auto" and "sequences" in chosen.parts
+        if named and "sequence_length" not in options:
+            return replace(chosen, sequence_length="auto")
+        return chosen
 
     def __post_init__(self) -> None:
         """Check what can be checked without a model and data.
