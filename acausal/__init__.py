@@ -9,10 +9,8 @@ import logging as _logging
 import lazy_loader as _lazy
 
 from acausal._jax import configure_with_jax as _configure_with_jax
-from acausal._moved import install as _find_moved_modules
 
 _logging.getLogger(__name__).addHandler(_logging.NullHandler())
 _configure_with_jax()
-_find_moved_modules()
 __version__ = "0.1.0"
 __getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

@@ -19,8 +19,6 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
 from acausal._jax import check_time, floating, is_real, need_double_precision
-from acausal.by_name import Name, names_in
-from acausal.caches import LeavesCaches
 from acausal.codegen import (
     Edges,
     Events,
@@ -42,9 +40,9 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, ModelError, nearest, shown, user_level
-from acausal.flattening import HIDDEN, FlatModel, flatten, with_inputs
+from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, with_inputs
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
-from acausal.modeling import Budget, Component, Discrete, Option
+from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce
 from acausal.units import check_dimensions
 

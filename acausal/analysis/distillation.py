@@ -15,8 +15,8 @@ from scipy.optimize import least_squares
 
 from acausal._jax import is_number
 from acausal.analysis.formula import TERMS, Formula
-from acausal.by_name import names_in
 from acausal.errors import DeclarationError, TrainingError, listing, nearest, shown
+from acausal.modeling import names_in
 from acausal.networks import law_of
 
 Points: TypeAlias = Float[np.ndarray, " n"]

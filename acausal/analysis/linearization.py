@@ -15,8 +15,8 @@ from scipy.linalg import expm
 
 from acausal._jax import check_time, is_real
 from acausal.analysis.operating_point import OperatingPoint
-from acausal.by_name import names_in
 from acausal.errors import DataError, need_compiled, shown
+from acausal.modeling import names_in
 
 if TYPE_CHECKING:
     from control import StateSpace

@@ -11,10 +11,10 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import check_time
-from acausal.by_name import ByName
 from acausal.codegen import Values
 from acausal.errors import DataError, nearest, need_compiled
 from acausal.initialization import Initialization
+from acausal.modeling import ByName
 
 if TYPE_CHECKING:
     from acausal.system import Params, System

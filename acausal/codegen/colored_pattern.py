@@ -11,8 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.caches import LeavesCaches
-from acausal.flattening import Integers
+from acausal.flattening import Integers, LeavesCaches
 from acausal.structure import color_columns, long_rows
 
 

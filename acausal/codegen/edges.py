@@ -18,13 +18,13 @@ import sympy as sp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather
 from acausal.codegen.instructions import Accumulate, Evaluate, Instruction, SolveTornLoop
 from acausal.codegen.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
 from acausal.codegen.program import DISCRETE, ZERO, Program
 from acausal.codegen.reading import chosen_module, read_elements
 from acausal.codegen.values import Packed
+from acausal.flattening import LeavesCaches
 from acausal.modeling import time
 
 

@@ -12,12 +12,11 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 
-from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import DISCRETE, Program
 from acausal.errors import StructureError
-from acausal.flattening import GuardGroup, Integers, UpdateGroup
+from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
 from acausal.modeling import time
 from acausal.structure import ReducedModel
 

@@ -12,9 +12,8 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 
-from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather
-from acausal.flattening import Integers
+from acausal.flattening import Integers, LeavesCaches
 from acausal.structure import Pattern
 
 Place = tuple[int, int]

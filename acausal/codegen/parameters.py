@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.by_name import names_in
-from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather, gather
 from acausal.errors import DataError, DeclarationError, listing, nearest
-from acausal.flattening import Binding, FlatModel, Integers, binding_levels
+from acausal.flattening import Binding, FlatModel, Integers, LeavesCaches, binding_levels
+from acausal.modeling import names_in
 
 
 @dataclass(frozen=True)

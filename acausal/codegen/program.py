@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from acausal.caches import LeavesCaches
 from acausal.codegen.gather import Gather, gather
 from acausal.codegen.instructions import Instruction
-from acausal.flattening import Integers
+from acausal.flattening import Integers, LeavesCaches
 
 STATES, INPUTS, ZERO, DISCRETE = 0, 1, 2, 3
 """The first arrays of every program."""

@@ -20,7 +20,6 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.caches import LeavesCaches
 from acausal.codegen.colored_pattern import ColoredPattern
 from acausal.codegen.field import Field
 from acausal.codegen.iteration_matrix import (
@@ -29,7 +28,7 @@ from acausal.codegen.iteration_matrix import (
     SparseIterationMatrix,
 )
 from acausal.codegen.program import Program
-from acausal.flattening import Integers
+from acausal.flattening import Integers, LeavesCaches
 from acausal.structure import ReducedModel, SparseLoop, TornLoop, jacobian_pattern
 
 FEW = 32

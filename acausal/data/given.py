@@ -11,11 +11,11 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal.by_name import names_in
 from acausal.data.readers import Table, is_data_frame
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
+from acausal.modeling import names_in
 
 if TYPE_CHECKING:
     from pandas import DataFrame

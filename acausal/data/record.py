@@ -11,7 +11,6 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import check_time
-from acausal.by_name import ByName, names_in
 from acausal.data.by_signal import (
     Choices,
     check_choices,
@@ -27,6 +26,7 @@ from acausal.data.readers import Table, is_data_frame
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
 from acausal.errors import DataError, listing, nearest, shown
+from acausal.modeling import ByName, names_in
 from acausal.units import convert
 
 if TYPE_CHECKING:

@@ -7,7 +7,6 @@ component's `Module` (``self.table(time)``), which is differentiated like a netw
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from collections.abc import Callable
 from functools import partial
 from typing import Literal, get_args
@@ -114,24 +113,6 @@ class Signal(eqx.Module):
         self.derivative = 0
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
         self.coefficients = self._coefficients(name) if interpolation == "band-limited" else None
-
-    @property
-    def extrapolation(self) -> Beyond:
-        """Deprecated: `before_start` and `after_end`."""
-        warnings.warn(
-            "Signal.extrapolation is called Signal.before_start and Signal.after_end now",
-            DeprecationWarning,
-            stacklevel=2,
-        )
-        return "hold" if self.after_end == "refuse" else self.after_end
-
-    @property
-    def bends(self) -> Float[Array, "n_coefficients n_intervals"] | None:
-        """Deprecated: `coefficients`."""
-        warnings.warn(
-            "Signal.bends is called Signal.coefficients now", DeprecationWarning, stacklevel=2
-        )
-        return self.coefficients
 
     @property
     def jumps(self) -> bool:

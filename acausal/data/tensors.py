@@ -25,9 +25,6 @@ from acausal.errors import DataError, listing, reason
 
 Arrays = dict[str, np.ndarray]
 
-RENAMED = {".coefficients": ".bends", ".factor.": ".passage."}
-"""New name of a field -> its old name, as in files of version 0.1."""
-
 
 def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
     """Write a file. If this fails or is killed, the old file is still there.
@@ -108,7 +105,6 @@ def filled_like(like: PyTree, arrays: Mapping[str, np.ndarray], where: str) -> P
     numbers, others = eqx.partition(like, eqx.is_array_like)
     leaves, structure = jax.tree_util.tree_flatten_with_path(numbers)
     places = [_place(path) for path, _ in leaves]
-    arrays = _with_new_names(arrays, places)
     if lacking := [place for place in places if place not in arrays]:
         raise DataError(f"{where} lacks {listing(lacking)}: it belongs to another model.")
     if superfluous := sorted(arrays.keys() - set(places)):
@@ -122,16 +118,6 @@ def filled_like(like: PyTree, arrays: Mapping[str, np.ndarray], where: str) -> P
             )
     new = [_restored(leaf, arrays[p]) for p, (_, leaf) in zip(places, leaves, strict=True)]
     return eqx.combine(jax.tree.unflatten(structure, new), others)
-
-
-def _with_new_names(arrays: Mapping[str, np.ndarray], places: list[str]) -> Arrays:
-    """The arrays, with the names in an older file replaced by today's."""
-    found = dict(arrays)
-    for place in places:
-        for new, old in RENAMED.items():
-            if place not in found and (before := place.replace(new, old)) in found:
-                found[place] = found.pop(before)
-    return found
 
 
 def _place(path: tuple[jax.tree_util.KeyEntry, ...]) -> str:

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from acausal.by_name import names_in
 from acausal.errors import DataError, need_compiled, need_path, shown
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
@@ -22,6 +21,7 @@ from acausal.export.names import Run, runs
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.vector import ParameterVector
 from acausal.initialization import before_events
+from acausal.modeling import names_in
 from acausal.system import System
 
 PRECISION = {"float64": "double", "float32": "float"}

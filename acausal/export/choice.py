@@ -6,12 +6,11 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from acausal.by_name import names_in
 from acausal.errors import DataError, need_compiled, shown
 from acausal.export.called_with import called_with
 from acausal.export.given import all_parameters
 from acausal.export.subject import Subject, network_of, of_network, of_system
-from acausal.modeling import Component
+from acausal.modeling import Component, names_in
 from acausal.networks import law_of
 from acausal.system import System
 

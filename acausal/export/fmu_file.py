@@ -15,7 +15,6 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from acausal.by_name import names_in
 from acausal.codegen import Values
 from acausal.errors import (
     DataError,
@@ -45,6 +44,7 @@ from acausal.export.fmu_text.description import KINDS, Description, build_descri
 from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
 from acausal.export.ranges import Ranges, Watch, watched
+from acausal.modeling import names_in
 from acausal.simulation import STABILITY_LIMIT, fastest_mode
 from acausal.system import System
 

@@ -12,11 +12,11 @@ from jax import export as jax_export
 from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
-from acausal.by_name import names_in
 from acausal.errors import DataError, nearest, shown
 from acausal.export.choice import chosen
 from acausal.export.files import need_package, new_file, write
 from acausal.export.subject import Subject, arguments
+from acausal.modeling import names_in
 from acausal.system import System
 
 FORMS = (".mlir", ".mlirbc", ".jax")

@@ -12,8 +12,8 @@ import numpy as np
 from jax import Array, export as jax_export
 from jax.extend.core import ClosedJaxpr
 
-from acausal.by_name import names_in
 from acausal.errors import DataError, nearest, shown
+from acausal.modeling import names_in
 from acausal.networks import EnergyLaw, law_of
 from acausal.system import System
 

@@ -13,6 +13,7 @@ from acausal.flattening.equation_group import (
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
+from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,

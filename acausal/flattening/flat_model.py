@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from acausal.caches import LeavesCaches
 from acausal.flattening.attributes import variable_attributes
 from acausal.flattening.bindings import Binding, parameter_aliases
 from acausal.flattening.connections import (
@@ -21,6 +20,7 @@ from acausal.flattening.connections import (
 from acausal.flattening.equation_group import EquationGroup, EventEquations
 from acausal.flattening.instances import instantiate
 from acausal.flattening.layout import Flags, Layout, Numbers, lay_out, tiled
+from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.silent import Silent
 from acausal.flattening.stated import Stated
 from acausal.flattening.template import Integers

@@ -10,8 +10,8 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from acausal.caches import LeavesCaches
 from acausal.errors import DeclarationError, nearest
+from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.reading import equations_of, read_statements
 from acausal.flattening.silent import silent_parameters
 from acausal.flattening.stated import Stated, asks_for_events, with_events

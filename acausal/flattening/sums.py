@@ -12,7 +12,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.caches import LeavesCaches
+from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.flattening.template import KeptSlots, Template, slot
 
 FEW = 8

@@ -14,8 +14,8 @@ import numpy as np
 import sympy as sp
 from sympy.core.relational import Relational
 
-from acausal.caches import LeavesCaches
 from acausal.errors import StructureError
+from acausal.flattening.leaves_caches import LeavesCaches
 from acausal.modeling import Prescribed, time
 
 Integers = np.ndarray[Any, np.dtype[np.int64]]

@@ -13,7 +13,6 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
-from acausal.caches import LeavesCaches
 from acausal.codegen import (
     Packed,
     ParameterLayout,
@@ -25,7 +24,7 @@ from acausal.codegen import (
     read,
     read_parameters,
 )
-from acausal.flattening import Binding, EquationGroup, FlatModel, Integers
+from acausal.flattening import Binding, EquationGroup, FlatModel, Integers, LeavesCaches
 from acausal.modeling import time
 from acausal.structure import ReducedModel
 

@@ -15,11 +15,11 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_number, is_real, traced, without_derivatives
-from acausal.by_name import ByName, names_in
-from acausal.caches import LeavesCaches
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest, shown
+from acausal.flattening import LeavesCaches
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
+from acausal.modeling import ByName, names_in
 from acausal.structure import ReducedModel
 
 MAX_STEPS = 100

@@ -89,6 +89,12 @@ from acausal.modeling.functions import (
     sign as sign,
 )
 from acausal.modeling.icon import Icon as Icon, Side as Side
+from acausal.modeling.names import (
+    ByName as ByName,
+    Name as Name,
+    names_in as names_in,
+    names_matching as names_matching,
+)
 from acausal.modeling.symbols import (
     Eq as Eq,
     ModuleCall as ModuleCall,

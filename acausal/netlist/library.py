@@ -18,7 +18,6 @@ Installed packages announce theirs as an entry point of the group ``acausal.libr
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from difflib import get_close_matches
@@ -113,17 +112,7 @@ class Library:
     @cached_property
     def _listed(self) -> dict[str, str]:
         """Modelica's name of a class -> its Python path, from the module itself."""
-        catalog: dict[str, tuple[str, tuple[str, ...]]] = getattr(self.module, "CATALOG", {})
-        if catalog:
-            own = self.module.__name__
-            message = f"{own}.CATALOG is deprecated; list names of Modelica in {own}.MODELICA_NAMES"
-            warnings.warn(message, DeprecationWarning, stacklevel=2)
-        old = {
-            f"{package}.{name}": f"{self.module.__name__}.{place}.{name}"
-            for package, (place, names) in catalog.items()
-            for name in names
-        }
-        return old | self._paths(self.module)
+        return self._paths(self.module)
 
     def _names(self, place: str) -> dict[str, str]:
         """The same from a module below it."""

@@ -8,9 +8,6 @@ In: scales and promises. Out: equinox modules.
 It knows no model.
 """
 
-import warnings as _warnings
-from typing import TYPE_CHECKING as _TYPE_CHECKING
-
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
 from acausal.networks.arity import check_inputs as check_inputs
 from acausal.networks.beside_linear import (
@@ -62,21 +59,3 @@ from acausal.networks.trainable import (
     remove_offset as remove_offset,
 )
 from acausal.networks.zero import OffsetCorrected as OffsetCorrected, ThroughZero as ThroughZero
-
-_RENAMED = {
-    "Passage": "DryFrictionFactor",
-    "Potential": "EnergyLaw",
-    "Rounder": "WithMinCurvature",
-    "Steeper": "WithMinSlope",
-}
-
-if not _TYPE_CHECKING:  # the old names are for programs that were written before
-
-    def __getattr__(name: str) -> type:
-        if name not in _RENAMED:
-            raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
-        new = _RENAMED[name]
-        _warnings.warn(
-            f"acausal.networks.{name} is called {new} now", DeprecationWarning, stacklevel=2
-        )
-        return globals()[new]

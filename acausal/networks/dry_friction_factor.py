@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 
 import equinox as eqx
@@ -39,19 +38,3 @@ class WithFactor(eqx.Module):
 
     net: Callable[..., Array]
     factor: DryFrictionFactor
-
-    @property
-    def passage(self) -> DryFrictionFactor:
-        """Deprecated: `factor`."""
-        warnings.warn("'passage' is called 'factor' now", DeprecationWarning, stacklevel=2)
-        return self.factor
-
-
-def chosen_factor(
-    factor: DryFrictionFactor | None, passage: DryFrictionFactor | None
-) -> DryFrictionFactor:
-    """The factor given to a constructor, by its new or old name; a fresh one by default."""
-    if passage is not None:
-        warnings.warn("passage=... is called factor=... now", DeprecationWarning, stacklevel=3)
-        factor = passage
-    return DryFrictionFactor() if factor is None else factor

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.networks.dry_friction_factor import DryFrictionFactor, WithFactor, chosen_factor
+from acausal.networks.dry_friction_factor import DryFrictionFactor, WithFactor
 
 START = -2.0
 """Added to a network inside a softplus, so that a law starts small: softplus(-2) = 0.13."""
@@ -23,10 +23,8 @@ class Passive(WithFactor):
         self,
         net: Callable[..., Array],
         factor: DryFrictionFactor | None = None,
-        *,
-        passage: DryFrictionFactor | None = None,
     ) -> None:
-        self.net, self.factor = net, chosen_factor(factor, passage)
+        self.net, self.factor = net, factor or DryFrictionFactor()
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""

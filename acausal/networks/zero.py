@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.networks.dry_friction_factor import DryFrictionFactor, WithFactor, chosen_factor
+from acausal.networks.dry_friction_factor import DryFrictionFactor, WithFactor
 
 
 class OffsetCorrected(eqx.Module):
@@ -32,10 +32,8 @@ class ThroughZero(WithFactor):
         self,
         net: Callable[..., Array],
         factor: DryFrictionFactor | None = None,
-        *,
-        passage: DryFrictionFactor | None = None,
     ) -> None:
-        self.net, self.factor = net, chosen_factor(factor, passage)
+        self.net, self.factor = net, factor or DryFrictionFactor()
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""

@@ -14,9 +14,9 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
 from acausal._jax import is_real, traced
-from acausal.by_name import names_in
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
+from acausal.modeling import names_in
 from acausal.simulation.host_function import on_host
 
 if TYPE_CHECKING:

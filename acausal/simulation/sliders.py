@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from acausal._jax import is_number
-from acausal.by_name import names_in
 from acausal.errors import AcausalError, DataError, nearest, need_compiled, shown
+from acausal.modeling import names_in
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
 

@@ -16,9 +16,9 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import traced
-from acausal.by_name import ByName, matching, names_in
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest, need_path, reason
+from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
 from acausal.simulation.inputs import TimeFunction, evaluate_all
 from acausal.simulation.log import Event, Log
@@ -164,7 +164,7 @@ class Solution(ByName):
 
     def to_dict(self, names: Iterable[str] | None = None) -> dict[str, Float[np.ndarray, " n"]]:
         """Time and variables (by default all) as arrays, under ``time`` and their names; patterns as for `plot`."""
-        names = self.names if names is None else matching(names, self.names)
+        names = self.names if names is None else names_matching(names, self.names)
         return {"time": np.asarray(self.t), **self._columns(names)}
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> DataFrame:
@@ -229,7 +229,7 @@ class Solution(ByName):
         from acausal.reporting import plot_over_time
 
         given = [name for some in names for name in names_in(some)]
-        chosen = matching(given, self.names) or self.system.states
+        chosen = names_matching(given, self.names) or self.system.states
         time, curves = self._with_both_sides(chosen)
         units = {n: self.system.unit(n) for n in curves}
         steps = [n for n in curves if self.system.is_discrete(n)]

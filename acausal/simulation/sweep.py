@@ -15,8 +15,8 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_real
-from acausal.by_name import ByName, matching, names_in
 from acausal.errors import DataError, nearest, need_compiled, shown, user_level
+from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
 
@@ -121,7 +121,7 @@ class Sweep(ByName):
             import xarray as xr
         except ImportError:
             raise DataError("A dataset needs xarray: pip install 'acausal[xarray]'.") from None
-        chosen = self.runs.system.states if names is None else matching(names, self.names)
+        chosen = self.runs.system.states if names is None else names_matching(names, self.names)
         axes = {n: (n if self.grid else VARIANT,) for n in self.over} | {"time": ("time",)}
         units = {n: self.unit(n) for n in axes}
         values = {**self.over, "time": np.asarray(self.t)}

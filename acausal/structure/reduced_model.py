@@ -10,9 +10,8 @@ from functools import cached_property
 
 import numpy as np
 
-from acausal.caches import LeavesCaches
 from acausal.errors import StructureError
-from acausal.flattening import FlatModel, Integers
+from acausal.flattening import FlatModel, Integers, LeavesCaches
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree, eliminate_aliases
 from acausal.structure.blocks import SolvingStep, order_steps

@@ -10,9 +10,9 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal._jax import precision
-from acausal.by_name import names_in
 from acausal.data import Data, check_resolution
 from acausal.errors import DataError, TrainingError, listing, nearest, shown
+from acausal.modeling import names_in
 from acausal.networks import networks
 from acausal.simulation import (
     BDF,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import inspect
 import math
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -111,9 +110,6 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "checkpoint_every": (_is_number, "a number of seconds"),
 }
 """What the values of options must be, in words for a message."""
-
-RENAMED = {"tolerances": "parameter_spread"}
-"""Old names of options, which are accepted for one release."""
 
 OPTIONS = "options: see `acausal.training.FitOptions`, each by its name"
 """A line in the documentation of functions with options, in whose place `help` shows all of them."""
@@ -288,27 +284,16 @@ class FitOptions:
         """The options from the keywords of a public function; to be called in that function.
 
         Raises:
-            TypeError: for an unknown keyword, or an option under both its old and its new name.
+            TypeError: for an unknown keyword.
             TrainingError: for a value that does not fit any training.
         """
         known = [f.name for f in fields(FitOptions)]
-        options: dict[str, Any] = {}
-        for name, value in given.items():
-            new = RENAMED.get(name, name)
-            if new not in known:
+        for name in given:
+            if name not in known:
                 raise TypeError(f"{function} has no argument '{name}': {nearest(name, known)}")
-            if new != name:
-                if new in given:
-                    raise TypeError(f"{function}: '{name}' is the old name of '{new}'; give one.")
-                warnings.warn(
-                    f"{function}(..., {name}=) is now called {new}=; the old name will be removed.",
-                    DeprecationWarning,
-                    stacklevel=3,
-                )
-            options[new] = value
-        chosen = FitOptions(**options)
+        chosen = FitOptions(**given)
         named = chosen.strategy != "auto" and "sequences" in chosen.parts
-        if named and "sequence_length" not in options:
+        if named and "sequence_length" not in given:
             return replace(chosen, sequence_length="auto")
         return chosen
 

@@ -20,10 +20,10 @@ from jaxtyping import PyTree
 
 from acausal._jax import need_double_precision
 from acausal.analysis import in_switches
-from acausal.by_name import names_in
 from acausal.codegen import Values
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, TrainingError, listing, shown, user_level
+from acausal.modeling import names_in
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic

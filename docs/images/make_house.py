@@ -84,9 +84,7 @@ def room(name: str, without_jax: set[str]) -> Room:
     found = re.search(r"\bIn: (.+?)\. Out: (.+?)\.(?= [A-Z]|$)", text)
     given, made = found.groups() if found else ("", text.partition(". ")[0].rstrip("."))
     label = f"{name}/" if path.is_dir() else f"{name}.py"
-    return Room(
-        label, given, made, jax=name not in without_jax and name not in ("by_name", "errors")
-    )
+    return Room(label, given, made, jax=name not in without_jax and name != "errors")
 
 
 def draw() -> str:

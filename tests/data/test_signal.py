@@ -82,8 +82,6 @@ def test_each_side_has_its_own_extrapolation():
         assert float(slope(1.5)) == pytest.approx(2.0 if choice == "linear" else 0.0)
     with pytest.raises(ac.DataError, match="after_end='stop'; choose one of refuse, hold, linear"):
         ac.Signal(ts, ts, after_end="stop")  # pyright: ignore[reportArgumentType]
-    with pytest.warns(DeprecationWarning, match="before_start and Signal.after_end now"):
-        assert ac.Signal(ts, ts).extrapolation == "hold"
 
 
 def test_derivatives_at_samples_and_ends():

@@ -1307,7 +1307,6 @@ on_system(
             True,
         ),
         "distill a function of text": (lambda c, f: ac.distill(lambda x: "x", 0, 1), True),
-        "a diagram on text": (lambda c, f: ac.diagram(c.system.model, "axes"), True),
         "a budget of text": (lambda c, f: ac.compile(c.system.model, budget="x"), True),
         "a budget of a number": (lambda c, f: ac.compile(c.system.model, budget=3), True),
         "a budget of nothing": (

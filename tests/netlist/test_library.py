@@ -159,20 +159,6 @@ def test_a_users_library(monkeypatch: pytest.MonkeyPatch) -> None:
     assert Library(module).constant("My.Oil()") == fluid.MineralOil()
 
 
-def test_the_old_spelling_of_a_librarys_names_warns(monkeypatch: pytest.MonkeyPatch) -> None:
-    module, inner = types.ModuleType("springs"), types.ModuleType("springs.cubic")
-
-    class Spring(tl.PartialCompliant):
-        pass
-
-    inner.__dict__.update(Spring=Spring)
-    module.__dict__.update(cubic=inner, CATALOG={"Mine": ("cubic", ("Spring", "Bar"))})
-    old = Library(module)
-    with pytest.warns(DeprecationWarning, match="springs.MODELICA_NAMES"):
-        assert old.find("Mine.Spring") is Spring
-    assert old.lacks("Mine.Bar")
-
-
 def test_importing_the_library_is_cheap() -> None:
     assert components.__getattr__("blocks").__name__ == "acausal.components.blocks"
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):

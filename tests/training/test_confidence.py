@@ -278,14 +278,6 @@ def test_residuals_of_a_fit():
     assert len(found.own) == 50
 
 
-def test_the_old_names_of_summaries_still_work():
-    sure, (left,) = trained().confidence(), trained().residuals()
-    with pytest.warns(DeprecationWarning, match=r"Confidence\.words\(\) is now called summary"):
-        assert sure.words() == sure.summary()
-    with pytest.warns(DeprecationWarning, match=r"Residuals\.words\(\) is now called summary"):
-        assert left.words() == left.summary()
-
-
 # -- the page ----------------------------------------------------------------------------------------
 
 

@@ -1,7 +1,5 @@
 """Parameter spread: parameters that differ from run to run, and a training that bears it."""
 
-from typing import Any
-
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -70,15 +68,3 @@ def test_a_model_with_a_spread_bears_another_offset(pushed) -> None:
         ran = ac.simulate(system, (0.0, 8.0), dt=0.05, inputs=inputs, params=other, x0=start)
         loss[name] = float(np.mean((np.asarray(ran["mass.s"]) - record["mass.s"]) ** 2))
     assert loss["tolerant"] < 0.7 * loss["exact"]
-
-
-def test_the_old_name_of_the_option_still_works(pushed) -> None:
-    system, record = pushed
-    given: dict[str, Any] = {"strategy": "sequences", "epochs": 1, "progress": False}
-    with pytest.warns(DeprecationWarning, match="tolerances=.* is now called parameter_spread="):
-        old = ac.fit(system, record, "mass.s", tolerances={"offset.f_constant": 0.2}, **given)
-    new = ac.fit(system, record, "mass.s", parameter_spread={"offset.f_constant": 0.2}, **given)
-    assert old.loss == new.loss
-    both = {"tolerances": None, "parameter_spread": None}
-    with pytest.raises(TypeError, match="'tolerances' is the old name of 'parameter_spread'"):
-        ac.ensemble(system, record, "mass.s", **both, **given)

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from acausal.by_name import names_in
 from acausal.data.samples import Place, sample
 from acausal.errors import DataError, nearest, shown
+from acausal.modeling import names_in
 
 HEADER = re.compile(r"\s*(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*")
 """A column's header: ``name`` or ``name [unit]``."""

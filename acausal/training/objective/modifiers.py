@@ -14,8 +14,8 @@ import numpy as np
 from jaxtyping import Array, Float
 from scipy.special import ndtri
 
-from acausal.by_name import names_in
 from acausal.errors import TrainingError, nearest, shown
+from acausal.modeling import names_in
 
 REACHED, GAMMA_REACHED = 0.99, 0.95
 """A parameter has reached a bound, or a factor's limit ±γ, when it has gone this fraction of the way."""

@@ -12,7 +12,6 @@ each.
 from __future__ import annotations
 
 import itertools
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -138,15 +137,6 @@ class Confidence:
     step_move: float
     about: tuple[str, ...]
     prior: Prior
-
-    def words(self) -> list[str]:
-        """The old name of `summary`."""
-        warnings.warn(
-            "Confidence.words() is now called summary(); the old name will be removed.",
-            DeprecationWarning,
-            stacklevel=2,
-        )
-        return self.summary()
 
     def _repr_html_(self) -> str:
         return confidence_view(self.parameters, self.laws, self.noise, self.alike, self.summary())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -60,15 +59,6 @@ class Residuals:
     def drivers(self) -> tuple[str, ...]:
         """Inputs that the residuals still follow."""
         return tuple(n for n, c in self.inputs.items() if np.max(np.abs(c)) > self.bounds[n])
-
-    def words(self) -> str:
-        """The old name of `summary`."""
-        warnings.warn(
-            "Residuals.words() is now called summary(); the old name will be removed.",
-            DeprecationWarning,
-            stacklevel=2,
-        )
-        return self.summary()
 
     def summary(self) -> str:
         """What this means, in a sentence."""

@@ -98,7 +98,7 @@ class Name(str):
         return words_below(self, self._known)
 
 
-def matching(given: Any, known: Sequence[str]) -> tuple[str, ...]:
+def names_matching(given: Any, known: Sequence[str]) -> tuple[str, ...]:
     """Names, and those that patterns stand for: ``"c.*"`` the names directly below ``c``, ``"c.**"`` all below.
 
     Arguments:
