@@ -13,6 +13,7 @@ from jax import Array, lax
 from jax.custom_derivatives import SymbolicZero
 from jaxtyping import PyTree
 
+from acausal._jax.deferred import deferred
 from acausal.errors import DataError
 
 Result = TypeVar("Result")
@@ -55,18 +56,28 @@ def two_modes(
 
         found, pull, result = jax.vjp(*of(reverse, values), has_aux=True)
         arrays, fixed = eqx.partition((values, pull), eqx.is_array)
-        saved = _differentiated_once(arrays)
-
-        def push(directions: list[Array]) -> list[Array]:
-            values, _ = eqx.combine(saved, fixed)
-            of_moved, some = of(forward, values)
-            return jax.jvp(lambda some: of_moved(some)[0], (some,), (directions,))[1]
-
-        def pull_back(cotangents: list[Array]) -> list[Array]:
-            return eqx.combine(saved, fixed)[1](cotangents)[0]
-
+        saved, kept = jax.tree.flatten(_differentiated_once(arrays))
         given = [d for d, m in zip(directions, moved, strict=True) if m]
-        change = iter(_linear(push, pull_back, given, found))
+
+        def push(*those: Array) -> list[Array]:
+            values, _ = eqx.combine(jax.tree.unflatten(kept, those[: len(saved)]), fixed)
+            of_moved, some = of(forward, values)
+            along = list(those[len(saved) :])
+            return jax.jvp(lambda some: of_moved(some)[0], (some,), (along,))[1]
+
+        def pull_back(*those: Array) -> list[Array]:
+            _, pull = eqx.combine(jax.tree.unflatten(kept, those[: len(saved)]), fixed)
+            return pull(list(those[len(saved) :]))[0]
+
+        pushes, pulls = deferred(push, found), deferred(pull_back, given)
+        change = iter(
+            _linear(
+                lambda directions: pushes(*saved, *directions),
+                lambda cotangents: pulls(*saved, *cotangents),
+                given,
+                found,
+            )
+        )
         return result, jax.tree.map(
             lambda a: (
                 next(change) if eqx.is_inexact_array(a) else np.zeros(a.shape, jax.dtypes.float0)

@@ -53,7 +53,9 @@ def one_by_one(function: Callable[..., State]) -> Callable[..., State]:
     Arguments:
         function: of pytrees of arrays. It must not close over values that JAX traces.
     """
-    return sequential_vmap(function) if compiles_small_loops() else function
+    if not compiles_small_loops():
+        return function
+    return sequential_vmap(jax.jit(function, inline=True))  # mapping it traces it again and again
 
 
 def while_any(

@@ -1,0 +1,62 @@
+"""Functions that are traced when a program is compiled, and only if it calls them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import jax
+from jax import Array
+from jax.extend.core import Primitive
+from jax.interpreters import batching, mlir
+
+Function = Callable[..., Sequence[Array]]
+
+
+def deferred(function: Function, like: Sequence[Any]) -> Callable[..., list[Array]]:
+    """The same function, as one operation of a program until that is compiled.
+
+    JAX traces both a linear function and its transpose, and maps both, whichever of them a program calls in the end.
+    Of a long function this takes many seconds.
+
+    Arguments:
+        function: of arrays. It must not close over values that JAX traces; it has no derivatives.
+        like: arrays, or `jax.ShapeDtypeStruct`, with the shapes and types of its results.
+    """
+    shapes = tuple(jax.typeof(a) if isinstance(a, Array) else a for a in like)
+    return lambda *values: _call.bind(*values, function=function, like=shapes)
+
+
+_call = Primitive("deferred")
+_call.multiple_results = True
+
+
+@_call.def_impl
+def _now(*values: Array, function: Function, like: Sequence[Any]) -> Sequence[Array]:
+    del like
+    return jax.jit(function)(*values)
+
+
+@_call.def_abstract_eval
+def _shapes(*values: Any, function: Function, like: Sequence[Any]) -> list[Any]:
+    del values, function
+    return [jax.core.ShapedArray(a.shape, a.dtype) for a in like]
+
+
+def _mapped(
+    values: Sequence[Array], axes: Sequence[Any], *, function: Function, like: Sequence[Any]
+) -> tuple[list[Array], list[int]]:
+    (size,) = {v.shape[a] for v, a in zip(values, axes, strict=True) if a is not None}
+    mapped = jax.vmap(function, tuple(axes), axis_size=size)
+    shapes = [jax.ShapeDtypeStruct((size, *a.shape), a.dtype) for a in like]
+    found = deferred(mapped, shapes)(*values)
+    return found, [0] * len(found)
+
+
+def _lowered(context: Any, *values: Any, function: Function, like: Sequence[Any]) -> Any:
+    del like
+    return mlir.lower_fun(function, multiple_results=True)(context, *values)
+
+
+batching.primitive_batchers[_call] = _mapped
+mlir.register_lowering(_call, _lowered)
