@@ -69,6 +69,7 @@ test-today: $(READY) ## the tests with the newest dependencies of today: it show
 
 test-machines: $(READY) ## trainings, pages and examples as other machines do them: MACHINES="seed-1 AVX2" for some
 	$(BIN)/python .ci/machines.py $(MACHINES)
+	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m machines --ignore=tests/examples
 
 lint: $(READY) ## ruff: rules and format
 	$(BIN)/python -m ruff check .

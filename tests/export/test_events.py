@@ -19,7 +19,7 @@ from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy
 from tests.support.hybrid import Ball, Sampled, Step, Thermostat, ball_height
 from tests.support.paths import SHARED
-from tests.support.slow import some_slow
+from tests.support.slow import in_turn, some_slow
 
 
 class Relay(ac.Component):
@@ -253,12 +253,13 @@ def test_parameters_count_before_the_start(tmp_path: Path) -> None:
 # -- published examples ------------------------------------------------------------------------------
 
 FOLDER = SHARED / "oracles" / "msl_events"
+EXAMPLES = sorted(p.stem for p in FOLDER.glob("*.json"))
 COARSE = {"Analog_SwitchWithArc", "Rotational_LossyGearDemo3"}
 """Examples that break down with these steps, in `acausal.simulate` as in C."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", sorted(p.stem for p in FOLDER.glob("*.json")))
+@pytest.mark.parametrize("name", EXAMPLES)
 def test_examples_in_c(name: str, tmp_path: Path) -> None:
     model = ac.load(FOLDER / f"{name}.json")
     system = ac.compile(model)
@@ -282,11 +283,10 @@ def test_examples_in_c(name: str, tmp_path: Path) -> None:
     assert np.sum(off.max(axis=1, initial=0) > 1e-9) <= 1
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings(
     "ignore:export.fmu. steps of"
 )  # of a co-simulation that is not run here
-@pytest.mark.parametrize("name", sorted(p.stem for p in FOLDER.glob("*.json")))
+@pytest.mark.parametrize("name", in_turn(EXAMPLES, 3))
 def test_examples_as_fmus(name: str, tmp_path: Path) -> None:
     fmpy = need_fmpy()
     model = ac.load(FOLDER / f"{name}.json")

@@ -18,6 +18,7 @@ import acausal as ac
 from acausal.simulation import Steps, functions_of_time, integrate, solvers
 from acausal.simulation.inputs import evaluate_all
 from acausal.simulation.sampled_inputs import over_steps
+from tests.support.slow import in_turn
 
 from .models import CASES, Case
 
@@ -206,20 +207,28 @@ PATHS: dict[str, Path] = {
 
 ALWAYS = {"explicit": ("rk4",), "implicit": (), "adaptive": ()}
 IN_TURN = {
-    "explicit": ("rk4 in lanes", "rk4 forward", "rk4, stages stored", "heun with substeps"),
-    "implicit": ("implicit Euler", "kvaerno3 forward"),
     "adaptive": (
         "adaptive",
         "adaptive forward",
         "adaptive, forward by the default adjoint",
         "adaptive, implicit",
     ),
+    "explicit": ("rk4 in lanes", "rk4 forward", "rk4, stages stored", "heun with substeps"),
+    "implicit": ("implicit Euler", "kvaerno3 forward"),
 }
-"""Every model takes one path of each kind: all models on all paths would take half an hour to compile."""
+"""Every model takes one path of each kind: all models on all paths would take half an hour to compile.
+
+In the slow tests it takes those of one kind (`cases_of`)."""
 
 
 LEFT_OUT = {("sparse nonlinear loop", "adaptive")}
 """Its thousands of factorizations on the host take minutes at so small a tolerance; fixed steps show its gradients."""
+
+
+def cases_of(kind: str) -> list[Any]:
+    """The models for ``parametrize``, in one kind of steps: a third of them, in turn, are slow tests."""
+    cases = in_turn(CASES, len(IN_TURN), list(IN_TURN).index(kind))
+    return [case for case in cases if (case.values[0], kind) not in LEFT_OUT]
 
 
 def paths_of(name: str, kind: str) -> list[str]:

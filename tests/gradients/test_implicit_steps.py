@@ -4,11 +4,9 @@ from typing import Any
 
 import pytest
 
-from .models import CASES
-from .paths import check, paths_of
+from .paths import cases_of, check, paths_of
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", cases_of("implicit"))
 def test_gradients(name: str, record_property: Any) -> None:
     check(name, paths_of(name, "implicit"), record_property)
