@@ -80,4 +80,6 @@ def _real_dtype(value: Any) -> bool:
         dtype = value.dtype if isinstance(value, Array) else np.asarray(value).dtype
     except ValueError:  # rows of different lengths
         return False
+    if dtype.kind == "m":  # NumPy counts durations among the integers
+        return False
     return any(jnp.issubdtype(dtype, kind) for kind in (np.bool_, np.integer, np.floating))

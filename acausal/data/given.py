@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal.data.readers import Table, is_data_frame
+from acausal.data.readers import Table, is_data_frame, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
@@ -51,11 +51,8 @@ def columns_of(
     """
     if missing not in get_args(Missing):
         raise DataError(f"missing={shown(missing)}; choose one of refuse, nan.")
-    ts = None if time is None else np.asarray(time)
-    if ts is not None:
-        check_time_base(ts, "The record")
-        ts = ts.astype(float, copy=False)
-    measured = {name: _measured(name, value) for name, value in _by_name(signals).items()}
+    ts = None if time is None else _times(time, "The record", unit)
+    measured = {name: _measured(name, value, unit) for name, value in _by_name(signals).items()}
     _check_times(ts, measured)
     masks = _masks(mask, measured)
     checked: Columns = {}
@@ -71,9 +68,10 @@ def columns_of(
     merged, rows = union(bases)
     rows_of = dict(zip(own_times, rows if ts is None else rows[1:], strict=True))
     columns = {
-        name: on_rows(values, rows_of.get(name, rows[0]), len(merged))
+        name: _copied(on_rows(values, rows_of.get(name, rows[0]), len(merged)), values)
         for name, values in checked.items()
     }
+    merged = _copied(merged, *bases)
     with_gaps = missing == "nan" or masks or any(r is not None for r in rows)
     return merged, columns, "nan" if with_gaps else "refuse"
 
@@ -114,13 +112,33 @@ def _frame_columns(frame: DataFrame) -> Mapping[str, Any]:
     return {name: frame[name].to_numpy() for name in names_in(frame.columns, "signals")}
 
 
-def _measured(name: str, given: Any) -> Measured:
+def _times(given: ArrayLike, what: str, unit: str) -> Float[np.ndarray, " n"]:
+    """Times as numbers; durations as seconds.
+
+    Raises:
+        DataError: for what is no time base.
+    """
+    if isinstance(given, np.ma.MaskedArray):
+        raise DataError(f"{what} has masked times; leave these samples out.")
+    ts = np.asarray(given)
+    if ts.dtype.kind == "m" and unit == "s":
+        ts = seconds(ts)
+    check_time_base(ts, what)
+    if ts.dtype.kind in "iu" and not np.array_equal(ts.astype(float).astype(ts.dtype), ts):
+        raise DataError(f"{what} has times that are too large for float64; subtract the first.")
+    return ts.astype(float, copy=False)
+
+
+def _copied(made: np.ndarray, *given: np.ndarray) -> np.ndarray:
+    """An array that does not change with the user's."""
+    return np.array(made) if any(np.may_share_memory(made, a) for a in given) else made
+
+
+def _measured(name: str, given: Any, unit: str) -> Measured:
     """Samples, or a pair (times, samples), as arrays where they can be."""
     if not (isinstance(given, tuple) and len(given) == 2 and all(map(_is_vector, given))):
         return Measured(None, _array(given))
-    times = np.asarray(given[0])
-    check_time_base(times, f"'{name}'")
-    return Measured(times.astype(float, copy=False), _array(given[1]))
+    return Measured(_times(given[0], f"'{name}'", unit), _array(given[1]))
 
 
 def _is_vector(given: Any) -> bool:

@@ -13,16 +13,14 @@ import sympy as sp
 from sympy.logic.boolalg import Boolean, BooleanAtom, BooleanFunction
 
 from acausal.errors import DeclarationError, shown
-from acausal.modeling.symbols import Eq, Reference, number_or_expression
+from acausal.modeling.symbols import HALF, Compared, Eq, Reference, number_or_expression
 from acausal.modeling.whole import Floored, floor
-
-HALF = sp.Rational(1, 2)
 
 INITIAL = sp.Symbol("initial()", real=True)
 """1 while initial values are being found, else 0."""
 
 
-class Previous(sp.Symbol):
+class Previous(Compared):
     """The value of a variable just before an event; between events its value.
 
     Attributes:
@@ -36,6 +34,9 @@ class Previous(sp.Symbol):
         symbol = super().__new__(cls, f"pre({reference.name})", real=True)
         symbol.reference = reference
         return symbol
+
+    def _is_whole(self) -> bool:
+        return self.reference._is_whole()
 
     def _sympystr(self, printer: Any) -> str:
         return f"pre({self.reference.path})"
@@ -98,7 +99,10 @@ def condition(value: Any, where: str) -> Boolean:
         DeclarationError: for what is not a condition.
     """
     if isinstance(value, bool):
-        return sp.true if value else sp.false
+        raise DeclarationError(
+            f"{where} is {value} already: the model does not decide it. Two expressions are compared by <, <=, > or >= "
+            "(== asks whether they are written alike); what is known beforehand, Python's if decides."
+        )
     if isinstance(value, BooleanFunction | BooleanAtom) and not value.is_Relational:
         return value.func(*(condition(a, where) for a in value.args)) if value.args else value
     if isinstance(value, Boolean) and value.is_Relational:

@@ -6,16 +6,22 @@ A *reference* is a sympy symbol that knows its owner, so that one expression may
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import count
 from typing import Any, Protocol
 
+import numpy as np
 import sympy as sp
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import DeclarationError, shown
 from acausal.modeling.declarations import Declaration, element_names
+
+HALF = sp.Rational(1, 2)
+NUMBERS = (bool, int, float, np.number)
+WITHIN = ("sympy", "acausal")
 
 time = sp.Symbol("time", real=True)
 """The independent variable, in seconds."""
@@ -42,7 +48,53 @@ class Owner(Protocol):
         ...
 
 
-class Reference(sp.Symbol):
+class Compared(sp.Symbol):
+    """A symbol that a model compares with numbers by ``==`` and ``!=``, where sympy would compare identities.
+
+    Only what is written outside of sympy and of this package is read so; they need the identity.
+    """
+
+    def _is_whole(self) -> bool:
+        """Whether its values are whole numbers or truth values, of which one equals another or not."""
+        return False
+
+    def __eq__(self, other: object) -> Any:
+        if not isinstance(other, NUMBERS) or _is_within():
+            return super().__eq__(other)
+        return self._equals(other)
+
+    def __ne__(self, other: object) -> Any:
+        if not isinstance(other, NUMBERS) or _is_within():
+            return super().__ne__(other)
+        return ~self._equals(other)
+
+    def _equals(self, number: Any) -> Any:
+        if not self._is_whole():
+            raise DeclarationError(
+                f"{self} == {number} compares a real number, which has a value at instants only: "
+                "use <, <=, > or >=."
+            )
+        value = float(number)
+        return sp.Lt(sp.Abs(self - (int(value) if value.is_integer() else value)), HALF)
+
+    __hash__ = sp.Symbol.__hash__
+
+    def __bool__(self) -> bool:
+        if _is_within():
+            return True
+        raise DeclarationError(
+            f"Python asks whether {self} is true, but its value is not known yet: "
+            "use &, | and ~ in place of and, or and not, and ac.where in place of if."
+        )
+
+
+def _is_within() -> bool:
+    """Whether the function that called this was called by sympy or by this package."""
+    caller = sys._getframe(2).f_globals.get("__name__", "")
+    return caller.partition(".")[0] in WITHIN
+
+
+class Reference(Compared):
     """A symbol that knows which component owns it (by its node) and its local name there.
 
     Attributes:
@@ -88,6 +140,9 @@ class Reference(sp.Symbol):
         """
         owner = {"owner": self.owner, "declaration": self.declaration}
         return Reference._again, (self.path, self.serial), owner
+
+    def _is_whole(self) -> bool:
+        return getattr(self.declaration, "kind", "real") != "real"
 
     def _sympystr(self, printer: Any) -> str:
         return self.path

@@ -111,6 +111,13 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
 }
 """What the values of options must be, in words for a message."""
 
+OWN_OPTIMIZER = {
+    "auto": "L-BFGS or Levenberg-Marquardt",
+    "whole_record": "L-BFGS",
+    "gauss_newton": "Levenberg-Marquardt",
+}
+"""Parts of a strategy that take no other optimizer."""
+
 OPTIONS = "options: see `acausal.training.FitOptions`, each by its name"
 """A line in the documentation of functions with options, in whose place `help` shows all of them."""
 
@@ -318,6 +325,11 @@ class FitOptions:
         for name in self.parts:
             if name not in UPDATES:
                 raise TrainingError(f"No strategy '{name}': {nearest(name, UPDATES)}")
+        if self.optimizer is not None and all(name in OWN_OPTIMIZER for name in self.parts):
+            named = ", then ".join(self.parts)
+            raise TrainingError(
+                f"optimizer= is for sequences, but the strategy is {named}, which has its own: leave it out."
+            )
         if self.starts < 1:
             raise TrainingError(f"starts={self.starts}; at least one is needed.")
         if self.starts > 1 and self.devices is not None:
@@ -397,13 +409,8 @@ _NOT_DESCRIBED = (
 def _name_of_optimizer(options: FitOptions) -> str:
     if options.optimizer is not None:
         return "of the user (optax)"
-    known = {
-        "auto": "L-BFGS or Levenberg-Marquardt",
-        "whole_record": "L-BFGS",
-        "gauss_newton": "Levenberg-Marquardt",
-    }
     adam = "Adam, its rate falling from 0.01 to 0.0001 as a cosine"
-    return ", then ".join(known.get(part, adam) for part in options.parts)
+    return ", then ".join(OWN_OPTIMIZER.get(part, adam) for part in options.parts)
 
 
 def _in_words(value: Any) -> str:

@@ -9,6 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+import optax
 import pytest
 
 import acausal as ac
@@ -324,6 +325,10 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
         ({"dt": "0.01"}, "dt='0.01' is not a step; give a positive time in seconds."),
         ({"epochs": 2.5}, "epochs=2.5; give a whole number of updates."),
         ({"evaluate_every": 0}, "evaluate_every=0; give one update or more."),
+        (
+            {"optimizer": optax.adam(0.01), "strategy": "whole_record"},
+            "optimizer= is for sequences, but the strategy is whole_record, which has its own: leave it out.",
+        ),
         ({"optimizer": "adam"}, "optimizer='adam' is not an optax optimizer; give one such as optax.adam(0.01)."),
         ({"regularizers": [0.1]}, "0.1 is not a function, but the training calls it."),
         ({"observers": [0.1]}, "0.1 is not a function, but the training calls it."),

@@ -6,6 +6,7 @@ In: paths, pandas and xarray objects. Out: `Table`. What makes a record of one i
 from acausal.data.readers.csv_file import read_csv as read_csv
 from acausal.data.readers.data_frame import (
     data_frame as data_frame,
+    frame_units as frame_units,
     is_data_frame as is_data_frame,
     read_data_frame as read_data_frame,
     read_parquet as read_parquet,
@@ -13,5 +14,9 @@ from acausal.data.readers.data_frame import (
 from acausal.data.readers.files import files as files
 from acausal.data.readers.mat_file import read_mat as read_mat
 from acausal.data.readers.mdf_file import read_mdf as read_mdf
-from acausal.data.readers.table import Selection as Selection, Table as Table
+from acausal.data.readers.table import (
+    Selection as Selection,
+    Table as Table,
+    seconds as seconds,
+)
 from acausal.data.readers.xarray_dataset import dataset as dataset, read_xarray as read_xarray

@@ -51,6 +51,13 @@ def read_data_frame(frame: object, selection: Selection, source: str = "") -> Ta
     return selection.table(seconds(time), signals, units, source)
 
 
+def frame_units(signals: object) -> dict[str, str] | None:
+    """Units in the attributes of a data frame with a column for each signal; None where there are none."""
+    if not is_data_frame(signals):
+        return None
+    return _units(signals, {n: n for n in signals.columns if isinstance(n, str)}) or None
+
+
 def read_parquet(path: Path, selection: Selection) -> Table:
     """A table from a Parquet file; the units are those that its data frame had."""
     pandas = library("pandas", "parquet", "A Parquet file")
@@ -79,7 +86,7 @@ def _time_index(frame: DataFrame, selection: Selection, names: list[str], what: 
     """The index, if it holds the times."""
     if selection.time not in ("time", frame.index.name):
         need_time(selection, names, what)
-    if frame.index.name is None and type(frame.index).__name__ == "RangeIndex":
+    if frame.index.name is None and frame.index.dtype.kind in "iu":
         raise DataError(
             f"{what} has no time: its index only counts the rows. Give it a column 'time' in seconds, "
             "or times as its index."

@@ -141,10 +141,10 @@ def need_time(selection: Selection, known: Collection[str], source: str) -> None
         )
 
 
-def seconds(times: np.ndarray) -> np.ndarray:
-    """Durations and dates as seconds, dates from the first one; other times as they are."""
+def seconds(times: np.ndarray, first: Any = None) -> np.ndarray:
+    """Durations and dates as seconds, dates from a ``first`` one, or from their own; other times as they are."""
     if times.dtype.kind == "M":
-        times = times - times[:1]
+        times = times - (times[:1] if first is None else first)
     if times.dtype.kind != "m":
         return times
     found = times / np.timedelta64(1, "s")

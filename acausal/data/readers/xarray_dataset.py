@@ -30,13 +30,21 @@ def read_xarray(dataset: Any, selection: Selection) -> Table:
             "leave them out."
         )
     times = {n: v.coords[v.dims[0]] for n, v in chosen.items()}
+    kinds = {t.dtype.kind if t.dtype.kind in "mM" else "f" for t in times.values()}
+    if len(kinds) > 1:
+        words = {"M": "dates", "m": "durations", "f": "numbers"}
+        raise DataError(
+            f"The times of the data set are {' and '.join(words[k] for k in sorted(kinds))}, which have no common "
+            "start; give all of one kind."
+        )
     of_times = dict.fromkeys(_unit(t) for t in times.values() if t.dtype.kind not in "mM")
     if len(of_times) > 1:
         raise DataError(
             f"The times of the data set have the units {listing(map(str, of_times))}; give them in one unit."
         )
     units = {n: _unit(v) for n, v in chosen.items()} | {"time": next(iter(of_times), None)}
-    signals = {n: (seconds(times[n].to_numpy()), v.to_numpy()) for n, v in chosen.items()}
+    first = min((t.to_numpy()[0] for t in times.values() if t.size), default=None)
+    signals = {n: (seconds(times[n].to_numpy(), first), v.to_numpy()) for n, v in chosen.items()}
     return selection.table(None, signals, {n: u for n, u in units.items() if u is not None})
 
 
