@@ -53,9 +53,9 @@ SAMPLE = (
     "tests/networks/test_promises.py",
     "tests/pages/test_page.py",
     "tests/reporting/test_html.py",
-    "tests/simulation/test_simulate.py",
+    "tests/simulation/test_vocabulary.py",
     "tests/structure/test_rank.py",
-    "tests/training/test_checkpoint.py",
+    "tests/training/test_ensemble.py",
     "tests/units/test_si.py",
 )
 
