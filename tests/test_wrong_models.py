@@ -579,7 +579,7 @@ GALLERY: dict[str, Wrong] = {
     "a comparison instead of an equation": (
         lambda: own(lambda s: [s.x == 1]),
         ac.DeclarationError,
-        ("equations() yields False", "yield ac.Eq(left, right)"),
+        ("x == 1", "an equation is ac.Eq(left, right)"),
     ),
     "math in an equation": (
         lambda: own(lambda s: [ac.Eq(s.x, math.sin(s.x))]),

@@ -21,7 +21,7 @@ from acausal.modeling.declarations import Declaration, element_names
 
 HALF = sp.Rational(1, 2)
 NUMBERS = (bool, int, float, np.number)
-WITHIN = ("sympy", "acausal")
+WITHIN = ("acausal", "numpy", "sympy")
 
 time = sp.Symbol("time", real=True)
 """The independent variable, in seconds."""
@@ -51,7 +51,7 @@ class Owner(Protocol):
 class Compared(sp.Symbol):
     """A symbol that a model compares with numbers by ``==`` and ``!=``, where sympy would compare identities.
 
-    Only what is written outside of sympy and of this package is read so; they need the identity.
+    Only what is written outside of sympy, NumPy and this package is read so; they need the identity.
     """
 
     def _is_whole(self) -> bool:
@@ -71,8 +71,8 @@ class Compared(sp.Symbol):
     def _equals(self, number: Any) -> Any:
         if not self._is_whole():
             raise DeclarationError(
-                f"{self} == {number} compares a real number, which has a value at instants only: "
-                "use <, <=, > or >=."
+                f"{self} == {number}: an equation is ac.Eq(left, right), and in a condition a real number, which "
+                "has a value at instants only, is compared by <, <=, > or >=."
             )
         value = float(number)
         return sp.Lt(sp.Abs(self - (int(value) if value.is_integer() else value)), HALF)
@@ -89,7 +89,7 @@ class Compared(sp.Symbol):
 
 
 def _is_within() -> bool:
-    """Whether the function that called this was called by sympy or by this package."""
+    """Whether the function that called this was called by sympy, NumPy or this package."""
     caller = sys._getframe(2).f_globals.get("__name__", "")
     return caller.partition(".")[0] in WITHIN
 

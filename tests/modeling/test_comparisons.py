@@ -45,7 +45,10 @@ def test_a_whole_number_equals_another(holds: Callable[[Any], Any], end: float) 
 @pytest.mark.parametrize(
     ("holds", "sentence"),
     [
-        (lambda m: m.x == 1, "x == 1 compares a real number, which has a value at instants only"),
+        (
+            lambda m: m.x == 1,
+            "x == 1: an equation is ac.Eq.left, right., and in a condition a real number",
+        ),
         (lambda m: 2 * m.n == 2, r"the condition of where\(...\) is False already"),
         (lambda m: m.x == m.n, r"the condition of where\(...\) is False already"),
         (lambda m: not m.n, "Python asks whether n is true, but its value is not known yet"),
