@@ -7,6 +7,7 @@ from typing import Any
 
 import jax
 from jax import Array
+from jax.core import ShapedArray
 from jax.extend.core import Primitive
 from jax.interpreters import batching, mlir
 
@@ -23,7 +24,7 @@ def deferred(function: Function, like: Sequence[Any]) -> Callable[..., list[Arra
         function: of arrays. It must not close over values that JAX traces; it has no derivatives.
         like: arrays, or `jax.ShapeDtypeStruct`, with the shapes and types of its results.
     """
-    shapes = tuple(jax.typeof(a) if isinstance(a, Array) else a for a in like)
+    shapes = tuple(jax.ShapeDtypeStruct(a.shape, a.dtype) for a in like)
     return lambda *values: _call.bind(*values, function=function, like=shapes)
 
 
@@ -40,7 +41,7 @@ def _now(*values: Array, function: Function, like: Sequence[Any]) -> Sequence[Ar
 @_call.def_abstract_eval
 def _shapes(*values: Any, function: Function, like: Sequence[Any]) -> list[Any]:
     del values, function
-    return [jax.core.ShapedArray(a.shape, a.dtype) for a in like]
+    return [ShapedArray(a.shape, a.dtype) for a in like]
 
 
 def _mapped(
