@@ -10,6 +10,7 @@ from jax import Array
 from jax.core import ShapedArray
 from jax.extend.core import Primitive
 from jax.interpreters import batching, mlir
+from jaxtyping import PyTree
 
 Function = Callable[..., Sequence[Array]]
 
@@ -21,11 +22,17 @@ def deferred(function: Function, like: Sequence[Any]) -> Callable[..., list[Arra
     Of a long function this takes many seconds.
 
     Arguments:
-        function: of arrays. It must not close over values that JAX traces; it has no derivatives.
+        function: of pytrees of arrays. It must not close over values that JAX traces; it has no derivatives.
         like: arrays, or `jax.ShapeDtypeStruct`, with the shapes and types of its results.
     """
     shapes = tuple(jax.ShapeDtypeStruct(a.shape, a.dtype) for a in like)
-    return lambda *values: _call.bind(*values, function=function, like=shapes)
+
+    def call(*args: PyTree) -> list[Array]:
+        values, tree = jax.tree.flatten(args)
+        of_values = lambda *values: function(*jax.tree.unflatten(tree, values))  # noqa: E731
+        return _call.bind(*values, function=of_values, like=shapes)
+
+    return call
 
 
 _call = Primitive("deferred")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, TypeVar
 
 import equinox as eqx
@@ -56,28 +57,20 @@ def two_modes(
 
         found, pull, result = jax.vjp(*of(reverse, values), has_aux=True)
         arrays, fixed = eqx.partition((values, pull), eqx.is_array)
-        saved, kept = jax.tree.flatten(_differentiated_once(arrays))
+        saved = _differentiated_once(arrays)
         given = [d for d, m in zip(directions, moved, strict=True) if m]
 
-        def push(*those: Array) -> list[Array]:
-            values, _ = eqx.combine(jax.tree.unflatten(kept, those[: len(saved)]), fixed)
+        def push(saved: PyTree, directions: list[Array]) -> list[Array]:
+            values, _ = eqx.combine(saved, fixed)
             of_moved, some = of(forward, values)
-            along = list(those[len(saved) :])
-            return jax.jvp(lambda some: of_moved(some)[0], (some,), (along,))[1]
+            return jax.jvp(lambda some: of_moved(some)[0], (some,), (directions,))[1]
 
-        def pull_back(*those: Array) -> list[Array]:
-            _, pull = eqx.combine(jax.tree.unflatten(kept, those[: len(saved)]), fixed)
-            return pull(list(those[len(saved) :]))[0]
+        def pull_back(saved: PyTree, cotangents: list[Array]) -> list[Array]:
+            return eqx.combine(saved, fixed)[1](cotangents)[0]
 
-        pushes, pulls = deferred(push, found), deferred(pull_back, given)
-        change = iter(
-            _linear(
-                lambda directions: pushes(*saved, *directions),
-                lambda cotangents: pulls(*saved, *cotangents),
-                given,
-                found,
-            )
-        )
+        pushed = partial(deferred(push, found), saved)
+        pulled = partial(deferred(pull_back, given), saved)
+        change = iter(_linear(pushed, pulled, given, found))
         return result, jax.tree.map(
             lambda a: (
                 next(change) if eqx.is_inexact_array(a) else np.zeros(a.shape, jax.dtypes.float0)

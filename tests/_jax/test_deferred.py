@@ -41,7 +41,7 @@ def test_it_is_mapped(axes):
         np.testing.assert_allclose(a, b, rtol=1e-15)
 
 
-def test_a_gradient_traces_no_forward_mode_and_a_map_of_it_nothing_twice():
+def test_a_gradient_traces_no_forward_mode_and_a_map_of_it_no_more():
     forward, reverse = [], []
 
     def squared(kept):
@@ -52,8 +52,12 @@ def test_a_gradient_traces_no_forward_mode_and_a_map_of_it_nothing_twice():
         return function
 
     call = two_modes(squared(reverse), squared(forward))
+    assert jax.jit(jax.grad(call))(jnp.arange(3.0)).tolist() == [0, 2, 4]
+    alone = len(reverse)
+    reverse.clear()
     gradients = jax.jit(jax.vmap(jax.grad(call)))(jnp.arange(6.0).reshape(2, 3))
     assert gradients.tolist() == [[0, 2, 4], [6, 8, 10]]
+    assert len(reverse) == alone
     assert not forward
     assert jax.jit(jax.jacfwd(call))(jnp.arange(3.0)).tolist() == [0, 2, 4]
     assert forward

@@ -119,7 +119,7 @@ def compare(subject: Subject, kind: str, record_property: Any, *, forward: bool 
         assert error < BAR, f"{kind}, {mode}, {error:.1e}:\n" + "\n".join(table)
 
 
-def in_turn(name: str) -> str:
+def kind_of(name: str) -> str:
     """One kind of steps of a model: they alternate from model to model."""
     kinds = HYBRIDS[name].kinds
     return kinds[list(HYBRIDS).index(name) % len(kinds)]
@@ -130,10 +130,10 @@ def in_turn(name: str) -> str:
 def test_gradients(name: str, record_property: Any) -> None:
     """Each model in reverse mode, and every third in forward mode, in one kind of steps."""
     subject = Subject(name)
-    run = subject.run(np.zeros(len(subject.names)), **subject.steps(in_turn(name)))
+    run = subject.run(np.zeros(len(subject.names)), **subject.steps(kind_of(name)))
     assert len(run.events) >= subject.case.events
     forward = list(HYBRIDS).index(name) % 3 == 0
-    compare(subject, in_turn(name), record_property, forward=forward)
+    compare(subject, kind_of(name), record_property, forward=forward)
 
 
 @pytest.mark.machines
