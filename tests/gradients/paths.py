@@ -225,9 +225,23 @@ LEFT_OUT = {("sparse nonlinear loop", "adaptive")}
 """Its thousands of factorizations on the host take minutes at so small a tolerance; fixed steps show its gradients."""
 
 
+DEAR = (
+    "bearing friction",
+    "bridge of diodes",
+    "diode",
+    "fluid",
+    "from rest",
+    "neural coil",
+    "neural gear",
+    "sparse nonlinear loop",
+    "state space",
+)
+"""Models whose gradients take longest to compile: with all combinations only."""
+
+
 def cases_of(kind: str) -> list[Any]:
     """The models for ``parametrize``, in one kind of steps: a third of them, in turn, are slow tests."""
-    cases = in_turn(CASES, len(IN_TURN), list(IN_TURN).index(kind))
+    cases = in_turn(CASES, len(IN_TURN), list(IN_TURN).index(kind), DEAR)
     return [case for case in cases if (case.values[0], kind) not in LEFT_OUT]
 
 

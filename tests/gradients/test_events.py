@@ -14,12 +14,26 @@ from jax import Array
 import acausal as ac
 from tests.gradients.hybrid_models import HYBRIDS
 from tests.gradients.paths import QUICK, central
+from tests.support.slow import in_turn
 
 BAR = 1e-5
 """The largest error of a component, relative to itself."""
 
 SMALL = 1e-3
 """Of the largest component: smaller ones are compared with this instead."""
+
+DEAR = (
+    "arc",
+    "averages",
+    "clutch",
+    "elastic gap",
+    "free wheel",
+    "held inputs",
+    "rectifier",
+    "stick-slip",
+    "stop",
+)
+"""Models whose gradients take longest to compile: with all combinations only."""
 
 TIGHT = {"rtol": 1e-11, "atol": 1e-13, "solver": "tsit5"}
 
@@ -125,8 +139,7 @@ def kind_of(name: str) -> str:
     return kinds[list(HYBRIDS).index(name) % len(kinds)]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", HYBRIDS)
+@pytest.mark.parametrize("name", in_turn(HYBRIDS, 1, machines=DEAR))
 def test_gradients(name: str, record_property: Any) -> None:
     """Each model in reverse mode, and every third in forward mode, in one kind of steps."""
     subject = Subject(name)

@@ -16,7 +16,7 @@ import acausal as ac
 from acausal.simulation import Adaptive, Steps, functions_of_time, integrate_in_steps, solvers
 from acausal.simulation.inputs import evaluate_all
 from acausal.simulation.sampled_inputs import over_steps
-from tests.support.slow import all_slow_but
+from tests.support.slow import some_slow
 
 
 class Driven(ac.Component):
@@ -64,7 +64,9 @@ PATHS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.parametrize("path", all_slow_but("heun", PATHS))
+@pytest.mark.parametrize(
+    "path", some_slow(PATHS, ["tsit5"], [p for p in PATHS if p not in ("heun", "tsit5")])
+)
 def test_an_event_before_a_jump_has_its_exact_gradient(path: str) -> None:
     """The samples' times do not move with the event: dx(1)/dtw is -1, and -1 by each of the samples' values."""
 
@@ -91,9 +93,13 @@ def test_an_event_before_a_jump_has_its_exact_gradient(path: str) -> None:
         np.testing.assert_allclose(along, [-1, -1], atol=1e-9)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["heun", "rk4", "adaptive"])
-@pytest.mark.parametrize("kind", ["previous", "linear"])
+ROWS = [(name, kind) for name in ("heun", "rk4", "adaptive") for kind in ("previous", "linear")]
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    some_slow(ROWS, [("heun", "previous")], [r for r in ROWS if r != ("heun", "previous")]),
+)
 def test_rows_of_a_training_see_their_own_side(name: str, kind: Any) -> None:
     system, n = driven(), 8
     ends = np.linspace(0, 1, n + 1)
@@ -129,7 +135,7 @@ def test_the_order_of_fixed_steps_survives_jumps_between_them() -> None:
     assert errors[0] > 100 * errors[1]
 
 
-@pytest.mark.slow
+@pytest.mark.machines  # "turns stiff" of the gradients is this model, too
 @pytest.mark.parametrize("solver", ["auto", "kvaerno5"])
 def test_a_method_that_begins_at_an_event_feels_its_time(solver: str) -> None:
     """Reverse beside forward mode: only the first had forgotten where the second method begins."""
