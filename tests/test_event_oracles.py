@@ -61,17 +61,21 @@ LONG = (
     "Blocks_TotalHarmonicDistortion",
     "ModelicaTest_Blocks_Discrete",
     "ModelicaTest_Blocks_Mean",
-    "ModelicaTest_Rotational_TestFriction",
-    "Rotational_CoupledClutches",
-    "Rotational_Friction",
     "Rotational_LossyGearDemo3",
     "Rotational_OneWayClutch",
     "Translational_Brake",
 )
 """Examples that take more than ten seconds to compile."""
 
+LONGER = (
+    "ModelicaTest_Rotational_TestFriction",
+    "Rotational_CoupledClutches",
+    "Rotational_Friction",
+)
+"""Examples that take longest: the same elements as in the others, more of them."""
 
-@pytest.mark.parametrize("name", some_slow(NETLISTS, LONG))
+
+@pytest.mark.parametrize("name", some_slow(NETLISTS, LONG, LONGER))
 def test_oracle(name: str, record_property: Any) -> None:
     errors = compare(name)
     for column, value in errors.items():

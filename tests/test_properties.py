@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import itertools
 import tempfile
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -236,20 +235,19 @@ PROPERTIES = (
     a_file_holds_the_whole_network,
 )
 QUIET = tuple(HealthCheck)
-property_of: Callable[..., Any] = pytest.mark.parametrize(
-    "holds", some_slow(PROPERTIES, [gradients_agree_with_differences]), ids=lambda p: p.__name__
-)
+GRADIENTS = [gradients_agree_with_differences]
 
 
-@property_of
+@pytest.mark.parametrize("holds", some_slow(PROPERTIES, GRADIENTS), ids=lambda p: p.__name__)
 @settings(suppress_health_check=QUIET)
 @given(network=networks(8, 4), seed=st.integers(0, 2**16))
 def test_of_small_networks(holds: Any, network: Network, seed: int) -> None:
     holds(network, seed)
 
 
-@pytest.mark.slow
-@property_of
+@pytest.mark.parametrize(
+    "holds", some_slow(PROPERTIES, PROPERTIES, GRADIENTS), ids=lambda p: p.__name__
+)
 @settings(suppress_health_check=QUIET)
 @given(network=networks(30, 10), seed=st.integers(0, 2**16))
 def test_of_larger_networks(holds: Any, network: Network, seed: int) -> None:

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.codegen.elimination import eliminate
-from acausal.codegen.newton import Dense, Residual, root
+from acausal.codegen.newton import Dense, Residual, jacobian_and_value, root
 
 FEW = 12
 """The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
@@ -26,7 +26,8 @@ def solve_linear(
     origin = jnp.zeros_like(guess)
 
     def solve(residual: Residual, start: Array) -> Array:
-        return -_solve(jax.jacfwd(residual)(start), residual(start))
+        jacobian, r = jacobian_and_value(residual, start)
+        return -_solve(jacobian, r)
 
     return block(jax.lax.custom_root(lambda z: block(z)[1], origin, solve, _tangent))[0]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, reduce
 from typing import Any
 
 import equinox as eqx
@@ -16,6 +16,8 @@ import jax
 import jax.numpy as jnp
 import sympy as sp
 from sympy.core.relational import Relational
+from sympy.functions.elementary.piecewise import ExprCondPair
+from sympy.logic.boolalg import Boolean
 
 from acausal.errors import ModelError
 from acausal.modeling import ModuleCall, Prescribed
@@ -171,28 +173,44 @@ def _power(node: sp.Pow, visit: Visit) -> Any:
 
 def _piecewise(node: Any, visit: Visit) -> Any:
     cases: list[tuple[Any, Any]] = []
-    earlier: Any = False
+    earlier: list[Any] = []
     for value, condition in node.args:
         holds = visit(condition)
-        cases.append((holds, _case(value, jnp.logical_and(holds, jnp.logical_not(earlier)), visit)))
-        earlier = jnp.logical_or(holds, earlier)
+        cases.append((holds, _case(value, holds, earlier, visit)))
+        earlier.append(holds)
     result: Any = jnp.nan
     for holds, value in reversed(cases):
         result = value if holds is True else jnp.where(holds, value, result)
     return result
 
 
-def _case(value: Any, holds: Any, visit: Visit) -> Any:
+def _case(value: Any, holds: Any, earlier: Sequence[Any], visit: Visit) -> Any:
     """A case whose gradient counts only where it holds: elsewhere its derivative may be infinite."""
     if not _is_steep(value):
         return visit(value)
+    if earlier:
+        holds = jnp.logical_and(holds, jnp.logical_not(reduce(jnp.logical_or, earlier)))
     read = {s: visit(s) for s in sorted(value.free_symbols, key=str)}
     return evaluate(value, {s: _only_where(holds, v) for s, v in read.items()})
 
 
+GENTLE = (
+    sp.Atom, sp.Add, sp.Mul, sp.sin, sp.cos, sp.atan, sp.asinh, sp.tanh, sp.Abs, sp.sign, sp.floor,
+    sp.ceiling, sp.Heaviside, sp.Max, sp.Min, sp.Piecewise, ExprCondPair,
+)  # fmt: skip
+"""Operations whose derivatives are finite wherever their arguments are."""
+
+
 @cache
-def _is_steep(value: sp.Expr) -> bool:
-    return not value.is_polynomial(*value.free_symbols)
+def _is_steep(value: sp.Basic) -> bool:
+    """Whether a derivative may be infinite somewhere; those of conditions are never taken."""
+    if isinstance(value, Boolean):
+        return False
+    if isinstance(value, sp.Pow):
+        is_gentle = value.exp.is_Integer and value.exp.is_positive
+    else:
+        is_gentle = isinstance(value, GENTLE)
+    return not is_gentle or any(map(_is_steep, value.args))
 
 
 def _only_where(holds: Any, value: Any) -> Any:

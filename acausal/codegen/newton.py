@@ -75,12 +75,7 @@ class Dense:
 
     def linearized(self, z: Array) -> tuple[Array, Matrix]:
         """The residuals and their Jacobian, which share their evaluation."""
-
-        def doubled(z: Array) -> tuple[Array, Array]:
-            r = self.residual(z)
-            return r, r
-
-        jacobian, r = jax.lax.optimization_barrier(jax.jacfwd(doubled, has_aux=True)(z))
+        jacobian, r = jax.lax.optimization_barrier(jacobian_and_value(self.residual, z))
         return r, Matrix(jacobian, self.solve)
 
 
@@ -101,6 +96,18 @@ class Matrix:
         """See `Jacobian`."""
         above = jnp.concatenate([self.values, column[:, None]], axis=1)
         return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
+
+
+def jacobian_and_value(
+    residual: Residual, z: Float[Array, " m"]
+) -> tuple[Float[Array, "k m"], Float[Array, " k"]]:
+    """The Jacobian of residuals and the residuals, from one evaluation."""
+
+    def doubled(z: Array) -> tuple[Array, Array]:
+        r = residual(z)
+        return r, r
+
+    return jax.jacfwd(doubled, has_aux=True)(z)
 
 
 _State = tuple[Array, Array, Array]

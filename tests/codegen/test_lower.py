@@ -139,6 +139,20 @@ def test_a_case_that_does_not_hold_does_not_spoil_the_gradient():
     assert float(jax.grad(lambda a: evaluate(big, {x: a}))(-2.0)) == 1.0
 
 
+def test_a_case_within_a_case_that_does_not_hold_does_not_spoil_the_gradient():
+    nested = ac.where(y > 0, ac.where(x >= 0, sp.sqrt(x), -x), x)
+    assert float(jax.grad(lambda a: evaluate(nested, {x: a, y: -1.0}))(0.0)) == 1.0
+
+
+def test_cases_with_finite_derivatives_are_read_as_they_are():
+    """No masks where none are needed: models of friction are conditions for the most part."""
+    gentle = ac.where(x > 0, ac.sin(y) * x**2, ac.where(y > 0, ac.tanh(x), abs(y)))
+    made = jax.make_jaxpr(lambda a, b: evaluate(gentle, {x: a, y: b}))(1.0, 2.0)
+    names = [equation.primitive.name for equation in made.eqns]
+    assert not {"and", "or", "not", "stop_gradient"} & set(names)
+    assert str(made).count("jit[name=_where") == 2
+
+
 def test_functions_of_real_numbers_are_differentiated_as_such():
     weird = functions.Abs(sp.log(x)) + functions.sign(sp.log(x)) * x
     expected = sp.sign(sp.log(x)) * (1 / x + 1)

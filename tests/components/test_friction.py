@@ -64,8 +64,13 @@ class Block(ac.Component):
         self.connect(self.mass.flange_b, self.friction.flange_a)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("steps", [{}, {"dt": 0.01}])
+@pytest.mark.parametrize(
+    "steps",
+    [
+        pytest.param({}, marks=pytest.mark.machines),
+        pytest.param({"dt": 0.01}, marks=pytest.mark.slow),
+    ],
+)
 def test_a_block_stops_where_its_energy_is_spent(steps):
     system = ac.compile(Block())
     params = system.parameters()
@@ -239,7 +244,7 @@ def test_brakes_that_share_a_load_hold_it_and_their_torques_are_told_to_be_open(
         assert np.isnan(sol["first.tau"][-1])
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_clutches_that_lock_the_same_motion_are_named():
     with pytest.raises(ac.SimulationError, match=r"0\.625.*'first.tau'.*lock the same motion"):
         ac.simulate(ac.compile(Redundant("Clutch")), 4.0, inputs=FULL)

@@ -22,7 +22,7 @@ from acausal.components import (
     translational as tl,
 )
 from acausal.networks import law_of
-from tests.support.slow import all_slow_but
+from tests.support.slow import some_slow
 
 STEPS = 200
 
@@ -216,7 +216,11 @@ def push(case: Case, t: np.ndarray) -> np.ndarray:
     return case.offset + case.swing * (0.6 * np.sin(2 * w * t) + 0.4 * np.sin(7 * w * t + 0.3))
 
 
-@pytest.mark.parametrize("domain", all_slow_but("translational", CASES))
+SLOW = ("rotational", "thermal")
+LONG = [domain for domain in CASES if domain not in (*SLOW, "translational")]
+
+
+@pytest.mark.parametrize("domain", some_slow(CASES, SLOW, LONG))
 def test_a_law_is_learned(domain: str) -> None:
     case = CASES[domain]
     t = np.linspace(0, case.end, STEPS + 1)

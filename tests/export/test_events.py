@@ -20,6 +20,7 @@ from tests.support.fmus import Unpacked, need_fmpy
 from tests.support.hybrid import Ball, Sampled, Step, Thermostat, ball_height
 from tests.support.paths import SHARED
 from tests.support.slow import in_turn, some_slow
+from tests.test_event_oracles import LONGER
 
 
 class Relay(ac.Component):
@@ -258,8 +259,7 @@ COARSE = {"Analog_SwitchWithArc", "Rotational_LossyGearDemo3"}
 """Examples that break down with these steps, in `acausal.simulate` as in C."""
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", some_slow(EXAMPLES, EXAMPLES, LONGER))
 def test_examples_in_c(name: str, tmp_path: Path) -> None:
     model = ac.load(FOLDER / f"{name}.json")
     system = ac.compile(model)
@@ -286,7 +286,7 @@ def test_examples_in_c(name: str, tmp_path: Path) -> None:
 @pytest.mark.filterwarnings(
     "ignore:export.fmu. steps of"
 )  # of a co-simulation that is not run here
-@pytest.mark.parametrize("name", in_turn(EXAMPLES, 3))
+@pytest.mark.parametrize("name", in_turn(EXAMPLES, 3, machines=LONGER))
 def test_examples_as_fmus(name: str, tmp_path: Path) -> None:
     fmpy = need_fmpy()
     model = ac.load(FOLDER / f"{name}.json")

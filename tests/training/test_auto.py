@@ -22,6 +22,7 @@ from acausal.networks import (
 )
 from acausal.training.objective.noise import noise_of
 from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
+from tests.support.slow import some_slow
 from tests.training.test_checkpoint import stop
 
 
@@ -166,9 +167,11 @@ def test_noise_is_found_beside_a_smooth_signal() -> None:
     assert noise / float(problem.records.sigma[0]) == pytest.approx(0.01, rel=0.25)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["friction, acceleration", "circuit in microseconds", "house, a month",
-                                  "motor's load", "tanks", "limit cycle"])  # fmt: skip
+SHORT = ["friction, acceleration", "circuit in microseconds", "motor's load"]
+LONG = ["house, a month", "tanks", "limit cycle"]
+
+
+@pytest.mark.parametrize("name", some_slow([*SHORT, *LONG], SHORT, LONG))
 def test_problems_without_options(name: str) -> None:
     problem = PROBLEMS[name]
     _, noisy, _ = record(problem, NOISE, 0)

@@ -71,12 +71,15 @@ def test_a_step_of_held_inputs_ends_before_the_next_sample() -> None:
     np.testing.assert_allclose(inputs.start[2:, 0], p.inputs[:-2, 0], atol=1e-12)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("kind", "options"),
     [
-        ("cubic", {"solver": "rk4"}),
-        ("linear", {"sequence_length": 0.6, "batch_size": 3, "x0": "fit"}),
+        pytest.param("cubic", {"solver": "rk4"}, marks=pytest.mark.machines),
+        pytest.param(
+            "linear",
+            {"sequence_length": 0.6, "batch_size": 3, "x0": "fit"},
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_gradients_are_those_of_central_differences(kind: Any, options: dict[str, Any]) -> None:

@@ -8,6 +8,7 @@ import pytest
 
 import acausal as ac
 from tests.support.hybrid import Ball
+from tests.support.slow import some_slow
 
 STEPS: dict[str, Any] = {
     "adaptive": {"rtol": 1e-10, "atol": 1e-12},
@@ -77,8 +78,7 @@ def ends(system: ac.System, kind: str) -> Any:
     return run, values
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", ["fixed", "adaptive"])
+@pytest.mark.parametrize("kind", some_slow(["fixed", "adaptive"], ["fixed"], ["adaptive"]))
 def test_each_has_its_own_time(system: ac.System, kind: str) -> None:
     run, values = ends(system, kind)
     total = lambda v: run(v) @ np.arange(1.0, len(system.states) + 1)  # noqa: E731

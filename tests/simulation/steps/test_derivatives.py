@@ -10,7 +10,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks
 from tests.support.hybrid import Ball, Sampled, Step, ball_height, sampled_end
-from tests.support.slow import all_slow_but
+from tests.support.slow import all_slow_but, some_slow
 
 TIGHT: dict[str, Any] = {"rtol": 1e-10, "atol": 1e-12}
 STEPS: dict[str, Any] = {"adaptive": TIGHT, "fixed": {"dt": 0.01, "solver": "rk4"}}
@@ -115,7 +115,7 @@ def test_a_sampling_period_is_trained(kind: str) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
-@pytest.mark.parametrize("kind", all_slow_but("fixed", STEPS))
+@pytest.mark.parametrize("kind", some_slow(STEPS, [], [k for k in STEPS if k != "fixed"]))
 def test_a_switching_time_and_a_threshold_of_a_later_event(step: ac.System, kind: str) -> None:
     def late(t1: Any, threshold: Any) -> Any:
         params = {**step.parameters(), "t1": t1, "threshold": threshold}
@@ -183,7 +183,7 @@ class _StepResponse(ac.Component):
 @pytest.mark.parametrize(
     "how",
     [
-        pytest.param({"rtol": 1e-10, "atol": 1e-12}, marks=pytest.mark.slow),
+        pytest.param({"rtol": 1e-10, "atol": 1e-12}, marks=pytest.mark.machines),
         {"dt": 0.01, "solver": "rk4"},
     ],
 )
