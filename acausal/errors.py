@@ -3,7 +3,6 @@
 Every message says what is wrong, where (dotted names, at most a dozen), and how to fix it.
 """
 
-import os
 import sys
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -106,19 +105,6 @@ def need_compiled(system: object, function: str) -> None:
             f"{function} needs a compiled model, got {kind}: system = ac.compile(model), then "
             f"ac.{function}(system, ...)"
         )
-
-
-def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:
-    """A path as such; anything that is none is refused.
-
-    Raises:
-        AcausalError: of the class ``error``.
-    """
-    if not isinstance(given, str | os.PathLike):
-        raise error(
-            f"{function}: {shown(given)} is not a path; give a text such as 'folder/file', or a pathlib.Path."
-        )
-    return Path(given)
 
 
 def user_level() -> int:

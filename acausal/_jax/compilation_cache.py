@@ -16,7 +16,8 @@ from pathlib import Path
 import jax
 from jax.experimental.compilation_cache.compilation_cache import reset_cache
 
-from acausal.errors import DataError, need_path
+from acausal.errors import DataError
+from acausal.files import need_path
 
 VARIABLE = "ACAUSAL_COMPILATION_CACHE"
 """The environment variable that names another folder, or says ``off``."""

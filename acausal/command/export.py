@@ -18,6 +18,7 @@ from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import Output
 from acausal.errors import listing
+from acausal.files import need_path
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ def run(args: Namespace, out: Output) -> None:
             raise UsageError(f"--{option} does not go with the form {name}.")
     system = system_of(args)
     params = parameters_of(args, system)
-    path = Path(args.path)
+    path = need_path(args.path, "export")
     if name == "c" and path.suffix in form.endings:
         path, given["name"] = path.parent, path.stem
     files = getattr(ac.export, name)(system, path, params, overwrite=args.overwrite, **given)

@@ -13,7 +13,7 @@ import acausal as ac
 from acausal.command.arguments import Parsers, add_command
 from acausal.command.exit_codes import UsageError
 from acausal.command.output import Output
-from acausal.errors import reason
+from acausal.files import write_files
 
 FILES = {
     "pyproject.toml": "pyproject.toml.template",
@@ -53,20 +53,13 @@ def run(args: Namespace, out: Output) -> None:
     _check_name(name)
     if folder.exists():
         raise ac.DataError(f"'{folder}' exists; choose another name, or --into another folder.")
-    written: list[str] = []
-    try:
-        for place, template in FILES.items():
-            path = folder / place.format(name=name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(_filled(template, name), encoding="utf-8")
-            written.append(str(path))
-    except OSError as error:
-        raise ac.DataError(f"'{folder}' cannot be written: {reason(error)}.") from None
+    written = {folder / p.format(name=name): _filled(t, name) for p, t in FILES.items()}
+    write_files(written, make_folders=True)
     out.say(f"wrote {folder}:")
     for file in written:
-        out.say(f"  {Path(file).relative_to(folder)}")
+        out.say(f"  {file.relative_to(folder)}")
     out.say(f"next: cd {folder} && pip install -e '.[dev]' && pytest")
-    out.result({"name": name, "files": written})
+    out.result({"name": name, "files": [str(file) for file in written]})
 
 
 def _check_name(name: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
 import sys
 from argparse import ArgumentParser, Namespace
@@ -20,7 +21,8 @@ from acausal.command.exit_codes import UsageError
 from acausal.command.model import parameters_of, system_of, title_of
 from acausal.command.output import Output, number
 from acausal.command.records import add_reading, read_record
-from acausal.errors import nearest, reason
+from acausal.errors import nearest
+from acausal.files import need_path, write_files
 
 if TYPE_CHECKING:
     import numpy as np
@@ -220,10 +222,11 @@ def _summary(
 
 
 def _plot(solution: ac.Solution, names: list[str], path: str) -> None:
+    file = need_path(path, "--plot")
     figure = solution.plot(*names)
+    picture = io.BytesIO()
     try:
-        figure.savefig(path)
-    except OSError as error:
-        raise ac.DataError(f"'{path}' cannot be written: {reason(error)}.") from None
+        figure.savefig(picture, format=file.suffix[1:] or None)
     except ValueError as error:  # an ending that matplotlib does not know
         raise ac.DataError(f"'{path}' cannot be written: {error}.") from None
+    write_files({file: picture.getvalue()})

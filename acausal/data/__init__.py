@@ -36,6 +36,5 @@ from acausal.data.tensors import (
     filled_like as filled_like,
     named_arrays as named_arrays,
     read_arrays as read_arrays,
-    replace_file as replace_file,
     write_arrays as write_arrays,
 )

@@ -6,13 +6,13 @@ import dataclasses
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from functools import singledispatch
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 
 from acausal.data.tensors import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, reason, shortened
+from acausal.files import need_path
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -37,9 +37,10 @@ def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None
             "save_params takes parameters by name, such as fit.params, and then a path, "
             f"not {_kind(params)} and {_kind(path)}."
         )
+    file = need_path(path, "save_params")
     about = {"kind": KIND, "settings": dict(_settings(dict(params), ""))}
     try:
-        write_arrays(Path(path), named_arrays(dict(params)), about)
+        write_arrays(file, named_arrays(dict(params)), about)
     except OSError as error:
         raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
 
@@ -62,8 +63,9 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
             "load_params takes a path and then a compiled model, or parameters by name, "
             f"not {_kind(path)} and {_kind(model)}."
         )
+    file = need_path(path, "load_params")
     like: dict[str, Any] = dict(model) if isinstance(model, Mapping) else model.parameters()
-    arrays, about = read_arrays(Path(path))
+    arrays, about = read_arrays(file)
     if about.get("kind") != KIND:
         raise DataError(
             f"'{path}' does not hold {KIND}, but: {about.get('kind', 'something unnamed')}."

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeGuard
 
@@ -22,12 +20,13 @@ from jax.typing import ArrayLike
 from jaxtyping import PyTree
 
 from acausal.errors import DataError, listing, reason
+from acausal.files import replace_file
 
 Arrays = dict[str, np.ndarray]
 
 
 def write_arrays(path: Path, arrays: Mapping[str, np.ndarray], about: Mapping[str, Any]) -> None:
-    """Write a file. If this fails or is killed, the old file is still there.
+    """Write a file, completely or not at all.
 
     Arguments:
         path: the file.
@@ -67,27 +66,6 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
             f"'{path}' was changed after it was written: its checksum does not fit. Use another copy of it."
         )
     return arrays, json.loads(metadata["about"])
-
-
-def replace_file(path: Path, content: bytes) -> None:
-    """Replace a file at once: a reader sees the old one or the new one.
-
-    Raises:
-        OSError: if it cannot be written; the old one is still there.
-    """
-    part = path.with_name(f".{path.name}.part")
-    try:
-        with part.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        part.replace(path)
-    except BaseException:
-        with suppress(OSError):
-            part.unlink()
-        raise
-    with suppress(OSError):  # some file systems cannot make a rename durable
-        _sync(path.parent)
 
 
 def named_arrays(tree: PyTree) -> Arrays:
@@ -153,11 +131,3 @@ def _checksum(arrays: Mapping[str, np.ndarray], text: str) -> str:
         total.update(json.dumps([name, str(array.dtype), array.shape]).encode())
         total.update(array.tobytes())
     return total.hexdigest()
-
-
-def _sync(folder: Path) -> None:
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -10,7 +10,8 @@ from acausal.drawing.layout import lay_out
 from acausal.drawing.placed import Placed
 from acausal.drawing.read import read
 from acausal.drawing.svg import write
-from acausal.errors import DataError, ModelError, reason, shown
+from acausal.errors import DataError, ModelError, shown
+from acausal.files import need_path, write_files
 from acausal.modeling import Component
 
 
@@ -44,14 +45,10 @@ class Diagram:
         Raises:
             DataError: for another ending, or if it cannot be written.
         """
-        path = Path(path)
+        path = need_path(path, "diagram.save")
         if path.suffix.lower() != ".svg":
             raise DataError(f"A diagram is saved as SVG: {path.name!r} should end with .svg.")
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(self.svg, encoding="utf-8")
-        except OSError as error:
-            raise DataError(f"{path} cannot be written: {reason(error)}.") from error
+        write_files({path: self.svg}, make_folders=True)
         return path
 
 

@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from acausal.errors import DataError, need_compiled, need_path, shown
+from acausal.errors import DataError, need_compiled, shown
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
 from acausal.export.c_text.reserved import RESERVED
 from acausal.export.c_text.source import source
 from acausal.export.c_text.steps import scheme_named
 from acausal.export.c_text.text import Text
-from acausal.export.files import write
 from acausal.export.names import Run, runs
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.vector import ParameterVector
+from acausal.files import need_path, new_file, write_files
 from acausal.initialization import before_events
 from acausal.modeling import names_in
 from acausal.system import System
@@ -75,13 +75,8 @@ def c(
     )
     files = path / f"{text.name}.h", path / f"{text.name}.c"
     for file in files:
-        if file.exists() and not overwrite:
-            raise DataError(
-                f"export.c: '{file}' exists; give another folder or name, or overwrite=True."
-            )
-    path.mkdir(parents=True, exist_ok=True)
-    write(files[0], header(text), "c")
-    write(files[1], source(text), "c")
+        new_file(file, "export.c", overwrite, need_folder=False)
+    write_files({files[0]: header(text), files[1]: source(text)}, make_folders=True)
     return files
 
 

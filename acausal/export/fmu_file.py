@@ -29,7 +29,6 @@ from acausal.export.c_file import model_text
 from acausal.export.c_text.header import header as header_in_c
 from acausal.export.c_text.source import source
 from acausal.export.c_text.text import Text
-from acausal.export.files import new_file, write
 from acausal.export.fmu_text.binary import (
     PLATFORMS,
     Platform,
@@ -44,6 +43,7 @@ from acausal.export.fmu_text.description import KINDS, Description, build_descri
 from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
 from acausal.export.ranges import Ranges, Watch, watched
+from acausal.files import new_file, write_files
 from acausal.modeling import names_in
 from acausal.simulation import STABILITY_LIMIT, fastest_mode
 from acausal.system import System
@@ -105,7 +105,7 @@ def fmu(
             compiler.
     """
     need_compiled(system, "export.fmu")
-    target = new_file(path, "fmu", overwrite)
+    target = new_file(path, "export.fmu", overwrite)
     chosen = _checked_kinds(fmi, kinds, STEP if step is None else step)
     places = _checked_platforms(platforms, fmi) if binary else ()
     scalars = fmi == "2.0"
@@ -121,7 +121,7 @@ def fmu(
     if "co_simulation" in chosen and not text.scheme.implicit:
         length = _stable(system, text, params, length, step is None)
     content = _content(text, system, watch, free, wanted, fmi, chosen, length, places)
-    write(target, _zipped(content), "fmu")
+    write_files({target: _zipped(content)})
     return target
 
 

@@ -11,8 +11,8 @@ import numpy as np
 
 from acausal._jax import need_double_precision
 from acausal.errors import ModelError, shown
-from acausal.export.files import new_file, write
 from acausal.export.given import all_parameters
+from acausal.files import new_file, write_files
 from acausal.modeling import Component, InitialParameter
 from acausal.system import System, compile
 
@@ -49,7 +49,7 @@ def modelica(
         ModelError: for an equation that Modelica cannot state.
     """
     need_double_precision()
-    target = new_file(path, "modelica", overwrite)
+    target = new_file(path, "export.modelica", overwrite)
     from acausal.export.modelica_text import Package, class_name, package_of
     from acausal.export.modelica_text.standard import standard_connector, standard_part
 
@@ -71,7 +71,7 @@ def modelica(
     title = class_name(target.stem)
     name = changed._node.title or type(changed).__name__
     text = package_of(changed, title, f"{name}, written by acausal", package, system.inputs)
-    write(target, text, "modelica")
+    write_files({target: text})
     return target
 
 

@@ -11,8 +11,9 @@ from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
 from acausal.export.choice import chosen
-from acausal.export.files import need_package, new_file, write
+from acausal.export.packages import need_package
 from acausal.export.subject import Subject, traced
+from acausal.files import new_file, write_files
 from acausal.system import System
 
 
@@ -61,7 +62,7 @@ def onnx(
     """
     need_double_precision()
     real = precision(dtype)
-    target = new_file(path, "onnx", overwrite)
+    target = new_file(path, "export.onnx", overwrite)
     need_package("onnx", "onnx")
     from acausal.export.graph import model_of
 
@@ -70,7 +71,7 @@ def onnx(
     names = [p.name for p in subject.inputs], [p.name for p in subject.outputs]
     defaults = {p.name: p.default for p in subject.inputs if p.default is not None}
     message = model_of(closed, names, defaults, real, subject.title, notes(subject))
-    write(target, message.SerializeToString(), "onnx")
+    write_files({target: message.SerializeToString()})
     return target
 
 

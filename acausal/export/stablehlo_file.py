@@ -14,8 +14,9 @@ from jax.typing import DTypeLike
 from acausal._jax import need_double_precision, precision
 from acausal.errors import DataError, nearest, shown
 from acausal.export.choice import chosen
-from acausal.export.files import need_package, new_file, write
+from acausal.export.packages import need_package
 from acausal.export.subject import Subject, arguments
+from acausal.files import new_file, write_files
 from acausal.modeling import names_in
 from acausal.system import System
 
@@ -66,7 +67,7 @@ def stablehlo(
     """
     need_double_precision()
     real = precision(dtype)
-    target = new_file(path, "stablehlo", overwrite)
+    target = new_file(path, "export.stablehlo", overwrite)
     if target.suffix not in FORMS:
         raise DataError(
             f"export.stablehlo: the ending '{target.suffix}' is no form; end the path in {', '.join(FORMS)}"
@@ -92,7 +93,7 @@ def stablehlo(
 
     try:
         exported = jax_export.export(jax.jit(in_precision), platforms=compiled_for)(*shapes)
-        write(target, _content(exported, target.suffix, subject, derivatives), "stablehlo")
+        write_files({target: _content(exported, target.suffix, subject, derivatives)})
     except (ValueError, NotImplementedError, TypeError) as error:
         reason = str(error).splitlines()[0]
         raise DataError(

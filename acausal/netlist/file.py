@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from acausal.errors import ModelError, shortened
+from acausal.files import write_files
 
 MAX_BYTES = 100_000_000
 MAX_NESTING = 100
@@ -77,10 +78,7 @@ def write(document: Mapping[str, Any], path: Path) -> None:
         NetlistError: if the file cannot be written.
     """
     text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
-    try:
-        path.write_text(text + "\n", encoding="utf-8")
-    except OSError as error:
-        raise NetlistError(f"{path}: cannot be written ({error.strerror})") from None
+    write_files({path: text + "\n"}, NetlistError)
 
 
 def within(where: str, action: Callable[[], Any]) -> Any:

@@ -27,7 +27,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from acausal.errors import ModelError, need_path, shown
+from acausal.errors import ModelError, shown
+from acausal.files import need_path
 from acausal.modeling import Budget, BudgetError, Component, Declaration, spending
 from acausal.netlist import file as netlist_file
 from acausal.netlist.file import within

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from acausal.errors import DataError, need_path, reason, shown
+from acausal.errors import DataError, shown
+from acausal.files import need_path, write_files
 from acausal.modeling import Component
 from acausal.pages.components import MOST_CARDS, Known, component_cards
 from acausal.pages.drawn import schematic
@@ -64,11 +65,7 @@ def page(
 def write_page(content: PageContent, path: str | Path) -> Path:
     """Write a page; arguments and errors as of `page`."""
     file, text = page_path(path), render(content)
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise DataError(f"Page '{file}' cannot be written: {reason(error)}.") from error
+    write_files({file: text}, make_folders=True)
     return file
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from acausal.errors import DataError, reason
+from acausal.files import need_path, write_files
 from acausal.reporting.mathml import mathml, names_in
 from acausal.reporting.short_names import Short, shorten
 
@@ -91,7 +91,7 @@ class Page:
         buffer = io.BytesIO()
         figure.savefig(buffer, format="png", dpi=140, bbox_inches="tight")
         if save is not None:
-            save.write_bytes(buffer.getvalue())
+            write_files({save: buffer.getvalue()})
         image = base64.b64encode(buffer.getvalue()).decode()
         alternative = html.escape(caption, quote=True)
         self._body.append(
@@ -109,24 +109,23 @@ class Page:
         Raises:
             DataError: if it cannot be written.
         """
-        path = Path(path)
+        path = need_path(path, "write")
         text = (
             '<!doctype html><html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
             f"<title>{html.escape(self.title)}</title><style>{STYLE}</style></head><body>"
             f"{''.join(self._body)}<footer>{html.escape(footer)}</footer></body></html>"
         )
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-        except OSError as error:
-            raise DataError(f"Page '{path}' cannot be written: {reason(error)}.") from error
+        write_files({path: text}, make_folders=True)
         return path
 
 
 def write_json(path: str | Path, content: Any) -> Path:
-    """Write figures as JSON and create the folder."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    """Write figures as JSON and create the folder.
+
+    Raises:
+        DataError: if the file cannot be written.
+    """
+    path = need_path(path, "write_json")
+    write_files({path: json.dumps(content, indent=2) + "\n"}, make_folders=True)
     return path

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
@@ -17,7 +18,8 @@ from jaxtyping import Array, Float
 
 from acausal._jax import traced
 from acausal.codegen import Packed, Values
-from acausal.errors import DataError, nearest, need_path, reason
+from acausal.errors import DataError, nearest
+from acausal.files import need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
 from acausal.simulation.inputs import TimeFunction, evaluate_all
@@ -189,13 +191,11 @@ class Solution(ByName):
         """
         path, columns = need_path(path, "to_csv"), self.to_dict(names)
         units = map(self.unit, columns)
-        try:
-            with path.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file)
-                writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
-                writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
-        except OSError as error:
-            raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
+        text = io.StringIO()
+        writer = csv.writer(text)
+        writer.writerow(f"{n} [{unit}]" for n, unit in zip(columns, units, strict=True))
+        writer.writerows(zip(*(c.tolist() for c in columns.values()), strict=True))
+        write_files({path: text.getvalue()})
 
     def to_xarray(self, names: Iterable[str] | None = None) -> Dataset:
         """An xarray Dataset of the variables (by default all) over ``time``, with their units as attributes.

@@ -6,7 +6,7 @@ import logging
 import time
 import warnings
 from collections.abc import Callable, Generator, Mapping
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, TrainingError, listing, reason, user_level
+from acausal.files import Lock
 from acausal.training.history import Rows
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.trainer import State
@@ -141,25 +142,34 @@ def keeping(path: Path | None, every: float, fingerprint: Mapping[str, str]) -> 
     """Write checkpoints: at once, then at intervals of ``every`` seconds, and at the end, also after an error.
 
     Raises:
-        TrainingError: if the first one cannot be written. If a later one cannot, this warns and continues.
+        TrainingError: if another process writes checkpoints there, or the first one cannot be written. If a later one
+            cannot, this warns and continues.
     """
     if path is None:
         yield lambda snapshot, logs: None
         return
-    keeper = _Keeper(path, every, fingerprint)
-    try:
-        yield keeper.keep
-    finally:
-        keeper.close()
+    with closing(Lock(path)) as lock:
+        try:
+            lock.hold()
+        except OSError as error:
+            raise _nothing_trained(path, error) from error
+        keeper = _Keeper(path, every, fingerprint, lock)
+        try:
+            yield keeper.keep
+        finally:
+            keeper.close()
 
 
 class _Keeper:
     """Writes the latest snapshot now and then."""
 
-    def __init__(self, path: Path, every: float, fingerprint: Mapping[str, str]) -> None:
-        self.path, self.every, self.fingerprint = path, every, dict(fingerprint)
+    def __init__(
+        self, path: Path, every: float, fingerprint: Mapping[str, str], lock: Lock
+    ) -> None:
+        self.path, self.every, self.fingerprint, self.lock = path, every, dict(fingerprint), lock
         self.latest: tuple[Snapshot, Logs] | None = None
         self.written: tuple[Snapshot, Logs] | None = None
+        self.there: tuple[int, int] | None = None
         self.tried = -np.inf
         self.warned = False
 
@@ -193,9 +203,7 @@ class _Keeper:
         error = self._try()
         if error:
             self.latest = None
-            raise TrainingError(
-                f"Checkpoint '{self.path}' cannot be written: {reason(error)}. Nothing was trained."
-            ) from error
+            raise _nothing_trained(self.path, error) from error
 
     def _try(self) -> OSError | None:
         assert self.latest is not None
@@ -207,12 +215,13 @@ class _Keeper:
             "kind": KIND, "leg": snapshot.leg, "members": len(logs), "fingerprint": self.fingerprint
         }  # fmt: skip
         try:
+            self.lock.hold()
             write_arrays(self.path, {**named_arrays(snapshot), **log}, about)
         except OSError as error:
             return error
         finally:
             self.tried = time.monotonic()
-        self.written = self.latest
+        self.written, self.there = self.latest, _identity(self.path)
         LOGGER.debug("wrote checkpoint %s at epoch %d", self.path, _epochs(logs[0]))
         return None
 
@@ -220,10 +229,26 @@ class _Keeper:
         assert self.latest is not None
         assert self.written is not None
         now, before = (_epochs(logs[0]) for _, logs in (self.latest, self.written))
+        still = "still" if self.there == _identity(self.path) else "no longer"
         return (
             f"Checkpoint '{self.path}' cannot be written at epoch {now}: {reason(error)}; "
-            f"that of epoch {before} is still there."
+            f"that of epoch {before} is {still} there."
         )
+
+
+def _nothing_trained(path: Path, error: OSError) -> TrainingError:
+    return TrainingError(
+        f"Checkpoint '{path}' cannot be written: {reason(error)}. Nothing was trained."
+    )
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    """What distinguishes a file from later ones of the same name; None if there is none."""
+    try:
+        found = path.stat()
+    except OSError:
+        return None
+    return found.st_ino, found.st_mtime_ns
 
 
 def _epochs(rows: Rows) -> int:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from acausal.errors import need_path
+from acausal.files import need_path
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table
 from acausal.training.ensemble import Ensemble

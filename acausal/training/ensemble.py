@@ -15,7 +15,8 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data, RecordsLike
-from acausal.errors import TrainingError, need_compiled, need_path, shown
+from acausal.errors import TrainingError, need_compiled, shown
+from acausal.files import need_path
 from acausal.networks import law_of
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from acausal.errors import DataError, nearest, need_path, reason, user_level
-from acausal.reporting import write_json
+from acausal.errors import DataError, nearest, user_level
+from acausal.files import need_path, new_file, write_files
 from acausal.training.model_card import facts, markdown
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
@@ -36,8 +37,7 @@ def export_with_card(
         )
     cards = [target.with_name(target.name + ending) for ending in (".md", ".json")]
     for card in (target, *cards):
-        if card.exists() and not overwrite:
-            raise DataError(f"fit.export: '{card}' exists; give another path, or overwrite=True.")
+        new_file(card, "fit.export", overwrite, need_folder=False)
     if late := [*fit.delays.items(), *fit.lags.items()]:
         told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late)
         warnings.warn(
@@ -48,11 +48,7 @@ def export_with_card(
     function, write = _WRITERS[target.suffix]
     files = write(fit, target, {**options, "overwrite": overwrite})
     found = facts(fit, files, function, {**options}, confidence, notes or {})
-    try:
-        cards[0].write_text(markdown(found), encoding="utf-8")
-        write_json(cards[1], found)
-    except OSError as error:
-        raise DataError(f"fit.export: cannot write '{cards[0]}': {reason(error)}.") from None
+    write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
     return target
 
 

@@ -13,8 +13,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from acausal.data import replace_file
-from acausal.errors import DataError, TrainingError, need_path, reason, user_level
+from acausal.errors import DataError, TrainingError, reason, user_level
+from acausal.files import need_path, replace_file
 from acausal.training.progress import Progress
 
 SCALARS: dict[str, Callable[[Progress], float]] = {

@@ -19,6 +19,7 @@ import optax
 from jax.typing import DTypeLike
 
 from acausal.errors import TrainingError, nearest, shown
+from acausal.files import need_path
 from acausal.simulation import Solver
 from acausal.training.objective.error_laws import ErrorLaw
 from acausal.training.objective.held_out import Validation
@@ -106,7 +107,6 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "evaluate_every": (_is_count, "a whole number of updates"),
     "patience": (_is_count, "a whole number of evaluations"),
     "observers": (_are_many, "several functions"),
-    "checkpoint": (lambda v: isinstance(v, str | Path), "a path"),
     "checkpoint_every": (_is_number, "a number of seconds"),
 }
 """What the values of options must be, in words for a message."""
@@ -315,6 +315,8 @@ class FitOptions:
             left_out = value is None and FitOptions.__dataclass_fields__[name].default is None
             if not (left_out or fits(value)):
                 raise TrainingError(f"{name}={shown(value)} is not {wanted}.")
+        if self.checkpoint is not None:
+            need_path(self.checkpoint, "checkpoint", TrainingError)
         for function in (*self.penalties, *self.all_observers):
             if not callable(function):
                 raise TrainingError(

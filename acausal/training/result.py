@@ -14,7 +14,8 @@ from jaxtyping import Float
 
 from acausal.analysis import Distilled, distill, labels
 from acausal.data import RecordsLike
-from acausal.errors import TrainingError, nearest, need_path
+from acausal.errors import TrainingError, nearest
+from acausal.files import need_path
 from acausal.networks import remove_offset
 from acausal.pages import write_page
 from acausal.reporting import PageContent

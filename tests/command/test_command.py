@@ -354,6 +354,8 @@ def test_export(typed, folder: Path) -> None:
     code, _, err = typed("export", "oscillator.json", "model.mo")
     assert code == 4
     assert "exists" in err
+    code, _, err = typed("export", "oscillator.json", "", "--form", "c")
+    assert (code, err) == (4, "error: export: '' is not a path; it is empty.\n")
 
 
 def test_page(typed, folder: Path) -> None:

@@ -311,7 +311,7 @@ def test_the_header_names_variables_and_units(tmp_path: Path) -> None:
 def test_wrong_calls_are_refused(tmp_path: Path) -> None:
     system = ac.compile(Rectifier())
     ac.export.c(system, tmp_path)
-    with pytest.raises(ac.DataError, match="exists; give another folder or name"):
+    with pytest.raises(ac.DataError, match="exists; give another path, or overwrite=True"):
         ac.export.c(system, tmp_path)
     with pytest.raises(ac.DataError, match="is no name in C"):
         ac.export.c(system, tmp_path, name="2 fast")

@@ -301,7 +301,7 @@ def test_numbers_of_a_page_are_json(tmp_path: Path):
         (3, "out", r"^page: 3 has no page; give a model, a Solution or a Fit, such as ac\.page\(fit, 'out'\)\.$"),
         (Swing, "out", r"^page: <class .*Swing'> has no page"),
         (Swing(), 3, "page"),
-        (Swing(), "/proc/none/x.html", r"^Page '/proc/none/x\.html' cannot be written: "),
+        (Swing(), "/proc/none/x.html", r"^'/proc/none/x\.html' cannot be written: "),
     ],
 )  # fmt: skip
 def test_mistakes_get_one_sentence(subject: object, path: object, sentence: str, tmp_path: Path):

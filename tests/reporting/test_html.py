@@ -58,7 +58,7 @@ def test_figures_are_written_as_json(tmp_path: Path) -> None:
 
 def test_a_page_that_cannot_be_written_is_told_in_a_sentence(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
-    with pytest.raises(ac.DataError, match=r"^Page '.*index\.html' cannot be written: "):
+    with pytest.raises(ac.DataError, match=r"^'.*index\.html' cannot be written: "):
         Page("Title").write(tmp_path / "file" / "index.html")
 
 

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
+import platform
+import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
 import warnings
+from contextlib import ExitStack, closing
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -20,6 +24,7 @@ import pytest
 
 import acausal as ac
 from acausal.data import tensors
+from acausal.files import Lock
 from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import digest, program
 from acausal.training.history import Log
@@ -128,10 +133,10 @@ def test_a_killed_training_goes_on(tmp_path: Path):
     path = tmp_path / NAME
     killed(path, 1)
     killed(path, sum(EPOCHS), never=12)
-    assert (tmp_path / f".{NAME}.part").exists()  # killed while writing
+    assert list(tmp_path.glob(f".{NAME}.*.part"))  # killed while writing
     killed(path, EPOCHS[0] + 2)
     same(train(checkpoint=path, resume=True), uninterrupted())
-    assert not (tmp_path / f".{NAME}.part").exists()
+    assert not list(tmp_path.glob(f".{NAME}.*"))
 
 
 # -- what goes wrong ---------------------------------------------------------------------------------
@@ -299,6 +304,45 @@ def test_training_survives_a_disk_that_is_full(tmp_path: Path):
     same(train(checkpoint=path, resume=True), uninterrupted())
 
 
+def test_two_trainings_with_one_checkpoint_are_refused(tmp_path: Path):
+    with closing(Lock(tmp_path / NAME)) as lock:
+        lock.hold()
+        with pytest.raises(ac.TrainingError) as error:
+            train(checkpoint=tmp_path)
+    assert str(error.value) == (
+        f"Checkpoint '{tmp_path / NAME}' cannot be written: process {os.getpid()} on {platform.node()} is writing it; "
+        "wait until that ends, or name another file. Nothing was trained."
+    )
+
+
+def snapshots() -> tuple[checkpoints.Snapshot, checkpoints.Logs]:
+    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
+    return checkpoints.Snapshot(0, 0, None, (), 0, 0.0, 0.0, 0.0), (log.rows(),)
+
+
+@pytest.mark.parametrize("again", [False, True], ids=["removed", "made again by another training"])
+def test_a_checkpoint_whose_folder_is_removed_is_not_said_to_be_there(tmp_path: Path, again: bool):
+    path = tmp_path / "run" / NAME
+    path.parent.mkdir()
+    with ExitStack() as other, warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        with checkpoints.keeping(path, 0.0, {}) as keep:
+            keep(*snapshots())
+            shutil.rmtree(path.parent)
+            if again:
+                path.parent.mkdir()
+                other.enter_context(checkpoints.keeping(path, 0.0, {}))(*snapshots())
+            keep(*snapshots())
+    for warning in told:
+        assert re.match(
+            rf"Checkpoint '.*' cannot be written at epoch 0: {'process' if again else 'No such file or directory'}.*; "
+            r"that of epoch 0 is no longer there\. The training ",
+            str(warning.message),
+        )
+    assert len(told) == 2
+    assert path.exists() is again
+
+
 # -- parts -------------------------------------------------------------------------------------------
 
 
@@ -308,11 +352,9 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr(
         "acausal.training.checkpoint.write_arrays", lambda *arguments: written.append(now[0])
     )
-    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
-    snapshot = checkpoints.Snapshot(0, 0, None, (), 0, 0.0, 0.0, 0.0)
     with checkpoints.keeping(tmp_path / NAME, 60.0, {}) as keep:
         for now[0] in np.arange(0.0, 200.0, 25.0):
-            keep(snapshot, (log.rows(),))
+            keep(*snapshots())
     assert written == [0.0, 75.0, 150.0, 175.0]
 
 

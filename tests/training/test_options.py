@@ -67,7 +67,7 @@ def test_one_number_of_updates_counts_for_every_part() -> None:
         ({"epochs": float("nan")}, "epochs=nan is not a number of updates, nor several."),
         ({"optimizer": 3}, "optimizer=3 is not an optax optimizer; give one such as optax.adam(0.01)."),
         ({"patience": "x"}, "patience='x' is not a whole number of evaluations."),
-        ({"checkpoint": 3}, "checkpoint=3 is not a path."),
+        ({"checkpoint": 3}, "checkpoint: 3 is not a path; give a text such as 'folder/file', or a pathlib.Path."),
     ],
 )  # fmt: skip
 def test_values_of_the_wrong_kind_get_one_sentence(given: Any, sentence: str) -> None:

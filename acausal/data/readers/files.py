@@ -7,7 +7,8 @@ import os
 from collections import Counter
 from pathlib import Path
 
-from acausal.errors import DataError, need_path, shown
+from acausal.errors import DataError, shown
+from acausal.files import need_path
 
 
 def files(given: object, function: str) -> Path | dict[str, Path]:
@@ -25,9 +26,9 @@ def files(given: object, function: str) -> Path | dict[str, Path]:
         DataError: for what is not a path, and where there are no files.
     """
     if isinstance(given, list | tuple):
-        paths = [_path(path, function) for path in given]
+        paths = [need_path(path, function) for path in given]
     else:
-        path = _path(given, function)
+        path = need_path(given, function)
         if not glob.has_magic(str(path)) or path.exists():
             return path
         found = glob.glob(str(path), recursive=True)  # noqa: PTH207 (a pattern may be absolute)
@@ -35,13 +36,6 @@ def files(given: object, function: str) -> Path | dict[str, Path]:
     if not paths:
         raise DataError(f"{function}: no files at {shown(str(given))}; give at least one.")
     return dict(zip(_names(paths, function), paths, strict=True))
-
-
-def _path(given: object, function: str) -> Path:
-    path = need_path(given, function)
-    if "\0" in str(path):
-        raise DataError(f"{function}: {shown(str(path))} is not a path; it has a null character.")
-    return path
 
 
 def _names(paths: list[Path], function: str) -> list[str]:

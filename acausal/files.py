@@ -1,0 +1,257 @@
+"""Files: paths that users give, checked; files written completely or not at all, by one process.
+
+A file that exists is replaced; `new_file` refuses it for functions with an argument ``overwrite``.
+"""
+
+from __future__ import annotations
+
+import errno
+import glob
+import logging
+import os
+import platform
+import secrets
+import stat
+from collections.abc import Callable, Generator, Mapping
+from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
+from hashlib import sha256
+from pathlib import Path
+from typing import TextIO
+
+from acausal.errors import AcausalError, DataError, reason, shown
+
+try:
+    import fcntl
+except ImportError:  # on Windows
+    fcntl = None
+
+LOGGER = logging.getLogger(__name__)
+
+LONG = 200
+"""Bytes of a name; the hidden files beside a file with a longer one are called by its digest. Systems allow 255."""
+
+
+def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:
+    """A path as such; anything that is none is refused.
+
+    Raises:
+        AcausalError: of the class ``error``.
+    """
+    if not isinstance(given, str | os.PathLike):
+        raise error(
+            f"{function}: {shown(given)} is not a path; give a text such as 'folder/file', or a pathlib.Path."
+        )
+    text = os.fsdecode(given)
+    if flaw := _flaw(text):
+        raise error(f"{function}: {shown(text)} is not a path; it {flaw}.")
+    return Path(text)
+
+
+def new_file(given: object, function: str, overwrite: bool, *, need_folder: bool = True) -> Path:
+    """The path of a file that may be written.
+
+    Arguments:
+        given: what the user gave. function: that was called with it, for the message.
+        overwrite: whether the file may exist. need_folder: whether its folder must.
+
+    Raises:
+        DataError: for what is no path, a folder, a path that exists, or a folder that does not.
+    """
+    path = need_path(given, function)
+    if path.is_dir():
+        raise DataError(f"{function}: '{path}' is a folder; give the path of a file.")
+    if path.exists() and not overwrite:
+        raise DataError(f"{function}: '{path}' exists; give another path, or overwrite=True.")
+    if need_folder and not path.parent.is_dir():
+        raise DataError(f"{function}: there is no folder '{path.parent}'; make it first.")
+    return path
+
+
+def write_files(
+    contents: Mapping[Path, str | bytes],
+    error: type[AcausalError] = DataError,
+    *,
+    make_folders: bool = False,
+) -> None:
+    """Write files, each as `replace_file` does, and none if one of them cannot be written.
+
+    Arguments:
+        contents: texts or bytes by path. Texts are written in UTF-8; halves of surrogate pairs, which it does not
+            have, as JSON and Python escape them.
+        error: the class of errors.
+        make_folders: whether folders are made.
+
+    Raises:
+        AcausalError: of the class ``error``, with the operating system's reason.
+    """
+    path = Path()
+    with ExitStack() as stack:
+        try:
+            moves: list[Callable[[], object]] = []
+            for path, content in contents.items():
+                if make_folders:
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                text = isinstance(content, str)
+                data = content.encode(errors="backslashreplace") if text else content
+                moves.append(stack.enter_context(_written(path, data)))
+            for path, move in zip(contents, moves, strict=True):
+                move()
+                LOGGER.info("wrote %s", path)
+        except OSError as failed:
+            raise error(f"'{path}' cannot be written: {reason(failed)}.") from failed
+
+
+def replace_file(path: Path, content: bytes) -> None:
+    """Write a file: a reader sees the old one or the new one, whatever happens.
+
+    A link stays a link, and the mode of the file is kept. A device or pipe, such as ``/dev/stdout``, is written to.
+
+    Raises:
+        OSError: if it cannot be written; the old one is still there.
+    """
+    with _written(path, content) as move:
+        move()
+
+
+class Lock:
+    """The right of one process to write a file, until it ends or is killed.
+
+    It is a lock of the operating system on a hidden file beside the other one. Where there is none, on Windows and some
+    network file systems, nothing is locked.
+
+    Arguments:
+        path: the file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        file = Path(os.path.realpath(path))
+        self._path, self._held = _beside(file, "lock"), None
+        self._parts = glob.escape(_beside(file, "").name) + "?" * 8 + ".part"
+        self._held: TextIO | None = None
+
+    def hold(self) -> None:
+        """Lock the file, also where the lock was removed meanwhile; remove what killed processes left of it.
+
+        Raises:
+            BlockingIOError: if another process has locked it; the reason names that.
+            OSError: if a file cannot be made beside it.
+        """
+        while fcntl is not None and not self._is_held():
+            self.close()
+            self._held = self._path.open("a+", encoding="utf-8")
+            try:
+                fcntl.flock(self._held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                self._held.seek(0)
+                holder = self._held.read() or "another process"
+                self._held.close()
+                self._held = None
+                raise BlockingIOError(
+                    errno.EWOULDBLOCK,
+                    f"{holder} is writing it; wait until that ends, or name another file",
+                ) from None
+            except OSError:  # the file system has no locks
+                pass
+            self._held.truncate(0)
+            self._held.write(f"process {os.getpid()} on {platform.node()}")
+            self._held.flush()
+            for part in self._path.parent.glob(self._parts):
+                part.unlink(missing_ok=True)
+
+    def close(self) -> None:
+        """Unlock the file."""
+        if self._held is not None:
+            if self._is_held():
+                self._path.unlink(missing_ok=True)
+            self._held.close()
+            self._held = None
+
+    def _is_held(self) -> bool:
+        """Whether the locked file is still the one that others find."""
+        if self._held is None:
+            return False
+        try:
+            return os.path.samestat(os.fstat(self._held.fileno()), self._path.stat())
+        except OSError:
+            return False
+
+
+@contextmanager
+def _written(path: Path, content: bytes) -> Generator[Callable[[], object]]:
+    """Write beside a file; what this yields moves it there.
+
+    Raises:
+        OSError: if it cannot be written.
+    """
+    file, mode = Path(os.path.realpath(path)), _mode(path)
+    if stat.S_ISCHR(mode) or stat.S_ISFIFO(mode):
+        yield partial(path.write_bytes, content)
+        return
+    part = _beside(file, f"{secrets.token_hex(4)}.part")
+
+    def move() -> None:
+        part.replace(file)
+        with suppress(OSError):  # some file systems cannot make a rename durable
+            _sync(file.parent)
+
+    try:
+        with part.open("xb") as stream:
+            if mode:
+                with suppress(OSError):  # some file systems have no modes
+                    part.chmod(stat.S_IMODE(mode))
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        yield move
+    finally:
+        with suppress(OSError):  # where it was moved, it is not there
+            part.unlink()
+
+
+def _mode(path: Path) -> int:
+    """Kind and permissions of what is at a path, 0 if there is nothing.
+
+    Raises:
+        OSError: for what cannot be written to.
+    """
+    try:
+        mode = path.stat().st_mode
+    except FileNotFoundError:
+        return 0
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if not (stat.S_ISREG(mode) or stat.S_ISCHR(mode) or stat.S_ISFIFO(mode)):
+        raise OSError(errno.EINVAL, "It is not a file")
+    if not os.access(path, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    return mode
+
+
+def _beside(file: Path, ending: str) -> Path:
+    """A hidden file beside another one."""
+    name = os.fsencode(file.name)
+    return file.with_name(
+        f".{file.name if len(name) <= LONG else sha256(name).hexdigest()}.{ending}"
+    )
+
+
+def _flaw(text: str) -> str:
+    """Why a text is no path; nothing where it is one."""
+    if not text:
+        return "is empty"
+    if "\0" in text:
+        return "has a null character"
+    try:
+        os.fsencode(text)
+    except UnicodeEncodeError:
+        return "has a character that no file name can have"
+    return ""
+
+
+def _sync(folder: Path) -> None:
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
