@@ -126,7 +126,7 @@ class Lock:
 
     def __init__(self, path: Path) -> None:
         file = Path(os.path.realpath(path))
-        self._path, self._held = _beside(file, "lock"), None
+        self._path = _beside(file, "lock")
         self._parts = glob.escape(_beside(file, "").name) + "?" * 8 + ".part"
         self._held: TextIO | None = None
 
