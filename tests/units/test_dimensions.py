@@ -627,7 +627,12 @@ def variants(cls: type[Component]) -> Iterator[dict[str, Any]]:
     for name, declared in cls._declared.items():
         if isinstance(declared, ac.Option):
             choices = declared.choices or (True, False) * isinstance(declared.default, bool)
-            yield from ({name: c} for c in choices if c != declared.default)
+            others = [c for c in choices if c != declared.default]
+            yield from ({name: c} for c in others[: 1 if len(others) > FEW else None])
+
+
+FEW = 7
+"""Choices beyond which they are values, such as the nine of a logic signal, and one of them tells as much as all."""
 
 
 @cache
