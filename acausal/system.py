@@ -446,8 +446,8 @@ class System(LeavesCaches):
             t0: the initial time [s].
             inputs: the inputs at that time, by name (the rest zero) as numbers or functions of time, or all of them as
                 an array of numbers; by default zero. ``u0`` is another name of it.
-            steady: whether all states without a fixed start or a value in ``x0`` are to be at rest, or the names
-                of those that are.
+            steady: whether all states without a value in ``x0`` are to be at rest, or the names of those that are. A
+                fixed start stays as it is, and must be one of rest.
             least_squares: whether contradictory conditions are met in the least-squares sense, with fixed
                 starts and rates in nominal values, and initial equations unscaled.
 

@@ -144,6 +144,7 @@ def build_problem(
         dtype=dtype,
         mesh=device_mesh(options.devices, sequences.batch_size),
     )
+    problem.check_rest()
     _refuse_constant(problem)
     problem = with_sizes(problem)
     if shooting:

@@ -152,7 +152,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         held=system.held_inputs,
     )
     records = problem.weighting.apply(records)
-    return replace(
+    other = replace(
         problem,
         records=replace(records, sigma=problem.records.sigma, known=False),
         sequences=whole_records(records),
@@ -162,3 +162,5 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         substeps=substeps,
         mesh=None,
     )
+    other.check_rest()
+    return other

@@ -12,7 +12,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from acausal._jax import is_real
+from acausal._jax import is_real, traced
 from acausal.codegen import Packed
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, shown
@@ -85,8 +85,11 @@ class FirstStates(eqx.Module):
                 )
 
             rows = packed.values, u, t
-            alone = len(self.kind) == 1
-            found = one(jax.tree.map(lambda a: a[0], rows))[None] if alone else lax.map(one, rows)
+            if len(self.kind) == 1 or not traced(rows):  # one by one, so that each is checked
+                each = [one(jax.tree.map(lambda a: a[k], rows)) for k in range(len(self.kind))]
+                found = jnp.stack(each)
+            else:
+                found = lax.map(one, rows)
             known = jnp.where(jnp.isnan(self.given), found, self.given)
             states = jnp.where((self.kind == kind)[:, None], known, states)
         return states
