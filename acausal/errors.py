@@ -3,11 +3,13 @@
 Every message says what is wrong, where (dotted names, at most a dozen), and how to fix it.
 """
 
+import operator
 import os
 import sys
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 LIBRARY = str(Path(__file__).parent)
 
@@ -106,6 +108,35 @@ def need_compiled(system: object, function: str) -> None:
             f"{function} needs a compiled model, got {kind}: system = ac.compile(model), then "
             f"ac.{function}(system, ...)"
         )
+
+
+def is_whole(value: object) -> bool:
+    """Whether a value is a whole number, of Python, NumPy or JAX; truth values are none."""
+    try:
+        operator.index(value)  # pyright: ignore[reportArgumentType]
+    except TypeError:
+        return False
+    return not isinstance(value, bool)
+
+
+def need_whole(
+    given: Any, argument: str, error: type[AcausalError] = DataError, least: int | None = None
+) -> int:
+    """A whole number as Python's; every public function checks its numbers of something here.
+
+    Arguments:
+        given: what the user gave.
+        argument: its name, for the message.
+        error: the class of the error.
+        least: the least number that makes sense.
+
+    Raises:
+        AcausalError: of the class ``error``, for what is not such a number.
+    """
+    if is_whole(given) and (least is None or operator.index(given) >= least):
+        return operator.index(given)
+    enough = "" if least is None else f", {least} or more"
+    raise error(f"{argument}={shown(given)}; give a whole number{enough}.")
 
 
 def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:

@@ -8,9 +8,8 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeGuard
+from typing import TYPE_CHECKING, Any, Literal
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
@@ -18,7 +17,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import check_time, floating, is_real, need_double_precision
+from acausal._jax import as_key, check_time, floating, is_real, need_double_precision
 from acausal.codegen import (
     Edges,
     Events,
@@ -311,14 +310,7 @@ class System(LeavesCaches):
         """
         if key is None and not self.layout.module_names:
             return default_parameters(self.layout, None)  # to make a key takes a moment
-        key = 0 if key is None else key
-        if _is_seed(key):
-            key = jax.random.key(key)
-        if not _is_key(key):
-            raise DataError(
-                f"key={shown(key)} is not a key; give a whole number, or jax.random.key(0)."
-            )
-        return default_parameters(self.layout, key)
+        return default_parameters(self.layout, as_key(0 if key is None else key))
 
     def pack(self, params: Params | None = None) -> Packed:
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
@@ -695,17 +687,3 @@ def _warn_of_silent(flat: FlatModel) -> None:
 def _is_hidden(name: str) -> bool:
     """Whether a variable is one of a watched condition, which users do not see."""
     return name.rpartition(".")[2].startswith(HIDDEN)
-
-
-def _is_seed(value: object) -> TypeGuard[int]:
-    """Whether this is a whole number of at most 64 bits."""
-    return isinstance(value, int | np.integer) and abs(int(value)) < 2**63
-
-
-def _is_key(value: object) -> TypeGuard[Array]:
-    """Whether this is one key of JAX, of the new kind or of the old one."""
-    dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", None)
-    if dtype is None:
-        return False
-    is_new = jnp.issubdtype(dtype, jax.dtypes.prng_key)
-    return shape == () if is_new else bool(dtype == np.uint32) and shape == (2,)

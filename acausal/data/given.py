@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
+from acausal._jax import need_known
 from acausal.data.readers import Table, is_data_frame, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
@@ -51,6 +52,8 @@ def columns_of(
     """
     if missing not in get_args(Missing):
         raise DataError(f"missing={shown(missing)}; choose one of refuse, nan.")
+    columns = None if is_data_frame(signals) else signals
+    need_known("acausal.Data", time, columns, mask, computes=False)
     ts = None if time is None else _times(time, "The record", unit)
     measured = {name: _measured(name, value, unit) for name, value in _by_name(signals).items()}
     _check_times(ts, measured)

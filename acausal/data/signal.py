@@ -28,7 +28,7 @@ from acausal.data.band_limited import (
     polynomial_coefficients,
 )
 from acausal.data.samples import check_samples, check_time_base, is_uniform
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, need_whole, shown
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
@@ -126,7 +126,7 @@ class Signal(eqx.Module):
         Raises:
             DataError: where the interpolation has none.
         """
-        order = self.derivative + times
+        order = self.derivative + need_whole(times, "differentiated: times", least=0)
         if order > DERIVATIVES[self.interpolation]:
             raise DataError(_no_derivative(name, self.interpolation, order))
         return self._with(derivative=order)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from acausal._jax import need_known
 from acausal.errors import DataError, need_compiled, need_path, shown
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
@@ -110,6 +111,7 @@ def model_text(
     if precision is None:
         raise DataError(f"export.c: dtype={shown(dtype)}; give numpy.float64 or numpy.float32.")
     wanted = tuple(system.states) if outputs is None else names_in(outputs, "export: outputs")
+    need_known("export", params)
     given = system.parameters() if params is None else params
     system.pack(given)
     vector = ParameterVector(system, given)

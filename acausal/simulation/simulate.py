@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from acausal._jax import is_real, need_double_precision, precision, traced
 from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, need_compiled, shown, user_level
+from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
 from acausal.simulation import solvers
 from acausal.simulation.fixed import are_split, simulate_fixed
 from acausal.simulation.inputs import (
@@ -119,7 +119,7 @@ def simulate(
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
-    _check_limit(max_steps)
+    max_steps = need_whole(max_steps, "max_steps", DataError, 1)
     longest = _longest(max_step, end - start)
     if dt is not None and max_step is not None:
         raise DataError(
@@ -186,11 +186,6 @@ def _span(t: float | tuple[float, float]) -> tuple[float, float]:
             f"t=({start:g}, {end:g}) is not a span of time; give (start, end), start < end."
         )
     return start, end
-
-
-def _check_limit(max_steps: object) -> None:
-    if isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer) or max_steps < 1:
-        raise DataError(f"max_steps={shown(max_steps)} is not a limit of steps; give 1 or more.")
 
 
 def _longest(max_step: object, span: float) -> float | None:

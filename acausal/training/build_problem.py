@@ -125,7 +125,7 @@ def build_problem(
         },
         networks=chosen,
         modifiers=changed,
-        parameter_spread=parameter_spread(options.parameter_spread, params),
+        parameter_spread=parameter_spread(options.parameter_spread, params, layout.declared_range),
         per_record=per_record(system, options.per_record, params, records.count),
         timing=times,
         targets=targets,

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data, RecordsLike
-from acausal.errors import TrainingError, need_compiled, need_path, shown
+from acausal.errors import TrainingError, need_compiled, need_path, need_whole
 from acausal.networks import law_of
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table
@@ -179,8 +179,7 @@ def ensemble(
         TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "ensemble")
-    if not isinstance(members, int | np.integer) or members < 2:
-        raise TrainingError(f"members={shown(members)}; an ensemble has at least two.")
+    members = need_whole(members, "members", TrainingError, 2)
     chosen = FitOptions.of("ensemble", options)
     if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")

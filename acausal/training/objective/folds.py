@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from acausal.data import Data
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, is_whole, shown
 from acausal.training.objective.held_out import HeldOut, of_others
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.problem import Problem
@@ -70,9 +70,9 @@ def _records(records: Records) -> Iterator[LeftOut]:
         yield LeftOut(name, np.asarray(records.of) == k, True)
 
 
-def _blocks(records: Records, count: object) -> Iterator[LeftOut]:
+def _blocks(records: Records, count: Folds) -> Iterator[LeftOut]:
     """Blocks of equal duration in each record."""
-    if not isinstance(count, int | np.integer) or isinstance(count, bool) or count < 2:
+    if not is_whole(count) or int(count) < 2:
         raise DataError(
             f"folds={shown(count)}; give 'records', or a number of blocks of time, at least 2."
         )

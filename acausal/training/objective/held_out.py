@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
@@ -13,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, listing, nearest
+from acausal.errors import DataError, listing, nearest, user_level
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out
 from acausal.training.objective.problem import Problem
@@ -63,6 +64,8 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         names = (
             [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
         )
+        if not names:
+            raise DataError("validation=[] names nothing to hold out: leave it out, or name some.")
         for name in names:
             if name not in data:
                 raise DataError(f"validation: there is no record '{name}': {nearest(name, data)}")
@@ -70,7 +73,23 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         if not training:
             raise DataError(f"validation={listing(names)} leaves no record to train on.")
         return Split(training, {n: data[n] for n in names}, {})
-    return Split(data, records_of(cast(RecordsLike, validation)), {})
+    held = records_of(cast(RecordsLike, validation))
+    for name, record in held.items():
+        if same := next((n for n, d in data.items() if _are_alike(d, record)), None):
+            warnings.warn(
+                f"validation: '{name}' is the training's own record '{same}', which cannot show how well the model "
+                "predicts: hold out another record, or a part of it, such as validation=0.2.",
+                stacklevel=user_level(),
+            )
+    return Split(data, held, {})
+
+
+def _are_alike(one: Data, other: Data) -> bool:
+    """Whether two records have the same samples of the signals that both have."""
+    shared = one.signals.keys() & other.signals.keys()
+    return np.array_equal(one.time, other.time) and all(
+        np.array_equal(one[n], other[n], equal_nan=True) for n in shared
+    )
 
 
 def _are_names(validation: Any) -> bool:
