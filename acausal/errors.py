@@ -87,7 +87,7 @@ def listing(names: Iterable[object], limit: int = 12) -> str:
 
 def nearest(name: object, known: Iterable[str]) -> str:
     """A clause that names the nearest known name, or the known ones where none is near."""
-    candidates = list(known)
+    candidates = list(map(str, known))
     close = get_close_matches(str(name)[:200], candidates, n=1, cutoff=0.6)
     if close:
         return f"did you mean '{close[0]}'?"
@@ -111,12 +111,12 @@ def need_compiled(system: object, function: str) -> None:
 
 
 def is_whole(value: object) -> bool:
-    """Whether a value is a whole number, of Python, NumPy or JAX; truth values are none."""
+    """Whether a value is a whole number of up to 64 bits, of Python, NumPy or JAX; truth values are none."""
     try:
-        operator.index(value)  # pyright: ignore[reportArgumentType]
+        number = operator.index(value)  # pyright: ignore[reportArgumentType]
     except TypeError:
         return False
-    return not isinstance(value, bool)
+    return not isinstance(value, bool) and abs(number) < 2**63
 
 
 def need_whole(
@@ -137,6 +137,19 @@ def need_whole(
         return operator.index(given)
     enough = "" if least is None else f", {least} or more"
     raise error(f"{argument}={shown(given)}; give a whole number{enough}.")
+
+
+def need_flag(given: Any, argument: str, error: type[AcausalError] = DataError) -> bool:
+    """A truth value, of Python or NumPy, as Python's.
+
+    Raises:
+        AcausalError: of the class ``error``, for anything else.
+    """
+    import numpy as np
+
+    if isinstance(given, bool | np.bool_):
+        return bool(given)
+    raise error(f"{argument}={shown(given)}; give True or False.")
 
 
 def need_path(given: object, function: str, error: type[AcausalError] = DataError) -> Path:

@@ -38,7 +38,7 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, nearest, shown, user_level
+from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
 from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, with_inputs
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
@@ -88,6 +88,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
+    check_units = need_flag(check_units, "compile: check_units", ModelError)
+    events = need_flag(events, "compile: events", ModelError)
     need_double_precision()
     began = time.perf_counter()
     flat = with_inputs(flatten(model, budget, watch=events), inputs)

@@ -19,7 +19,7 @@ def as_key(key: Any) -> Array:
     Raises:
         DataError: for anything else.
     """
-    if is_whole(key) and abs(operator.index(key)) < 2**63:
+    if is_whole(key):
         return jax.random.key(operator.index(key))
     dtype, shape = getattr(key, "dtype", None), getattr(key, "shape", None)
     is_new = dtype is not None and jnp.issubdtype(dtype, jax.dtypes.prng_key)

@@ -308,5 +308,5 @@ def _no_derivative(name: str, interpolation: str, times: int) -> str:
 
 
 def _check_choice(name: str, what: str, value: str, choices: tuple[str, ...]) -> None:
-    if value not in choices:
+    if not isinstance(value, str) or value not in choices:
         raise DataError(f"'{name}' has {what}={shown(value)}; choose one of {', '.join(choices)}.")

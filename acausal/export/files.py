@@ -7,7 +7,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from acausal.errors import DataError, need_path, reason
+from acausal.errors import DataError, need_flag, need_path, reason
 
 LOGGER = logging.getLogger(__name__)
 
@@ -25,6 +25,7 @@ def new_file(given: object, function: str, overwrite: bool) -> Path:
     path = need_path(given, f"export.{function}")
     if path.is_dir():
         raise DataError(f"export.{function}: '{path}' is a folder; give the path of a file.")
+    overwrite = need_flag(overwrite, f"export.{function}: overwrite")
     if path.exists() and not overwrite:
         raise DataError(
             f"export.{function}: '{path}' exists; give another path, or overwrite=True."

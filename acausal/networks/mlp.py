@@ -12,8 +12,8 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import as_key
-from acausal.errors import DeclarationError, need_whole
+from acausal._jax import as_key, is_number
+from acausal.errors import DeclarationError, need_whole, shown
 from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.arity import check_inputs
 
@@ -97,6 +97,10 @@ class MLP(Layered):
         self.input_scale = 1.0 if input_scale is None else input_scale
         self.output_scale = 1.0 if output_scale is None else output_scale
         check_sizes(in_size, width, depth, self.input_scale)
+        if not is_number(last_layer):
+            raise DeclarationError(
+                f"last_layer={shown(last_layer)} is not a factor; give a number."
+            )
         self.weights, self.biases = layers(in_size, width, depth, last_layer, key)
         self.in_size = in_size
 

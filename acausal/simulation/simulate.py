@@ -113,7 +113,10 @@ def simulate(
     """
     need_compiled(system, "simulate")
     need_double_precision()
-    if solver != "bdf" and not isinstance(solver, solvers.BDF):
+    called = (
+        solver if isinstance(solver, str) else ""
+    )  # an array equals no text, but element by element
+    if called != "bdf" and not isinstance(solver, solvers.BDF):
         system = system.watching(traced_names(params))
     check_tolerances(rtol, atol, len(system.states))
     kind = precision(dtype)
@@ -142,7 +145,7 @@ def simulate(
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
     if ends is not None and system.events is None and not are_split(run, ends, adjoint):
-        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
+        scheme = solvers.solver_named("tsit5" if called == "auto" else solver, fixed=True)
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     if adjoint is not None and not forward and system.events is None and ends is None:
@@ -154,7 +157,7 @@ def simulate(
     if saved is None:
         saved = np.linspace(start, end, POINTS) if ends is None else ends
     chosen = None
-    if solver != "auto":
+    if called != "auto":
         with_events = system.events is not None
         chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
     return simulate_in_steps(

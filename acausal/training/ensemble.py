@@ -15,7 +15,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data, RecordsLike
-from acausal.errors import TrainingError, need_compiled, need_path, need_whole
+from acausal.errors import DataError, TrainingError, need_compiled, need_path, need_whole, shown
 from acausal.networks import law_of
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table
@@ -188,9 +188,14 @@ def ensemble(
             "The members of an ensemble differ in their seeds alone: leave out starts=, or pass the params of an "
             "ac.fit(..., starts=...)."
         )
+    seed = need_whole(seed, "seed", TrainingError)
     if params is None or isinstance(params, Mapping):
         numbers = {n: leaf for n, leaf in (params or {}).items() if not callable(leaf)}
         params = [numbers] * members
+    if not isinstance(params, Sequence):
+        raise DataError(
+            f"params={shown(params)} are not parameters; give a mapping by name, or one for each member."
+        )
     if len(params) != members:
         raise TrainingError(f"There are {len(params)} params for {members} members.")
     seeds = tuple(range(seed, seed + members))

@@ -7,7 +7,6 @@ keywords of a function only from a `TypedDict`; a test compares the two.
 from __future__ import annotations
 
 import inspect
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -18,7 +17,8 @@ import numpy as np
 import optax
 from jax.typing import DTypeLike
 
-from acausal.errors import TrainingError, nearest, need_whole, shown
+from acausal._jax import is_number, traced
+from acausal.errors import TrainingError, nearest, need_flag, need_whole, shown
 from acausal.simulation import Solver
 from acausal.training.objective.error_laws import ErrorLaw
 from acausal.training.objective.held_out import Validation
@@ -46,19 +46,20 @@ OF_SEQUENCES = ("sequence_length", "batch_size", "subsample", "optimizer")
 
 
 def _is_number(value: Any) -> bool:
-    real = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-    return real and not np.iscomplexobj(value) and math.isfinite(value)
+    return is_number(value) and not traced(value) and not isinstance(value, bool | np.bool_)
 
 
 def _are(one: Callable[[Any], bool], values: Any) -> bool:
     """Whether they are some of that kind; what can be read only once is taken as it is."""
-    if not isinstance(values, Iterable):
+    try:
+        found = iter(values)
+    except TypeError:
         return False
-    return isinstance(values, Iterator) or all(map(one, cast(Iterable[Any], values)))
+    return isinstance(values, Iterator) or all(map(one, found))
 
 
 def _are_many(values: Any) -> bool:
-    return isinstance(values, Iterable) and not isinstance(values, str)
+    return _are(lambda value: True, values) and not isinstance(values, str)
 
 
 def _are_texts(values: Any) -> bool:
@@ -88,9 +89,15 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
         lambda v: hasattr(v, "confidence") and hasattr(v, "params"),
         "the result of a training",
     ),
-    "sequence_length": (lambda v: v == "auto" or _is_number(v), "a number of seconds"),
+    "sequence_length": (
+        lambda v: _is_number(v) or (isinstance(v, str) and v == "auto"),
+        "a number of seconds",
+    ),
     "subsample": (_is_number, "a fraction"),
-    "strategy": (_are_texts, "a strategy, nor several: give their names"),
+    "strategy": (
+        lambda v: isinstance(v, str | Sequence) and _are_texts(v),
+        "a strategy, nor several: give their names",
+    ),
     "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
     "rtol": (_is_number, "a number"),
     "atol": (_is_number, "a number"),
@@ -101,6 +108,9 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
     "checkpoint_every": (_is_number, "a number of seconds"),
 }
 """What the values of options must be, in words for a message."""
+
+FLAGS = ("progress", "resume")
+"""Options that are truth values."""
 
 COUNTS = ("batch_size", "starts", "evaluate_every", "patience")
 """Options that are whole numbers from 1."""
@@ -309,6 +319,8 @@ class FitOptions:
             left_out = value is None and FitOptions.__dataclass_fields__[name].default is None
             if not (left_out or fits(value)):
                 raise TrainingError(f"{name}={shown(value)} is not {wanted}.")
+        for name in FLAGS:
+            object.__setattr__(self, name, need_flag(getattr(self, name), name, TrainingError))
         for name in COUNTS:
             if (count := getattr(self, name)) is not None or name == "starts":
                 # NumPy's numbers become Python's, which do not overflow

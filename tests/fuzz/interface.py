@@ -13,6 +13,7 @@ from typing import Any
 
 import jax
 import numpy as np
+import sympy as sp
 
 import acausal as ac
 from acausal.components import translational as tl
@@ -20,7 +21,7 @@ from acausal.components import translational as tl
 from .calls import Case, Oddity, case
 from .outcome import Mutant
 
-HOMES = (ac, ac.export, ac.networks)
+HOMES = (ac, ac.export)
 """Where the public functions and classes are."""
 
 VALUES: dict[str, Callable[[Case], Any]] = {
@@ -86,19 +87,25 @@ SOUND: dict[str, Callable[[Case], Any]] = {
     "low": lambda c: 0.5,
     "high": lambda c: 2.0,
     "key": lambda c: 0,
+    "ranges": lambda c: {c.parameter: (1.0, 2.0)},
+    "q": lambda c: ac.time,
 }
 """By the name of an argument, what is right for it where another argument is wrong."""
 
 SOUND_OF: dict[str, dict[str, Callable[[Case], Any]]] = {
     "compile": {"model": lambda c: tl.Mass(m=1.0), "inputs": lambda c: ()},
     "save": {"model": lambda c: c.system.model},
+    "sliders": {"params": lambda c: None},
     "linearize": {"inputs": lambda c: {c.input: 0.5}},
     "cross_validate": {"epochs": lambda c: 1},
 }
 """The same for single functions."""
 
-SKIPPED = frozenset({"Component", "Connector", "System", "Fit", "Sweep", "Solution"})
-"""Base classes, and results that no user makes."""
+RESULTS = frozenset([
+    "CrossValidation", "Diagram", "Distilled", "Ensemble", "Fit", "Formula", "Initialization", "Linearization",
+    "OperatingPoint", "Profile", "RecordFit", "Solution", "Sweep", "System",
+])  # fmt: skip
+"""Classes of which no user makes objects."""
 
 
 def _made() -> Iterator[tuple[str, Callable[..., Any]]]:
@@ -106,8 +113,13 @@ def _made() -> Iterator[tuple[str, Callable[..., Any]]]:
     for home in HOMES:
         for name in sorted(dir(home)):
             found = getattr(home, name)
-            public = not name.startswith("_") and name not in SKIPPED
-            if public and callable(found) and not (inspect.isclass(found) and issubclass(found, Exception)):
+            an_error = inspect.isclass(found) and issubclass(found, Exception | sp.Function)
+            sympys = str(getattr(found, "__module__", "")).startswith(
+                "sympy"
+            )  # which say what is wrong themselves
+            if callable(found) and not (
+                name.startswith("_") or name in RESULTS or an_error or sympys
+            ):
                 yield name, found
 
 
@@ -141,28 +153,22 @@ def mutant(seed: int, folder: Path) -> Mutant:
         before = jax.config.jax_compilation_cache_dir  # type: ignore[attr-defined]
         given, named = [], {}
         for p in _arguments(function):
-            is_wrong, needed = p.name == wrong, p.default is p.empty and p.kind is not p.VAR_POSITIONAL
+            is_wrong, needed = (
+                p.name == wrong,
+                p.default is p.empty and p.kind is not p.VAR_POSITIONAL,
+            )
             if is_wrong or needed or (p.kind is p.KEYWORD_ONLY and p.name in sound):
                 argument = VALUES[value](c) if is_wrong else sound.get(p.name, 1.0)
-                if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD, p.VAR_POSITIONAL) and needed | is_wrong:
-                    given.append((p, argument))
+                if p.kind is not p.KEYWORD_ONLY and not named:
+                    given.append(argument)
                 else:
                     named[p.name] = argument
+            elif p.kind is p.POSITIONAL_OR_KEYWORD:
+                given.append(p.default)
         try:
             with contextlib.chdir(folder):
-                return _call(function, given, named)
+                return function(*given, **named)
         finally:
             jax.config.update("jax_compilation_cache_dir", before)
 
     return Mutant(seed, "interface", name, f"{name}({wrong}={value})", ("",), False, make)
-
-
-def _call(
-    function: Callable[..., Any], given: list[tuple[inspect.Parameter, Any]], named: dict[str, Any]
-) -> Any:
-    """Arguments by position where there is no other way."""
-    positional = [a for p, a in given if p.kind in (p.POSITIONAL_ONLY, p.VAR_POSITIONAL)]
-    others = {p.name: a for p, a in given if p.kind is p.POSITIONAL_OR_KEYWORD}
-    if any(p.kind is p.VAR_POSITIONAL for p, _ in given):
-        return function(*others.values(), *positional, **named)
-    return function(*positional, **others, **named)

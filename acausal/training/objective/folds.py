@@ -45,7 +45,11 @@ def left_out(records: Records, folds: Folds) -> tuple[LeftOut, ...]:
     Raises:
         DataError: for another word or number, or a fold without samples to train on or to be judged on.
     """
-    found = tuple(_records(records) if folds == "records" else _blocks(records, folds))
+    found = tuple(
+        _records(records)
+        if isinstance(folds, str) and folds == "records"
+        else _blocks(records, folds)
+    )
     measured = _counts(records.weight)
     for fold in found:
         for rows, what in ((fold.rows, "be judged on"), (~fold.rows, "train on")):
@@ -76,10 +80,11 @@ def _blocks(records: Records, count: Folds) -> Iterator[LeftOut]:
         raise DataError(
             f"folds={shown(count)}; give 'records', or a number of blocks of time, at least 2."
         )
+    count = int(count)
     t, of = np.asarray(records.steps.t), np.asarray(records.of)
     first, last = (t[np.asarray(rows)][of] for rows in (records.first, records.last))
     block = np.minimum((count * (t - first) / (last - first)).astype(int), count - 1)
-    for k in range(int(count)):
+    for k in range(count):
         yield LeftOut(f"block {k + 1} of {count}", block == k, False)
 
 

@@ -13,8 +13,9 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, listing, nearest, user_level
+from acausal.errors import DataError, listing, nearest, shown, user_level
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out
 from acausal.training.objective.problem import Problem
@@ -59,7 +60,7 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
     if validation is None:
         return Split(data, None, {})
     if isinstance(validation, float | int | Real):
-        return _shared(data, float(validation))
+        return _shared(data, validation)
     if isinstance(validation, str) or _are_names(validation):
         names = (
             [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
@@ -96,11 +97,13 @@ def _are_names(validation: Any) -> bool:
     return isinstance(validation, list | tuple) and all(isinstance(n, str) for n in validation)
 
 
-def _shared(data: dict[str, Data], share: float) -> Split:
+def _shared(data: dict[str, Data], share: Any) -> Split:
     """The last part of every record is held out."""
-    if not np.isfinite(share):
-        raise DataError(f"validation={share} is not a fraction; give a number between 0 and 1.")
-    training, ends = {}, {}
+    if not is_number(share):
+        raise DataError(
+            f"validation={shown(share)} is not a fraction; give a number between 0 and 1."
+        )
+    share, training, ends = float(share), {}, {}
     for name, record in data.items():
         first = len(record) - round(share * len(record))
         if not 2 <= first <= len(record) - 2:
