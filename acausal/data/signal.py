@@ -97,6 +97,8 @@ class Signal(eqx.Module):
         after_end: Beyond | None = None,
         name: str = "signal",
     ) -> None:
+        if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise DataError(f"name={shown(name)} is not a name; give a text.")
         _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
         if extrapolation is not None:
             _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))

@@ -39,7 +39,7 @@ def checked(name: str, allowed: tuple[str, ...] = tuple(ACTIVATIONS), use: str =
         DeclarationError: if it is not; ``use`` names the network in the message.
     """
     if not isinstance(name, str) or name not in ACTIVATIONS:
-        raise DeclarationError(f"no activation '{shown(name)}': {nearest(name, ACTIVATIONS)}")
+        raise DeclarationError(f"no activation {shown(name)}: {nearest(name, ACTIVATIONS)}")
     if name not in allowed:
         raise DeclarationError(
             f"activation '{name}' does not suit {use}; choose one of {', '.join(allowed)}"

@@ -93,7 +93,7 @@ class MLP(Layered):
     ) -> None:
         given = {"activation": activation, "input_scale": input_scale, "output_scale": output_scale}
         self.left_open = tuple(name for name, value in given.items() if value is None)
-        self.activation = checked(activation or "relu")
+        self.activation = checked("relu" if activation is None else activation)
         self.input_scale = 1.0 if input_scale is None else input_scale
         self.output_scale = 1.0 if output_scale is None else output_scale
         check_sizes(in_size, width, depth, self.input_scale)

@@ -152,7 +152,8 @@ def ranges_of(
         DataError: for a name that is neither, or bounds that are none.
     """
     known = (*system.layout.names, *system.inputs)
-    given = system.parameters() if params is None else params
+    given = params or system.parameters()
+    system.pack(given)
     found: list[Range] = []
     if not isinstance(ranges, Mapping):
         raise DataError(f"ranges={shown(ranges)} have no names; give (least, largest) by name.")
