@@ -3,10 +3,12 @@
 Every message says what is wrong, where (dotted names, at most a dozen), and how to fix it.
 """
 
+import operator
 import sys
 from collections.abc import Iterable
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 LIBRARY = str(Path(__file__).parent)
 
@@ -84,7 +86,7 @@ def listing(names: Iterable[object], limit: int = 12) -> str:
 
 def nearest(name: object, known: Iterable[str]) -> str:
     """A clause that names the nearest known name, or the known ones where none is near."""
-    candidates = list(known)
+    candidates = list(map(str, known))
     close = get_close_matches(str(name)[:200], candidates, n=1, cutoff=0.6)
     if close:
         return f"did you mean '{close[0]}'?"
@@ -105,6 +107,48 @@ def need_compiled(system: object, function: str) -> None:
             f"{function} needs a compiled model, got {kind}: system = ac.compile(model), then "
             f"ac.{function}(system, ...)"
         )
+
+
+def is_whole(value: object) -> bool:
+    """Whether a value is a whole number of up to 64 bits, of Python, NumPy or JAX; truth values are none."""
+    try:
+        number = operator.index(value)  # pyright: ignore[reportArgumentType]
+    except TypeError:
+        return False
+    return not isinstance(value, bool) and abs(number) < 2**63
+
+
+def need_whole(
+    given: Any, argument: str, error: type[AcausalError] = DataError, least: int | None = None
+) -> int:
+    """A whole number as Python's; every public function checks its numbers of something here.
+
+    Arguments:
+        given: what the user gave.
+        argument: its name, for the message.
+        error: the class of the error.
+        least: the least number that makes sense.
+
+    Raises:
+        AcausalError: of the class ``error``, for what is not such a number.
+    """
+    if is_whole(given) and (least is None or operator.index(given) >= least):
+        return operator.index(given)
+    enough = "" if least is None else f", {least} or more"
+    raise error(f"{argument}={shown(given)}; give a whole number{enough}.")
+
+
+def need_flag(given: Any, argument: str, error: type[AcausalError] = DataError) -> bool:
+    """A truth value, of Python or NumPy, as Python's.
+
+    Raises:
+        AcausalError: of the class ``error``, for anything else.
+    """
+    import numpy as np
+
+    if isinstance(given, bool | np.bool_):
+        return bool(given)
+    raise error(f"{argument}={shown(given)}; give True or False.")
 
 
 def user_level() -> int:

@@ -19,7 +19,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TextIO
 
-from acausal.errors import AcausalError, DataError, reason, shown
+from acausal.errors import AcausalError, DataError, need_flag, reason, shown
 
 try:
     import fcntl
@@ -58,7 +58,7 @@ def new_file(given: object, function: str, overwrite: bool, *, need_folder: bool
     Raises:
         DataError: for what is no path, a folder, a path that exists, or a folder that does not.
     """
-    path = need_path(given, function)
+    path, overwrite = need_path(given, function), need_flag(overwrite, f"{function}: overwrite")
     if path.is_dir():
         raise DataError(f"{function}: '{path}' is a folder; give the path of a file.")
     if path.exists() and not overwrite:

@@ -8,9 +8,8 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeGuard
+from typing import TYPE_CHECKING, Any, Literal
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 import sympy as sp
@@ -18,7 +17,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import check_time, floating, is_real, need_double_precision
+from acausal._jax import as_key, check_time, floating, is_real, need_double_precision
 from acausal.codegen import (
     Edges,
     Events,
@@ -39,7 +38,7 @@ from acausal.codegen import (
     rates_and_read,
     read,
 )
-from acausal.errors import DataError, ModelError, nearest, shown, user_level
+from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
 from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, with_inputs
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
@@ -89,6 +88,8 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
         raise ModelError(f"compile needs a model, not a class: ac.compile({model.__name__}())")
     if not isinstance(model, Component):
         raise ModelError(f"compile needs a Component, got {type(model).__name__}")
+    check_units = need_flag(check_units, "compile: check_units", ModelError)
+    events = need_flag(events, "compile: events", ModelError)
     need_double_precision()
     began = time.perf_counter()
     flat = with_inputs(flatten(model, budget, watch=events), inputs)
@@ -311,14 +312,7 @@ class System(LeavesCaches):
         """
         if key is None and not self.layout.module_names:
             return default_parameters(self.layout, None)  # to make a key takes a moment
-        key = 0 if key is None else key
-        if _is_seed(key):
-            key = jax.random.key(key)
-        if not _is_key(key):
-            raise DataError(
-                f"key={shown(key)} is not a key; give a whole number, or jax.random.key(0)."
-            )
-        return default_parameters(self.layout, key)
+        return default_parameters(self.layout, as_key(0 if key is None else key))
 
     def pack(self, params: Params | None = None) -> Packed:
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
@@ -446,8 +440,8 @@ class System(LeavesCaches):
             t0: the initial time [s].
             inputs: the inputs at that time, by name (the rest zero) as numbers or functions of time, or all of them as
                 an array of numbers; by default zero. ``u0`` is another name of it.
-            steady: whether all states without a fixed start or a value in ``x0`` are to be at rest, or the names
-                of those that are.
+            steady: whether all states without a value in ``x0`` are to be at rest, or the names of those that are. A
+                fixed start stays as it is, and must be one of rest.
             least_squares: whether contradictory conditions are met in the least-squares sense, with fixed
                 starts and rates in nominal values, and initial equations unscaled.
 
@@ -695,17 +689,3 @@ def _warn_of_silent(flat: FlatModel) -> None:
 def _is_hidden(name: str) -> bool:
     """Whether a variable is one of a watched condition, which users do not see."""
     return name.rpartition(".")[2].startswith(HIDDEN)
-
-
-def _is_seed(value: object) -> TypeGuard[int]:
-    """Whether this is a whole number of at most 64 bits."""
-    return isinstance(value, int | np.integer) and abs(int(value)) < 2**63
-
-
-def _is_key(value: object) -> TypeGuard[Array]:
-    """Whether this is one key of JAX, of the new kind or of the old one."""
-    dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", None)
-    if dtype is None:
-        return False
-    is_new = jnp.issubdtype(dtype, jax.dtypes.prng_key)
-    return shape == () if is_new else bool(dtype == np.uint32) and shape == (2,)

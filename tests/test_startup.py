@@ -64,3 +64,8 @@ def test_no_public_name_is_a_modules():
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="nonsense"):
         _ = ac.nonsense
+
+
+@pytest.mark.parametrize("first", ["ac.export.modelica", "ac.use_compilation_cache(None)"])
+def test_any_name_may_be_the_first_that_needs_jax(first: str):
+    assert "jax" in loaded(f"import acausal as ac; {first}")

@@ -10,6 +10,7 @@ from .dtypes import (
     precision as precision,
 )
 from .jacobian import value_and_jacobian as value_and_jacobian
+from .keys import as_key as as_key
 from .primitives import (
     BARRIER as BARRIER,
     CALLS as CALLS,
@@ -33,6 +34,7 @@ from .tracing import (
     INLINED as INLINED,
     array as array,
     known as known,
+    need_known as need_known,
     traced as traced,
     without_derivatives as without_derivatives,
 )

@@ -13,9 +13,6 @@ import platform
 from collections.abc import Mapping
 from pathlib import Path
 
-import jax
-from jax.experimental.compilation_cache.compilation_cache import reset_cache
-
 from acausal.errors import DataError
 from acausal.files import need_path
 
@@ -55,6 +52,9 @@ def use_compilation_cache(path: str | os.PathLike[str] | None) -> None:
     Raises:
         DataError: if nothing can be written there.
     """
+    import jax
+    from jax.experimental.compilation_cache.compilation_cache import reset_cache
+
     if path is None:
         jax.config.update(FOLDER, None)
     elif _usable(folder := need_path(path, "use_compilation_cache")):
@@ -71,12 +71,16 @@ def default_folder(environment: Mapping[str, str]) -> Path:
 
 
 def _keep(folder: Path) -> None:
+    import jax
+
     jax.config.update(FOLDER, str(folder.expanduser().absolute()))
     if _setting(SHORTEST) == SECOND:
         jax.config.update(SHORTEST, 0.0)
 
 
 def _setting(name: str) -> object:
+    import jax
+
     return getattr(jax.config, name)
 
 

@@ -28,7 +28,7 @@ def precision(dtype: DTypeLike) -> np.dtype[np.floating[Any]]:
     """
     try:
         chosen = np.dtype(dtype)
-    except TypeError:
+    except (TypeError, ValueError):
         chosen = None
     if chosen is None or chosen.name not in PRECISIONS:
         name = shown(dtype) if chosen is None else chosen.name
@@ -80,6 +80,6 @@ def _real_dtype(value: Any) -> bool:
         dtype = value.dtype if isinstance(value, Array) else np.asarray(value).dtype
     except ValueError:  # rows of different lengths
         return False
-    if dtype.kind == "m":  # NumPy counts durations among the integers
+    if getattr(dtype, "kind", "") == "m":  # NumPy counts durations among the integers
         return False
     return any(jnp.issubdtype(dtype, kind) for kind in (np.bool_, np.integer, np.floating))

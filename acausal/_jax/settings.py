@@ -1,18 +1,22 @@
-"""JAX's settings, made before its first use."""
+"""JAX's settings, made before its first use.
+
+They are made while JAX is being imported, see `at_import`: what they need imports JAX only when it is called.
+"""
 
 from __future__ import annotations
 
 import os
 
-import jax
-from jaxlib.version import __version__ as jaxlib_version
-
-from acausal._jax import compilation_cache, xla
 from acausal.errors import AcausalError
 
 
 def configure() -> None:
     """Compute in double precision, compile small loops as a whole, keep compiled programs between processes."""
+    import jax
+    from jaxlib.version import __version__ as jaxlib_version
+
+    from acausal._jax import compilation_cache, xla
+
     jax.config.update("jax_enable_x64", True)
     xla.compile_small_loops(os.environ, jaxlib_version)
     compilation_cache.begin(os.environ)
@@ -24,6 +28,8 @@ def need_double_precision() -> None:
     Raises:
         AcausalError: with what to do instead.
     """
+    import jax
+
     if not jax.config.jax_enable_x64:  # pyright: ignore[reportAttributeAccessIssue]
         raise AcausalError(
             "Double precision was switched off after the import of acausal, which needs it to find initial values: "

@@ -12,6 +12,8 @@ from jax.core import Tracer
 from jax.typing import ArrayLike as JaxArrayLike
 from numpy.typing import ArrayLike
 
+from acausal.errors import AcausalError, DataError
+
 Tree = TypeVar("Tree")
 
 # `jax.jit(f, inline=INLINED)` puts the equations of f into what is being traced, not a call. JAX 0.12 does so only for
@@ -23,6 +25,27 @@ INLINED: Any = True if _inline is None else _inline.JAX_EARLY
 def traced(*trees: object) -> bool:
     """Whether any leaf stands for a value that is not known yet."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
+
+
+def need_known(
+    function: str, *given: object, error: type[AcausalError] = DataError, computes: bool = True
+) -> None:
+    """Refuse to work where JAX traces: for functions that need numbers, or write files.
+
+    Arguments:
+        function: that was called, for the message.
+        given: what must be known.
+        error: the class of the error.
+        computes: whether the function computes with JAX, so that within `jax.jit` all that it finds is traced.
+
+    Raises:
+        AcausalError: of the class ``error``.
+    """
+    if traced(given) or (computes and traced(jnp.zeros(()))):
+        raise error(
+            f"{function} needs numbers, which JAX does not know while it traces: call it outside of jax.jit, jax.vmap "
+            "and jax.grad."
+        )
 
 
 def known(tree: Tree) -> Tree | None:

@@ -15,7 +15,7 @@ from scipy.optimize import least_squares
 
 from acausal._jax import is_number
 from acausal.analysis.formula import TERMS, Formula
-from acausal.errors import DeclarationError, TrainingError, listing, nearest, shown
+from acausal.errors import DeclarationError, TrainingError, listing, nearest, need_whole, shown
 from acausal.modeling import names_in
 from acausal.networks import law_of
 
@@ -128,8 +128,7 @@ def _checked(
             raise TrainingError(f"distill: {argument}={shown(value)}; give a finite number.")
     if not low < high:
         raise TrainingError(f"distill: {low:g} to {high:g} is not an interval; give low < high.")
-    if not isinstance(terms, int | np.integer) or terms < 1:
-        raise TrainingError(f"distill: terms={shown(terms)}; give a whole number, one or more.")
+    need_whole(terms, "distill: terms", TrainingError, 1)
     among = names_in(among, "among")
     for name in among:
         if name not in TERMS:

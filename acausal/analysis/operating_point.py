@@ -98,13 +98,13 @@ def operating_point(
         inputs: by name, numbers or functions of time (the rest zero), or all as an array; by default zero.
         params: parameters, by default the model's own.
         x0: states that are given, by name: the others are at rest with them, and these may move.
-        steady: whether all states that neither ``x0`` nor a fixed start gives are at rest, or the names of those that
-            are: the speeds of a motor that turns, and not its angles.
+        steady: whether all states that ``x0`` does not give are at rest, or the names of those that are: the speeds of
+            a motor that turns, and not its angles. A fixed start stays as it is, and must be one of rest.
         t: the time [s].
 
     Raises:
         DataError: if an argument does not fit the model.
-        InitializationError: if there is no such point.
+        InitializationError: if there is no such point; it names the fixed starts at which the model does not rest.
         ModelError: for a model that is not compiled.
     """
     need_compiled(system, "operating_point")

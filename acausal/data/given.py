@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
+from acausal._jax import need_known
 from acausal.data.readers import Table, is_data_frame, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
@@ -49,8 +50,10 @@ def columns_of(
     Raises:
         DataError: for anything that is not this, with the signal and its first wrong sample.
     """
-    if missing not in get_args(Missing):
+    if not isinstance(missing, str) or missing not in get_args(Missing):
         raise DataError(f"missing={shown(missing)}; choose one of refuse, nan.")
+    columns = None if is_data_frame(signals) else signals
+    need_known("acausal.Data", time, columns, mask, computes=False)
     ts = None if time is None else _times(time, "The record", unit)
     measured = {name: _measured(name, value, unit) for name, value in _by_name(signals).items()}
     _check_times(ts, measured)
@@ -120,7 +123,10 @@ def _times(given: ArrayLike, what: str, unit: str) -> Float[np.ndarray, " n"]:
     """
     if isinstance(given, np.ma.MaskedArray):
         raise DataError(f"{what} has masked times; leave these samples out.")
-    ts = np.asarray(given)
+    try:
+        ts = np.asarray(given)
+    except TypeError:  # keys of JAX
+        raise DataError(f"{what} has times that are not numbers: {shown(given)}.") from None
     if ts.dtype.kind == "m" and unit == "s":
         ts = seconds(ts)
     check_time_base(ts, what)

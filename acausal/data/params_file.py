@@ -9,15 +9,21 @@ from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
+import numpy as np
 
+from acausal._jax import need_known
 from acausal.data.tensors import filled_like, named_arrays, read_arrays, write_arrays
-from acausal.errors import DataError, reason, shortened
+from acausal.errors import DataError, reason, shortened, shown
 from acausal.files import need_path
+from acausal.modeling import names_in
 
 if TYPE_CHECKING:
     from acausal.system import System
 
 KIND = "parameters of a model, version 1"
+
+REAL = "biuf"
+"""The kinds of NumPy's types that are real numbers or truth values."""
 
 
 def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None:
@@ -30,7 +36,8 @@ def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None
         path: the file, usually ``….safetensors``.
 
     Raises:
-        DataError: if the file cannot be written, or these are not parameters by name and a path.
+        DataError: if the file cannot be written, these are not parameters by name and a path, or a value is neither
+            numbers nor a network, or is NaN.
     """
     if not isinstance(params, Mapping) or not isinstance(path, str | os.PathLike):
         raise DataError(
@@ -38,9 +45,23 @@ def save_params(params: Mapping[str, Any], path: str | os.PathLike[str]) -> None
             f"not {_kind(params)} and {_kind(path)}."
         )
     file = need_path(path, "save_params")
+    need_known("save_params", dict(params), computes=False)
+    for name in names_in(params, "save_params"):
+        if not (callable(params[name]) or eqx.is_array_like(params[name])):
+            raise DataError(
+                f"save_params: '{name}' is {shown(params[name])}; give real numbers or networks."
+            )
+    arrays = named_arrays(dict(params))
+    for place, array in arrays.items():
+        if array.dtype.kind not in REAL:
+            raise DataError(
+                f"save_params: '{place}' is of type {array.dtype}; give real numbers or networks."
+            )
+        if np.isnan(array).any():
+            raise DataError(f"save_params: '{place}' has NaN, with which no model runs.")
     about = {"kind": KIND, "settings": dict(_settings(dict(params), ""))}
     try:
-        write_arrays(file, named_arrays(dict(params)), about)
+        write_arrays(file, arrays, about)
     except OSError as error:
         raise DataError(f"'{path}' cannot be written: {reason(error)}.") from error
 
@@ -54,7 +75,8 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
             parameters like those that were saved.
 
     Raises:
-        DataError: if the file cannot be read, is damaged, or belongs to another model.
+        DataError: if the file cannot be read, is damaged, or belongs to another model; or if its numbers are NaN,
+            infinite where the model's own are not, or outside of the bounds that the model declares.
     """
     if not isinstance(path, str | os.PathLike) or not (
         isinstance(model, Mapping) or hasattr(model, "parameters")
@@ -70,7 +92,9 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
         raise DataError(
             f"'{path}' does not hold {KIND}, but: {about.get('kind', 'something unnamed')}."
         )
-    settings: Mapping[str, str] = about["settings"]
+    settings: Any = about.get("settings")
+    if not isinstance(settings, Mapping):
+        raise DataError(f"'{path}' does not say which settings its networks have: it is damaged.")
     like = {n: like_saved(leaf, _settings_of(n, settings)) for n, leaf in like.items()}
     params = filled_like(like, arrays, f"'{path}'")
     for place, here in _settings(like, ""):
@@ -79,7 +103,17 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
             raise DataError(
                 f"'{path}' has '{place}' as {there}, but here it is {here}: it belongs to another network."
             )
-    return {name: params[name] for name in like}  # JAX sorts them
+    own = named_arrays(like)
+    for place, array in arrays.items():
+        if (np.isnan(array) | (np.isinf(array) & ~np.isinf(own[place]))).any():
+            raise DataError(f"'{path}': '{place}' is not finite; no model runs with that.")
+    params = {name: params[name] for name in like}  # JAX sorts them
+    if not isinstance(model, Mapping):
+        try:
+            model.pack(params)
+        except DataError as error:
+            raise DataError(f"'{path}': {error}") from None
+    return params
 
 
 def _settings_of(name: str, settings: Mapping[str, str]) -> dict[str, str]:

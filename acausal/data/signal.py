@@ -28,7 +28,7 @@ from acausal.data.band_limited import (
     polynomial_coefficients,
 )
 from acausal.data.samples import check_samples, check_time_base, is_uniform
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, need_whole, shown
 
 Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
 Extrapolation = Literal["hold", "linear", "periodic"]
@@ -97,6 +97,8 @@ class Signal(eqx.Module):
         after_end: Beyond | None = None,
         name: str = "signal",
     ) -> None:
+        if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise DataError(f"name={shown(name)} is not a name; give a text.")
         _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
         if extrapolation is not None:
             _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))
@@ -126,7 +128,7 @@ class Signal(eqx.Module):
         Raises:
             DataError: where the interpolation has none.
         """
-        order = self.derivative + times
+        order = self.derivative + need_whole(times, "differentiated: times", least=0)
         if order > DERIVATIVES[self.interpolation]:
             raise DataError(_no_derivative(name, self.interpolation, order))
         return self._with(derivative=order)
@@ -308,5 +310,5 @@ def _no_derivative(name: str, interpolation: str, times: int) -> str:
 
 
 def _check_choice(name: str, what: str, value: str, choices: tuple[str, ...]) -> None:
-    if value not in choices:
+    if not isinstance(value, str) or value not in choices:
         raise DataError(f"'{name}' has {what}={shown(value)}; choose one of {', '.join(choices)}.")

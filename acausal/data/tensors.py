@@ -57,6 +57,8 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
             arrays: Arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
     except OSError as error:
         raise DataError(f"'{path}' cannot be read: {reason(error)}.") from error
+    except (AttributeError, TypeError) as error:  # of types that NumPy lacks
+        raise DataError(f"'{path}' has numbers of a type that NumPy lacks: {error}.") from error
     except SafetensorError as error:
         raise DataError(f"'{path}' is damaged or not a safetensors file: {error}.") from error
     if "about" not in metadata or "sha256" not in metadata:
@@ -65,7 +67,13 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
         raise DataError(
             f"'{path}' was changed after it was written: its checksum does not fit. Use another copy of it."
         )
-    return arrays, json.loads(metadata["about"])
+    try:
+        about = json.loads(metadata["about"])
+    except (ValueError, RecursionError):
+        about = None
+    if not isinstance(about, dict):
+        raise DataError(f"'{path}' was not written by acausal: its description is not an object.")
+    return arrays, about
 
 
 def named_arrays(tree: PyTree) -> Arrays:

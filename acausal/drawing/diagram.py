@@ -10,7 +10,7 @@ from acausal.drawing.layout import lay_out
 from acausal.drawing.placed import Placed
 from acausal.drawing.read import read
 from acausal.drawing.svg import write
-from acausal.errors import DataError, ModelError, shown
+from acausal.errors import DataError, ModelError, need_whole
 from acausal.files import need_path, write_files
 from acausal.modeling import Component
 
@@ -58,8 +58,6 @@ def draw(model: Any, depth: int = 1) -> Diagram:
         model = getattr(model, "model", model)  # of a system
     if not isinstance(model, Component):
         raise ModelError(f"diagram needs a Component, got {type(model).__name__}")
-    if isinstance(depth, bool) or not isinstance(depth, int) or depth < 1:
-        raise ModelError(f"diagram: depth is a whole number from 1, got {shown(depth)}")
-    placed = lay_out(read(model, depth))
+    placed = lay_out(read(model, need_whole(depth, "diagram: depth", ModelError, 1)))
     node = model._node
     return Diagram(write(placed, f"Diagram of {node.path or type(model).__name__}"), placed)

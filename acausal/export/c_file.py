@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from acausal._jax import need_known, precision
 from acausal.errors import DataError, need_compiled, shown
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
@@ -101,10 +102,9 @@ def model_text(
         raise DataError(
             f"export.c: name='{chosen}' is a word of C or of the model's file; give another."
         )
-    precision = PRECISION.get(np.dtype(dtype).name)
-    if precision is None:
-        raise DataError(f"export.c: dtype={shown(dtype)}; give numpy.float64 or numpy.float32.")
+    real = PRECISION[precision(dtype).name]
     wanted = tuple(system.states) if outputs is None else names_in(outputs, "export: outputs")
+    need_known("export", params)
     given = system.parameters() if params is None else params
     system.pack(given)
     vector = ParameterVector(system, given)
@@ -116,7 +116,7 @@ def model_text(
     parameters += [(Run(e.name, "", None, e.first, 1, e.size), "") for e in entries[numbers:]]
     start, start_d = _start(system, given)
     return Text(
-        chosen, title, precision, code, scheme, vector,
+        chosen, title, real, code, scheme, vector,
         _with_units(system.states, system), _with_units(system.inputs, system),
         _with_units(wanted, system), parameters, start,
         tuple(_discrete(system)), start_d,

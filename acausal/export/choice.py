@@ -6,6 +6,7 @@ import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from acausal._jax import need_known
 from acausal.errors import DataError, need_compiled, shown
 from acausal.export.called_with import called_with
 from acausal.export.given import all_parameters
@@ -34,6 +35,7 @@ def chosen(
         DataError: for an unknown name, or arguments that do not fit.
         ModelError: for a model that is not compiled.
     """
+    need_known(f"export.{function}", model, params)
     if not isinstance(units, Mapping):
         raise DataError(
             f"export: units are texts by name, such as {{'s_rel': 'm'}}, not {shown(units)}"

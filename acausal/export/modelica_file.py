@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from acausal._jax import need_double_precision
+from acausal._jax import need_double_precision, need_known
 from acausal.errors import ModelError, shown
 from acausal.export.given import all_parameters
 from acausal.files import new_file, write_files
@@ -56,6 +56,7 @@ def modelica(
     if not isinstance(model, System | Component):
         raise ModelError(f"export.modelica needs a model or a system, not {shown(model, 40)}")
     system = model if isinstance(model, System) else compile(model)
+    need_known("export.modelica", params)
     given = all_parameters(system, params)
     packed, layout = system.pack(given), system.layout
     networks = {

@@ -14,6 +14,7 @@ from acausal.flattening.equation_group import EquationGroup, GuardGroup, UpdateG
 from acausal.flattening.flat_model import FlatModel
 from acausal.flattening.stated import HIDDEN
 from acausal.flattening.template import Integers
+from acausal.modeling import names_in
 
 Group = TypeVar("Group", GuardGroup, UpdateGroup)
 
@@ -30,6 +31,7 @@ def with_inputs(model: FlatModel, names: Sequence[str]) -> FlatModel:
         raise DeclarationError(
             f"inputs={shown(names)} is one name; give a list: inputs=[{names!r}]"
         )
+    names = names_in(names, "inputs")
     if not names:
         return model
     given = np.asarray([_given(model, name) for name in dict.fromkeys(names)], dtype=np.int64)

@@ -208,8 +208,8 @@ class Initializer(LeavesCaches):
                 x = x.at[i].set(given[name])
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
         at_will = ~is_given & ~self.conditions.fixed
-        if isinstance(steady, bool):
-            resting = at_will & steady
+        if isinstance(steady, bool):  # fixed starts must be those of rest
+            resting = ~is_given & steady
         else:
             named = names_in(steady, "steady")
             self._known("steady", named)
@@ -223,7 +223,8 @@ class Initializer(LeavesCaches):
             tuple(np.flatnonzero(resting).tolist()),
             least_squares,
         )
-        overruled = bool(given) and not plan.moved  # x0 says all that fixed starts leave open
+        # x0 says all that fixed starts leave open
+        overruled = bool(given) and not (plan.moved or plan.resting)
         nothing = not (plan.starts or plan.resting or self.reduced.model.initial)
         return x, None if overruled or nothing else plan
 
@@ -309,12 +310,15 @@ class Initializer(LeavesCaches):
             + (f" ({listing(moved, 6)})" if moved else ""),
             *([f"{listing(held, 6)} cannot move, being fixed or given"] if held else []),
         ]
-        raise InitializationError(
-            "; ".join(parts)
-            + ". Is a start fixed twice, or in conflict with a connection? Make one of "
-            "them a guess (fixed=False), give starts nearer to a solution, or take the nearest values "
-            "(least_squares=True)."
+        fixed = [n for i, n in enumerate(self.names) if n in held and self.conditions.fixed[i]]
+        remedy = (
+            f"The model does not rest at the fixed {listing(fixed, 6)}: make such starts guesses (fixed=False), or "
+            "name the states that are to rest (steady=[...])."
+            if fixed and wrong[-1] >= len(names) - len(plan.resting)
+            else "Is a start fixed twice, or in conflict with a connection? Make one of them a guess (fixed=False), "
+            "give starts nearer to a solution, or take the nearest values (least_squares=True)."
         )
+        raise InitializationError(f"{'; '.join(parts)}. {remedy}")
 
     def _held(self, plan: Plan, found: Values, wrong: np.ndarray) -> list[str]:
         """States that cannot change although violated conditions depend on them."""

@@ -59,7 +59,7 @@ class Component:
         self.__dict__["_node"] = Node(self, cls._declared)
         return self
 
-    def __init__(self, **modifiers: Any) -> None:
+    def __init__(self, /, **modifiers: Any) -> None:
         self.modify(**modifiers)
 
     def __init_subclass__(cls) -> None:
@@ -116,7 +116,7 @@ class Component:
                 charge("equations", 1, self._node)
                 self._node.connections.append((cast(Endpoint, a), cast(Endpoint, b)))
 
-    def modify(self, **modifiers: Any) -> None:
+    def modify(self, /, **modifiers: Any) -> None:
         """Set parameters, options, modules and starts by name, as the constructor does."""
         node = self._node
         for name, value in modifiers.items():

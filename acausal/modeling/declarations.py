@@ -43,8 +43,9 @@ class Start:
         return call_text(self)
 
     def __post_init__(self) -> None:
-        if self.state is not None and self.state not in STATE_SELECT:
-            raise DeclarationError(f"state='{self.state}' must be one of {', '.join(STATE_SELECT)}")
+        state: Any = self.state
+        if state is not None and not (isinstance(state, str) and state in STATE_SELECT):
+            raise DeclarationError(f"state={shown(state)} must be one of {', '.join(STATE_SELECT)}")
 
 
 class Declaration:
@@ -143,7 +144,7 @@ class Variable(Declaration):
         doc: str = "",
     ) -> None:
         super().__init__(unit=unit, shape=shape, when=when, doc=doc)
-        if tear not in TEAR_SELECT:
+        if not isinstance(tear, str) or tear not in TEAR_SELECT:
             raise DeclarationError(f"tear={shown(tear)} must be one of {', '.join(TEAR_SELECT)}")
         self.start, self.fixed, self.nominal, self.state = start, fixed, nominal, state
         self.tear = tear
@@ -169,7 +170,7 @@ class Discrete(Variable):
         when: str | None = None,
         doc: str = "",
     ) -> None:
-        if kind not in KINDS:
+        if not isinstance(kind, str) or kind not in KINDS:
             raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
         start = float(start) if isinstance(start, bool) else start
         super().__init__(unit=unit, start=start, fixed=False, shape=shape, when=when, doc=doc)
@@ -211,7 +212,7 @@ class Input(Variable):
     """
 
     def __init__(self, *, kind: Kind = "real", **others: Any) -> None:
-        if kind not in KINDS:
+        if not isinstance(kind, str) or kind not in KINDS:
             raise DeclarationError(f"kind={shown(kind)} must be one of {', '.join(KINDS)}")
         super().__init__(**others)
         self.kind = kind

@@ -178,12 +178,14 @@ def pre(variable: Any) -> Previous:
 
 def edge(variable: Any) -> Any:
     """Whether a variable that is 1 or 0 has just become 1."""
-    return sp.And(sp.Gt(variable, HALF), sp.Le(pre(variable), HALF))
+    before = pre(variable)  # refuses what is not a variable
+    return sp.And(sp.Gt(variable, HALF), sp.Le(before, HALF))
 
 
 def change(variable: Any) -> Any:
     """Whether a discrete variable has just changed."""
-    return sp.Ne(variable, pre(variable))
+    before = pre(variable)
+    return sp.Ne(variable, before)
 
 
 def initial() -> sp.Symbol:

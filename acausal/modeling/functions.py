@@ -6,7 +6,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.modeling.symbols import ModuleCall, time
+from acausal.modeling.symbols import ModuleCall, number_or_expression, time
 from acausal.modeling.whole import floor as floor
 
 maximum, minimum = sp.Max, sp.Min
@@ -49,7 +49,8 @@ class Prescribed(sp.Function):
 
 def prescribed(q: Any, *derivatives: Any) -> Any:
     """The signal ``q``, whose time derivatives are not computed, but given as these signals."""
-    return Prescribed(0, time, q, *derivatives) if derivatives else q
+    signals = [number_or_expression(s, "an argument of prescribed(...)") for s in (q, *derivatives)]
+    return Prescribed(0, time, *signals) if derivatives else q
 
 
 COMPUTABLE: tuple[type, ...] = (

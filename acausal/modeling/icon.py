@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal, cast
 
 from acausal.errors import DeclarationError, shown
 
@@ -50,13 +50,22 @@ class Icon:
     upright: tuple[tuple[float, float, str], ...] = ()
 
     def __post_init__(self) -> None:
+        placed: Any = self.upright
+        if not isinstance(placed, tuple) or not all(
+            isinstance(one, tuple) and len(cast(Any, one)) == 3 for one in cast(Any, placed)
+        ):
+            raise DeclarationError(
+                f"an icon's upright path data each have a place, ((0.0, 0.0, 'M-5 0H5'),), got {shown(placed)}"
+            )
+        if not isinstance(self.sides, Mapping):
+            raise DeclarationError(f"an icon's sides go by name, got {shown(self.sides)}")
         for data in (self.strokes, self.fills, *(data for _, _, data in self.upright)):
-            if not PATH.fullmatch(data):
+            if not isinstance(data, str) or not PATH.fullmatch(data):
                 raise DeclarationError(
                     f"an icon's strokes are SVG path data such as 'M-30 0H30', got {shown(data)}"
                 )
         for name, side in self.sides.items():
-            if side not in ("left", "right", "top", "bottom"):
+            if not isinstance(side, str) or side not in ("left", "right", "top", "bottom"):
                 raise DeclarationError(
                     f"an icon's side of '{name}' is left, right, top or bottom, got {shown(side)}"
                 )

@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError, nearest, shown
+from acausal.errors import DeclarationError, is_whole, nearest, shown
 from acausal.modeling.budget import check_nested, check_size
 from acausal.modeling.connector import Connector
 from acausal.modeling.declarations import (
@@ -52,7 +52,7 @@ def record_modifier(
                 raise DeclarationError(f"{where}={shown(value)} must be one of {choices}")
             if isinstance(declared.default, bool) and not isinstance(value, bool):
                 raise DeclarationError(f"{where}={shown(value)}: True or False is needed")
-            if _is_whole(declared.default) and not _is_whole(value):
+            if is_whole(declared.default) and not is_whole(value):
                 raise DeclarationError(f"{where}={shown(value)}: a whole number is needed")
             node.options[name] = value
         case Variable():
@@ -73,10 +73,6 @@ def record_modifier(
                     node.read(declared)
         case _:
             raise DeclarationError(f"{where} cannot be modified")
-
-
-def _is_whole(value: Any) -> bool:
-    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _make_unknown(node: Node[Any], name: str, declared: Parameter, value: Start | sp.Expr) -> None:

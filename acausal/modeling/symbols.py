@@ -249,6 +249,8 @@ def number_or_expression(value: Any, where: str) -> sp.Expr:
     if isinstance(value, sp.Expr):
         return value
     try:
+        if isinstance(value, str | bytes):  # Python reads "1" as a number
+            raise TypeError
         number = float(value)
     except (TypeError, ValueError, OverflowError):
         raise DeclarationError(

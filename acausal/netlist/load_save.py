@@ -22,7 +22,7 @@ registered libraries can be reached. Expressions go through `acausal.netlist.par
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -105,7 +105,7 @@ def _check_sizes(model: Component) -> None:
 
 def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
     given: Any = modules
-    for module in given if isinstance(given, Iterable) else [None]:
+    for module in given if isinstance(given, Sequence) else [None]:
         if not isinstance(module, ModuleType):
             wrong = given if module is None else module
             raise ModelError(f"libraries=[...] lists modules, got {shown(wrong)}")

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import jax.numpy as jnp
 from jax.typing import ArrayLike
 
-from acausal.errors import DeclarationError
+from acausal._jax import is_real
+from acausal.errors import DeclarationError, shown
 
 
 def check_inputs(network: object, inputs: Sequence[ArrayLike], expected: int) -> None:
@@ -22,6 +23,9 @@ def check_inputs(network: object, inputs: Sequence[ArrayLike], expected: int) ->
         raise DeclarationError(
             f"{name}: a network of {wanted} is called with {len(inputs)}; {mend}"
         )
+    for x in inputs:
+        if not is_real(x):
+            raise DeclarationError(f"{name}: a network takes real numbers, not {shown(x)}.")
     shapes = [shape for x in inputs if (shape := jnp.shape(x))]
     if shapes:
         raise DeclarationError(

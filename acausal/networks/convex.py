@@ -10,9 +10,10 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
+from acausal._jax import as_key
 from acausal.errors import DeclarationError
 from acausal.networks.activations import ACTIVATIONS, SMOOTH_AND_CONVEX, checked
-from acausal.networks.mlp import SPREAD, Key, Layered, Product, as_key, layers, uniform
+from acausal.networks.mlp import SPREAD, Key, Layered, Product, layers, uniform
 from acausal.networks.secondary import Secondary, number_of, shifted
 
 

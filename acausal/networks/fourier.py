@@ -7,7 +7,8 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DeclarationError
+from acausal._jax import is_number
+from acausal.errors import DeclarationError, need_whole, shown
 from acausal.networks.arity import check_inputs
 
 
@@ -26,10 +27,9 @@ class Fourier(eqx.Module):
     output_scale: float = eqx.field(static=True, default=1.0)
 
     def __init__(self, period: float, harmonics: int = 4, output_scale: float = 1.0) -> None:
-        if not (period > 0 and harmonics > 0):
-            raise DeclarationError(
-                f"Fourier: period={period:g}, harmonics={harmonics}; both must be positive"
-            )
+        harmonics = need_whole(harmonics, "Fourier: harmonics", DeclarationError, 1)
+        if not (is_number(period) and period > 0):
+            raise DeclarationError(f"Fourier: period={shown(period)}; give a positive number.")
         self.sines, self.cosines = jnp.zeros(harmonics), jnp.zeros(harmonics)
         self.period, self.output_scale = float(period), output_scale
 

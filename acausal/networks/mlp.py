@@ -9,11 +9,11 @@ from functools import partial
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.errors import DataError, DeclarationError, shown
+from acausal._jax import as_key, is_number
+from acausal.errors import DeclarationError, need_whole, shown
 from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.arity import check_inputs
 
@@ -93,10 +93,14 @@ class MLP(Layered):
     ) -> None:
         given = {"activation": activation, "input_scale": input_scale, "output_scale": output_scale}
         self.left_open = tuple(name for name, value in given.items() if value is None)
-        self.activation = checked(activation or "relu")
+        self.activation = checked("relu" if activation is None else activation)
         self.input_scale = 1.0 if input_scale is None else input_scale
         self.output_scale = 1.0 if output_scale is None else output_scale
         check_sizes(in_size, width, depth, self.input_scale)
+        if not is_number(last_layer):
+            raise DeclarationError(
+                f"last_layer={shown(last_layer)} is not a factor; give a number."
+            )
         self.weights, self.biases = layers(in_size, width, depth, last_layer, key)
         self.in_size = in_size
 
@@ -149,21 +153,12 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
     Raises:
         DeclarationError: if no network has them.
     """
-    whole = all(isinstance(n, int | np.integer) for n in (in_size, width, depth))
-    if not whole or min(in_size, width) < 1 or depth < 0 or max(in_size, width, depth) > LARGEST:
-        raise DeclarationError(
-            f"no network has in_size={shown(in_size)}, width={shown(width)}, depth={shown(depth)}; "
-            f"give positive whole numbers up to {LARGEST}"
-        )
+    sizes = ("in_size", in_size, 1), ("width", width, 1), ("depth", depth, 0)
+    for name, size, least in sizes:
+        if need_whole(size, f"a network's {name}", DeclarationError, least) > LARGEST:
+            raise DeclarationError(f"a network's {name}={size}; give {LARGEST} or less.")
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
         raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
-
-
-def as_key(key: Key) -> Array:
-    """A JAX key, from a key or a seed."""
-    if not isinstance(key, int | jax.Array):
-        raise DataError(f"key={shown(key)} makes no network; give a JAX key or a whole number")
-    return jax.random.key(key) if isinstance(key, int) else key
 
 
 def uniform(key: Array, shape: tuple[int, ...], limit: float) -> Array:

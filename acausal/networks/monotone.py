@@ -10,8 +10,9 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
+from acausal._jax import as_key
 from acausal.networks.activations import ACTIVATIONS, INCREASING, checked
-from acausal.networks.mlp import Key, Layered, Product, as_key, layers
+from acausal.networks.mlp import Key, Layered, Product, layers
 from acausal.networks.secondary import Secondary, number_of, shifted
 
 

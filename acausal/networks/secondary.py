@@ -10,7 +10,8 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array
 
-from acausal.networks.mlp import SPREAD, Key, Product, as_key, uniform
+from acausal._jax import as_key
+from acausal.networks.mlp import SPREAD, Key, Product, uniform
 
 
 class Secondary(eqx.Module):

@@ -8,7 +8,7 @@ from typing import Any, Literal, TypedDict, get_args
 
 import numpy as np
 
-from acausal.errors import DeclarationError, shown
+from acausal.errors import DeclarationError, need_whole, shown
 from acausal.networks.extrapolation import Extrapolation, check_limits
 from acausal.networks.mlp import Key, Scale, check_sizes
 
@@ -79,10 +79,7 @@ class NetworkSpec:
                 raise DeclarationError(
                     f"{name}={shown(value)} must be one of {', '.join(map(repr, choices))}"
                 )
-        if not (isinstance(self.secondary, int) and self.secondary >= 0):
-            raise DeclarationError(
-                f"secondary={shown(self.secondary)} is a number of further inputs; give zero or more"
-            )
+        need_whole(self.secondary, "secondary", DeclarationError, 0)
         inner, outer = self.scales
         check_sizes(self.in_size, self.width, self.depth, inner)
         scales = inner if isinstance(inner, tuple) else (inner,)

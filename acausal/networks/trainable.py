@@ -12,6 +12,7 @@ from jaxtyping import Array
 
 from acausal.data import Signal
 from acausal.errors import DataError
+from acausal.modeling import names_in
 from acausal.networks.energy import Levelled
 from acausal.networks.scaled import EnergyLaw
 from acausal.networks.zero import OffsetCorrected
@@ -41,7 +42,7 @@ def remove_offset(
     """
     if not isinstance(params, Mapping):
         raise DataError(f"remove_offset needs a model's parameters, got {type(params).__name__}")
-    chosen = networks(params) if names is None else names
+    chosen = networks(params) if names is None else names_in(names, "remove_offset: names")
     return {n: _corrected(leaf) if n in chosen else leaf for n, leaf in params.items()}
 
 

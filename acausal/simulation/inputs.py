@@ -211,7 +211,7 @@ def _function(
 ) -> TimeFunction:
     if isinstance(value, Signal | Constant):
         return value
-    if callable(value):
+    if callable(value) and not isinstance(value, type):
         return on_host(value, name, start) or Function(
             cast(Callable[[ArrayLike], ArrayLike], value), name
         )

@@ -13,8 +13,9 @@ from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
 from acausal._jax import traced
-from acausal.codegen import Values
+from acausal.codegen import Values, guards
 from acausal.errors import SimulationError
+from acausal.initialization import COINCIDE
 from acausal.simulation.finite import explain_ahead
 from acausal.simulation.inputs import TimeFunction, evaluate
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 RUN_AWAY = 1e30
 """States larger than this, in units of their nominal values or of their start, have run away."""
+
+APART = 4 * COINCIDE
+"""Instants of a clock that are nearer to each other, relative to the times, count as one event."""
 
 EIGENVALUES = 300
 """Models with more states are not examined: dense Jacobians would not pay."""
@@ -71,6 +75,22 @@ class Run(NamedTuple):
             what = self.system.describe_discrete(place)
             period = ", as its period is not above zero" if "sample(" in what else ""
             raise SimulationError(f"At the start '{what}' is {float(d[place])}{period}.")
+        self._check_clocks()
+
+    def _check_clocks(self) -> None:
+        """Refuse clocks whose instants count as one: events miss those behind the first."""
+        events, at = self.system.events, self.start
+        if events is None or at.d is None or not events.ticks.any() or traced(at):
+            return
+        period = guards(events, at) - guards(events, at._replace(d=at.d + 1))
+        longest = max(abs(self.begin), abs(self.end), self.end - self.begin)
+        fast = events.ticks & (np.asarray(period) < APART * longest)
+        if fast.any():
+            i = int(np.argmax(fast))
+            raise SimulationError(
+                f"'{events.describe(i)}' ticks every {float(period[i]):.3g} s, which times up to {longest:g} s cannot "
+                f"tell apart: give a period of {APART * longest:.3g} s or more, or a shorter span of time."
+            )
 
     def modes(self) -> NDArray[np.complex128]:
         """Eigenvalues of the Jacobian at the start, shape (n,), in 1/s.

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from acausal._jax import is_real, need_double_precision, precision, traced
 from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
-from acausal.errors import DataError, need_compiled, shown, user_level
+from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
 from acausal.simulation import solvers
 from acausal.simulation.fixed import are_split, simulate_fixed
 from acausal.simulation.inputs import (
@@ -82,7 +82,7 @@ def simulate(
             interpolation, which is then cubic by default.
         params: as `system.parameters` gives them, the default.
         x0: initial values by name, or the whole state; by default the model's start values. ``"steady"`` starts at
-            rest, with the inputs as they are then; fixed starts hold in any case.
+            rest, with the inputs as they are then; fixed starts stay as they are, and must be those of rest.
         solver: a name (`acausal.simulation.solvers.SOLVERS`) or a diffrax solver. ``"auto"`` is Tsit5; without ``dt``
             it goes on with BDF from where stability, and not accuracy, limits the steps: where the model is stiff.
             ``"stiff"`` is implicit from the start: BDF, Kvaerno5 with events, and Kvaerno3 in fixed steps.
@@ -113,13 +113,16 @@ def simulate(
     """
     need_compiled(system, "simulate")
     need_double_precision()
-    if solver != "bdf" and not isinstance(solver, solvers.BDF):
+    called = (
+        solver if isinstance(solver, str) else ""
+    )  # an array equals no text, but element by element
+    if called != "bdf" and not isinstance(solver, solvers.BDF):
         system = system.watching(traced_names(params))
     check_tolerances(rtol, atol, len(system.states))
     kind = precision(dtype)
     start, end = _span(t)
     saved = None if saveat is None else _save_times(saveat, start, end)
-    _check_limit(max_steps)
+    max_steps = need_whole(max_steps, "max_steps", DataError, 1)
     longest = _longest(max_step, end - start)
     if dt is not None and max_step is not None:
         raise DataError(
@@ -142,7 +145,7 @@ def simulate(
     LOGGER.info("simulating %s from %g to %g s in %s", system.flat.name, start, end, steps)
     forward = isinstance(adjoint, dfx.ForwardMode)
     if ends is not None and system.events is None and not are_split(run, ends, adjoint):
-        scheme = solvers.solver_named("tsit5" if solver == "auto" else solver, fixed=True)
+        scheme = solvers.solver_named("tsit5" if called == "auto" else solver, fixed=True)
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
         return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
     if adjoint is not None and not forward and system.events is None and ends is None:
@@ -154,7 +157,7 @@ def simulate(
     if saved is None:
         saved = np.linspace(start, end, POINTS) if ends is None else ends
     chosen = None
-    if solver != "auto":
+    if called != "auto":
         with_events = system.events is not None
         chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
     return simulate_in_steps(
@@ -186,11 +189,6 @@ def _span(t: float | tuple[float, float]) -> tuple[float, float]:
             f"t=({start:g}, {end:g}) is not a span of time; give (start, end), start < end."
         )
     return start, end
-
-
-def _check_limit(max_steps: object) -> None:
-    if isinstance(max_steps, bool) or not isinstance(max_steps, int | np.integer) or max_steps < 1:
-        raise DataError(f"max_steps={shown(max_steps)} is not a limit of steps; give 1 or more.")
 
 
 def _longest(max_step: object, span: float) -> float | None:

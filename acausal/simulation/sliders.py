@@ -78,6 +78,9 @@ def sliders(
         import ipywidgets as widgets
     except ModuleNotFoundError:
         raise AcausalError("Sliders need ipywidgets: pip install 'acausal[notebook]'.") from None
+    for argument, given in (("params", params), ("inputs", inputs)):
+        if not isinstance(given, Mapping | None):
+            raise DataError(f"{argument}={shown(given)} have no names; give values by name.")
     moved = Moved(
         system, ranges_of(system, ranges, params), t, show, params or {}, inputs or {}, options
     )
@@ -149,8 +152,11 @@ def ranges_of(
         DataError: for a name that is neither, or bounds that are none.
     """
     known = (*system.layout.names, *system.inputs)
-    given = system.parameters() if params is None else params
+    given = params or system.parameters()
+    system.pack(given)
     found: list[Range] = []
+    if not isinstance(ranges, Mapping):
+        raise DataError(f"ranges={shown(ranges)} have no names; give (least, largest) by name.")
     for name, bounds in ranges.items():
         if name not in known:
             raise DataError(

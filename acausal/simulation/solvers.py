@@ -10,7 +10,7 @@ import equinox as eqx
 import numpy as np
 from jax.typing import DTypeLike
 
-from acausal.errors import SimulationError, nearest, shortened
+from acausal.errors import SimulationError, nearest, shown
 from acausal.simulation.stages import StageNewton, stage_newton
 
 
@@ -85,7 +85,7 @@ def solver_named(solver: str | Solver, *, fixed: bool = False, events: bool = Fa
     Raises:
         SimulationError: for an unknown name, or anything that is not a solver of ordinary differential equations.
     """
-    if solver == "stiff":
+    if isinstance(solver, str) and solver == "stiff":
         solver = "kvaerno3" if fixed else "kvaerno5" if events else "bdf"
     if isinstance(solver, str):
         if solver not in SOLVERS:
@@ -98,7 +98,7 @@ def solver_named(solver: str | Solver, *, fixed: bool = False, events: bool = Fa
         return solver
     if not isinstance(solver, dfx.AbstractSolver):
         raise SimulationError(
-            f"solver={shortened(repr(solver))} is not a solver; choose one of {', '.join(SOLVERS)}, "
+            f"solver={shown(solver)} is not a solver; choose one of {', '.join(SOLVERS)}, "
             "or a diffrax solver such as diffrax.Tsit5()."
         )
     if solver.term_structure is not dfx.AbstractTerm:

@@ -7,6 +7,7 @@ import os
 import numpy as np
 from jaxtyping import Float, Int
 
+from acausal._jax import is_number, traced
 from acausal.errors import DataError, shown
 
 ON_GRID = 1e-6
@@ -42,8 +43,7 @@ def step_ends(start: float, end: float, dt: float, width: int) -> Float[np.ndarr
     Raises:
         DataError: if they do not divide the span, or if this machine's memory cannot hold so many.
     """
-    is_number = isinstance(dt, float | int | np.number) and not isinstance(dt, bool)
-    if not (is_number and np.isfinite(dt) and dt > 0):
+    if isinstance(dt, bool) or traced(dt) or not (is_number(dt) and dt > 0):
         raise DataError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
     span = end - start
     if (needed := 8.0 * width * (span / dt)) > memory():

@@ -15,7 +15,15 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import is_real
-from acausal.errors import DataError, nearest, need_compiled, shown, user_level
+from acausal.errors import (
+    DataError,
+    nearest,
+    need_compiled,
+    need_flag,
+    need_whole,
+    shown,
+    user_level,
+)
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.simulate import simulate
 from acausal.simulation.solution import Solution
@@ -100,7 +108,7 @@ class Sweep(ByName):
             if name not in self.dims[:-1]:
                 raise DataError(f"isel: {nearest(name, self.dims[:-1])}")
             size = self.shape[self.dims.index(name)]
-            if not -size <= index < size:
+            if not -size <= need_whole(index, f"isel: '{name}'") < size:
                 raise DataError(
                     f"isel: '{name}' has {size} values, counted from 0; there is no {index}."
                 )
@@ -272,7 +280,7 @@ def _variants(
     values: Mapping[str, Float[np.ndarray, " n"]], grid: bool
 ) -> dict[str, Float[np.ndarray, " n_variants"]]:
     """The value of every name in every variant."""
-    if grid:
+    if need_flag(grid, "sweep: grid"):
         meshes: Sequence[np.ndarray] = np.meshgrid(*values.values(), indexing="ij")
         return {name: mesh.ravel() for name, mesh in zip(values, meshes, strict=True)}
     lengths = {name: len(column) for name, column in values.items()}

@@ -125,7 +125,7 @@ def build_problem(
         },
         networks=chosen,
         modifiers=changed,
-        parameter_spread=parameter_spread(options.parameter_spread, params),
+        parameter_spread=parameter_spread(options.parameter_spread, params, layout.declared_range),
         per_record=per_record(system, options.per_record, params, records.count),
         timing=times,
         targets=targets,
@@ -144,6 +144,7 @@ def build_problem(
         dtype=dtype,
         mesh=device_mesh(options.devices, sequences.batch_size),
     )
+    problem.check_rest()
     _refuse_constant(problem)
     problem = with_sizes(problem)
     if shooting:
@@ -155,7 +156,9 @@ def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
     """The steps of the integration: adaptive ones where tolerances or a solver ask for them."""
     fixed = options.dt is not None
     solver = "heun" if options.solver is None else options.solver
-    chosen = None if solver == "auto" else solver_named(solver, fixed=fixed)
+    chosen = (
+        None if isinstance(solver, str) and solver == "auto" else solver_named(solver, fixed=fixed)
+    )
     by_tolerance = options.rtol is not None or options.atol is not None
     if chosen is not None and not isinstance(chosen, BDF) and not by_tolerance:
         return for_fixed_steps(chosen, dtype)

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal.data import Data, RecordsLike
-from acausal.errors import TrainingError, need_compiled, shown
+from acausal.errors import DataError, TrainingError, need_compiled, need_whole, shown
 from acausal.files import need_path
 from acausal.networks import law_of
 from acausal.pages import write_page
@@ -180,8 +180,7 @@ def ensemble(
         TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "ensemble")
-    if not isinstance(members, int | np.integer) or members < 2:
-        raise TrainingError(f"members={shown(members)}; an ensemble has at least two.")
+    members = need_whole(members, "members", TrainingError, 2)
     chosen = FitOptions.of("ensemble", options)
     if chosen.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
@@ -190,9 +189,14 @@ def ensemble(
             "The members of an ensemble differ in their seeds alone: leave out starts=, or pass the params of an "
             "ac.fit(..., starts=...)."
         )
+    seed = need_whole(seed, "seed", TrainingError)
     if params is None or isinstance(params, Mapping):
         numbers = {n: leaf for n, leaf in (params or {}).items() if not callable(leaf)}
         params = [numbers] * members
+    if not isinstance(params, Sequence):
+        raise DataError(
+            f"params={shown(params)} are not parameters; give a mapping by name, or one for each member."
+        )
     if len(params) != members:
         raise TrainingError(f"There are {len(params)} params for {members} members.")
     seeds = tuple(range(seed, seed + members))

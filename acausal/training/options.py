@@ -7,7 +7,6 @@ keywords of a function only from a `TypedDict`; a test compares the two.
 from __future__ import annotations
 
 import inspect
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -18,7 +17,8 @@ import numpy as np
 import optax
 from jax.typing import DTypeLike
 
-from acausal.errors import TrainingError, nearest, shown
+from acausal._jax import is_number, traced
+from acausal.errors import TrainingError, nearest, need_flag, need_whole, shown
 from acausal.files import need_path
 from acausal.simulation import Solver
 from acausal.training.objective.error_laws import ErrorLaw
@@ -47,23 +47,20 @@ OF_SEQUENCES = ("sequence_length", "batch_size", "subsample", "optimizer")
 
 
 def _is_number(value: Any) -> bool:
-    real = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-    return real and not np.iscomplexobj(value) and math.isfinite(value)
-
-
-def _is_count(value: Any) -> bool:
-    return isinstance(value, int | np.integer) and not isinstance(value, bool)
+    return is_number(value) and not traced(value) and not isinstance(value, bool | np.bool_)
 
 
 def _are(one: Callable[[Any], bool], values: Any) -> bool:
     """Whether they are some of that kind; what can be read only once is taken as it is."""
-    if not isinstance(values, Iterable):
+    try:
+        found = iter(values)
+    except TypeError:
         return False
-    return isinstance(values, Iterator) or all(map(one, cast(Iterable[Any], values)))
+    return isinstance(values, Iterator) or all(map(one, found))
 
 
 def _are_many(values: Any) -> bool:
-    return isinstance(values, Iterable) and not isinstance(values, str)
+    return _are(lambda value: True, values) and not isinstance(values, str)
 
 
 def _are_texts(values: Any) -> bool:
@@ -93,23 +90,30 @@ KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
         lambda v: hasattr(v, "confidence") and hasattr(v, "params"),
         "the result of a training",
     ),
-    "sequence_length": (lambda v: v == "auto" or _is_number(v), "a number of seconds"),
-    "batch_size": (_is_count, "a whole number"),
+    "sequence_length": (
+        lambda v: _is_number(v) or (isinstance(v, str) and v == "auto"),
+        "a number of seconds",
+    ),
     "subsample": (_is_number, "a fraction"),
-    "starts": (_is_count, "a whole number"),
-    "strategy": (_are_texts, "a strategy, nor several: give their names"),
-    "epochs": (lambda v: _is_number(v) or _are(_is_number, v), "a number of updates, nor several"),
+    "strategy": (
+        lambda v: isinstance(v, str | Sequence) and _are_texts(v),
+        "a strategy, nor several: give their names",
+    ),
     "optimizer": (_is_optimizer, "an optax optimizer; give one such as optax.adam(0.01)"),
     "rtol": (_is_number, "a number"),
     "atol": (_is_number, "a number"),
     "x0": (lambda v: isinstance(v, str | Mapping), "a text, nor values by name"),
     "devices": (_are_many, "devices; give some of jax.devices()"),
-    "evaluate_every": (_is_count, "a whole number of updates"),
-    "patience": (_is_count, "a whole number of evaluations"),
     "observers": (_are_many, "several functions"),
     "checkpoint_every": (_is_number, "a number of seconds"),
 }
 """What the values of options must be, in words for a message."""
+
+FLAGS = ("progress", "resume")
+"""Options that are truth values."""
+
+COUNTS = ("batch_size", "starts", "evaluate_every", "patience")
+"""Options that are whole numbers from 1."""
 
 OWN_OPTIMIZER = {
     "auto": "L-BFGS or Levenberg-Marquardt",
@@ -173,7 +177,7 @@ class FitOptions:
         gamma: the γ of modifiers without their own, such as 0.2; by default they are free.
         parameter_spread: parameters that differ from run to run, with their standard deviations: the loss of a
             simulation is the mean over the model and those with one of these parameters a deviation higher or lower,
-            so that the model follows other runs, too.
+            within the bounds that it declares, so that the model follows other runs, too.
         per_record: parameters with a value for each record, such as an offset or a friction that changes from day to
             day: by name the standard deviation from record to record, which ties the values to the common one, or
             ``None`` for free values. Unlike a `parameter_spread`, which makes the model follow runs that nobody has
@@ -317,6 +321,12 @@ class FitOptions:
                 raise TrainingError(f"{name}={shown(value)} is not {wanted}.")
         if self.checkpoint is not None:
             need_path(self.checkpoint, "checkpoint", TrainingError)
+        for name in FLAGS:
+            object.__setattr__(self, name, need_flag(getattr(self, name), name, TrainingError))
+        for name in COUNTS:
+            if (count := getattr(self, name)) is not None or name == "starts":
+                # NumPy's numbers become Python's, which do not overflow
+                object.__setattr__(self, name, need_whole(count, name, TrainingError, 1))
         for function in (*self.penalties, *self.all_observers):
             if not callable(function):
                 raise TrainingError(
@@ -332,14 +342,8 @@ class FitOptions:
             raise TrainingError(
                 f"optimizer= is for sequences, but the strategy is {named}, which has its own: leave it out."
             )
-        if self.starts < 1:
-            raise TrainingError(f"starts={self.starts}; at least one is needed.")
         if self.starts > 1 and self.devices is not None:
             raise TrainingError("Several starts are trained on one device: leave out devices=.")
-        if self.patience is not None and self.patience < 1:
-            raise TrainingError(f"patience={self.patience}; at least one evaluation is needed.")
-        if self.evaluate_every is not None and self.evaluate_every < 1:
-            raise TrainingError(f"evaluate_every={self.evaluate_every}; give one update or more.")
         self._check_updates()
 
     def _check_updates(self) -> None:
@@ -347,11 +351,6 @@ class FitOptions:
             raise TrainingError(
                 f"epochs={self.epochs} for the strategy {self.parts}: give one number, or one for each part."
             )
-        for count in self.updates:
-            if count != int(count):
-                raise TrainingError(f"epochs={self.epochs}; give a whole number of updates.")
-            if count < 1:
-                raise TrainingError(f"epochs={self.epochs}; at least one is needed.")
 
     def described(self) -> dict[str, str]:
         """The options that say how a training was done, as texts by name: those given, and the most important ones."""
@@ -396,9 +395,9 @@ class FitOptions:
         """How many updates each part makes at most."""
         if self.epochs is None:
             return tuple(UPDATES[name] for name in self.parts)
-        if isinstance(self.epochs, int | float):
-            return (self.epochs,) * len(self.parts)
-        return tuple(self.epochs)
+        several = _are_many(self.epochs) and np.ndim(self.epochs) > 0
+        counts = cast(Any, self.epochs if several else (self.epochs,) * len(self.parts))
+        return tuple(need_whole(count, "epochs", TrainingError, 1) for count in counts)
 
 
 _NOT_DESCRIBED = (

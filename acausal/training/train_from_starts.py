@@ -18,11 +18,11 @@ import jax
 import numpy as np
 from jaxtyping import PyTree
 
-from acausal._jax import need_double_precision
+from acausal._jax import need_double_precision, need_known
 from acausal.analysis import in_switches
 from acausal.codegen import Values
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, TrainingError, listing, shown, user_level
+from acausal.errors import DataError, TrainingError, listing, need_whole, shown, user_level
 from acausal.modeling import names_in
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
@@ -105,12 +105,13 @@ def prepare(
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
+    by_name = [v for v in vars(options).values() if isinstance(v, Mapping)]
+    need_known("A training", params, by_name, error=TrainingError)
     for given in params:
         if not isinstance(given, Mapping | None):
             raise DataError(f"params={shown(given)} are not parameters; give a mapping by name.")
     for seed in seeds:
-        if not isinstance(seed, int | np.integer):
-            raise TrainingError(f"seed={shown(seed)}; give a whole number.")
+        need_whole(seed, "seed", TrainingError)
     need_double_precision()
     starts = [
         {**entry(system.parameters(seed), options.prior), **(given or {})}

@@ -73,3 +73,30 @@ def test_a_point_that_does_not_exist_is_told(system: ac.System) -> None:
 def test_a_simulation_can_start_at_rest(system: ac.System) -> None:
     run = ac.simulate(system, 0.1, dt=0.01, inputs={"source.v": 0.0, "load.tau": 0.0}, x0="steady")
     np.testing.assert_allclose(run["rotor.w"], 0.0, atol=1e-12)
+
+
+class Lag(ac.Component):
+    """A lag whose start is fixed."""
+
+    k = ac.Parameter(0.7)
+    u = ac.Input()
+    x = ac.Variable(start=0.3, fixed=True)
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.u - self.k * self.x)
+
+
+def test_a_fixed_start_must_be_one_of_rest() -> None:
+    system = ac.compile(Lag())
+    assert float(ac.operating_point(system, inputs={"u": 0.21})["x"]) == 0.3
+    assert float(ac.operating_point(system, inputs={"u": 1.0}, x0={"x": 0.5})["x"]) == 0.5
+    told = r"not met: 'der\(x\) = 0 by 0.79'.*does not rest at the fixed 'x': .*\(fixed=False\), or name"
+    with pytest.raises(ac.InitializationError, match=told):
+        ac.operating_point(system, inputs={"u": 1.0})
+    with pytest.raises(ac.InitializationError, match="does not rest at the fixed 'x'"):
+        ac.simulate(system, 1.0, dt=0.1, inputs={"u": 1.0}, x0="steady")
+    t = np.linspace(0.0, 1.0, 11)
+    record = ac.Data(t, {"u": np.ones(11), "x": np.full(11, 1 / 0.7)})
+    for data in (record, {"first": record, "second": record}):
+        with pytest.raises(ac.InitializationError, match="does not rest at the fixed 'x'"):
+            ac.fit(system, data, "x", modifiers=["k"], x0="steady", progress=False)

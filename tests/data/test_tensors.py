@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import math
 import os
 import re
 from pathlib import Path
@@ -10,11 +11,13 @@ from typing import Any
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
+import safetensors.numpy
 
 import acausal as ac
-from acausal.data import tensors
+from acausal.data import params_file, tensors
 from tests.support.oscillator import learned, plain
 
 
@@ -131,3 +134,52 @@ def test_files_that_cannot_be_read_or_written(
         ac.save_params(plain().parameters(), saved)
     assert saved.read_bytes() == before
     assert [p.name for p in saved.parent.iterdir()] == [saved.name]
+
+
+@pytest.mark.parametrize(
+    ("value", "told"),
+    [
+        (1j, "'mass.m' is of type complex128; give real numbers"),
+        (jnp.zeros(2, jnp.float8_e4m3fn), "'mass.m' is of type float8_e4m3fn"),
+        (np.array([None]), "'mass.m' is of type object"),
+        (object(), "'mass.m' is <object .*; give real numbers or networks"),
+        ("heavy", "'mass.m' is 'heavy'; give real numbers"),
+        (math.nan, "'mass.m' has NaN, with which no model runs"),
+    ],
+)
+def test_what_is_no_parameter_is_not_saved(value: Any, told: str, tmp_path: Path):
+    with pytest.raises(ac.DataError, match=rf"^save_params: {told}"):
+        ac.save_params({"mass.m": value}, tmp_path / "a.safetensors")
+    assert not list(tmp_path.iterdir())
+
+
+def test_values_with_which_no_model_runs_are_not_loaded(tmp_path: Path):
+    path, params = tmp_path / "a.safetensors", plain().parameters()
+    about = {"kind": params_file.KIND, "settings": {}}
+    for value, told in (
+        (math.nan, "'mass.m' is not finite"),
+        (math.inf, "'mass.m' is not finite"),
+        (-1.0, "params: 'mass.m' is -1, but must be at least 0"),
+    ):
+        tensors.write_arrays(path, tensors.named_arrays({**params, "mass.m": value}), about)
+        with pytest.raises(ac.DataError, match=f"a.safetensors': {told}"):
+            ac.load_params(path, plain())
+    ac.save_params({"limit": math.inf}, path)
+    assert ac.load_params(path, {"limit": np.inf}) == {"limit": np.inf}
+
+
+@pytest.mark.parametrize(
+    ("about", "told"),
+    [
+        ("[1]", "its description is not an object"),
+        ("{", "its description is not an object"),
+        ("[" * 100_000, "its description is not an object"),
+        (f'{{"kind": "{params_file.KIND}"}}', "does not say which settings"),
+    ],
+)
+def test_a_wrong_description_is_refused(about: str, told: str, tmp_path: Path):
+    path, arrays = tmp_path / "a.safetensors", {"mass.m": np.array(1.0)}
+    told_of = {"about": about, "sha256": tensors._checksum(arrays, about)}
+    path.write_bytes(safetensors.numpy.save(arrays, told_of))
+    with pytest.raises(ac.DataError, match=told):
+        ac.load_params(path, plain())

@@ -215,3 +215,26 @@ def test_a_host_callback_is_named(tmp_path):
         ac.DataError, match="'pure_callback' of a network or a table has no counterpart"
     ):
         ac.export.modelica(system, tmp_path / "a.mo", params)
+
+
+class Angle(ac.Connector):
+    φ = ac.Potential(unit="rad")
+    τ = ac.Flow(unit="N.m")
+
+
+class Räder(ac.Component):
+    ω = ac.Variable(start=1.0, fixed=True)
+    Θ = ac.Parameter(2.0)
+    a = Angle()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.ω), -self.Θ * self.ω)
+        yield ac.Eq(self.a.φ, self.ω)
+
+
+def test_names_are_ascii(rumoca, tmp_path):
+    text = ac.export.modelica(Räder(), tmp_path / "r.mo").read_text(encoding="utf-8")
+    assert re.sub('"[^"]*"', "", text).isascii()
+    assert "der('{U+03C9}') = -'{U+0398}'*'{U+03C9}'" in text
+    assert "a.'{U+03C6}' = '{U+03C9}'" in text
+    assert not [d for d in rumoca.validate_source(text) if d.level == "error"]

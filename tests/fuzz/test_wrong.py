@@ -1,4 +1,4 @@
-"""More than a thousand wrong models, made by chance: each is refused in one clear sentence, or turns out to be sound.
+"""Thousands of wrong models and calls, made by chance: each is refused in one clear sentence, or turns out to be sound.
 
 Every mutant follows from its kind and seed alone. To see one by itself, with its traceback::
 
@@ -14,13 +14,14 @@ from typing import Any
 import jax
 import pytest
 
-from . import calls, models, netlists
+from . import calls, interface, models, netlists
 from .outcome import GOOD, Mutant, Outcome, outcome, table
 
 MAKERS: dict[str, tuple[Callable[[int, Path], Mutant], int]] = {
     "netlists": (netlists.mutant, 400),
     "models": (lambda seed, folder: models.mutant(seed), 350),
     "calls": (calls.mutant, len(calls.ALL)),
+    "interface": (interface.mutant, 2000),
 }
 """By kind: what makes the mutant of a seed, and how many are tried."""
 
@@ -51,5 +52,5 @@ def test_mutants_are_various(tmp_path: Path) -> None:
     made = [make(seed, tmp_path) for make, n in MAKERS.values() for seed in range(n)]
     assert len(made) >= 1000
     assert len({m.kind for m in made}) > 80
-    assert len({m.domain for m in made}) == 11
+    assert len({m.domain for m in made}) == 12
     assert len({(m.domain, m.kind, m.detail) for m in made}) > 900

@@ -138,5 +138,5 @@ def test_a_fourier_series_repeats_and_has_no_mean():
     assert float(values.mean()) == pytest.approx(0, abs=1e-9)
     np.testing.assert_allclose(jax.vmap(bent)(x + 2), values, atol=1e-9)
     assert float(bent(0.5)) == pytest.approx(5 * (1 + 2 - 1), abs=1e-9)
-    with pytest.raises(ac.DeclarationError, match="both must be positive"):
+    with pytest.raises(ac.DeclarationError, match="give a positive number"):
         ac.networks.Fourier(0.0)

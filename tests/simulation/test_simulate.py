@@ -416,7 +416,7 @@ def test_a_second_call_does_not_compile():
         (
             {"inputs": NO_FORCE, "max_steps": 0},
             ac.DataError,
-            "max_steps=0 is not a limit of steps; give 1 or more.",
+            "max_steps=0; give a whole number, 1 or more.",
         ),
         (
             {"inputs": NO_FORCE, "saveat": []},

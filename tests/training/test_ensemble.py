@@ -168,8 +168,8 @@ def test_the_page_shows_bands(tmp_path: Path):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"members": 1}, "members=1; an ensemble has at least two."),
-        ({"members": 2.5}, "members=2.5; an ensemble has at least two."),
+        ({"members": 1}, "members=1; give a whole number, 2 or more."),
+        ({"members": 2.5}, "members=2.5; give a whole number, 2 or more."),
         ({"devices": jax.devices()}, "An ensemble is trained on one device: leave out devices=."),
         ({"params": [{}]}, "There are 1 params for 3 members."),
         (

@@ -465,7 +465,7 @@ def test_outputs_alone_suffice_for_the_whole_record():
         ({"sequence_length": 100.0}, ac.DataError,
          "sequence_length=100 s is 10000 samples; the record has 2001 at 0.01 s."),
         ({"sequence_length": float("nan")}, ac.TrainingError, "sequence_length=nan is not a number of seconds."),
-        ({"batch_size": 2.5}, ac.TrainingError, "batch_size=2.5 is not a whole number."),
+        ({"batch_size": 2.5}, ac.TrainingError, "batch_size=2.5; give a whole number, 1 or more."),
         ({"sequence_length": None}, ac.DataError,
          "batch_size=4 needs a sequence_length in seconds, shorter than the record."),
         ({"subsample": 1.5}, ac.DataError, "subsample=1.5 is not a fraction of the points; give a number in (0, 1]."),

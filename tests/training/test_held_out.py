@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import optax
 import pytest
 
 import acausal as ac
+from acausal.training.objective.held_out import split
 from tests.support.oscillator import learned, plain, record
 from tests.support.slow_machine import slow_down
 from tests.training.test_checkpoint import same, stop
@@ -165,8 +167,12 @@ def test_it_is_drawn(tmp_path: Path):
             "validation=nan is not a fraction; give a number between 0 and 1.",
         ),
         ({"validation": np.float32(1.5)}, "validation=1.5 of 501 samples leaves -251 to train on"),
+        (
+            {"validation": []},
+            "validation=[] names nothing to hold out: leave it out, or name some.",
+        ),
         ({"validation": {"time": [0, 1, 2], "mass.a": [0, 1, 0]}}, "The data lack 'push.f'"),
-        ({"patience": 0}, "patience=0; at least one evaluation is needed."),
+        ({"patience": 0}, "patience=0; give a whole number, 1 or more."),
     ],
 )
 def test_mistakes_get_one_sentence(chosen: dict[str, Any], sentence: str):
@@ -181,3 +187,13 @@ def test_weights_are_those_of_the_best():
     again = train(epochs=fit.best_epoch, patience=None)
     one, other = (eqx.filter(f.params["extra.net"], eqx.is_inexact_array) for f in (fit, again))
     jax.tree.map(np.testing.assert_array_equal, one, other)
+
+
+def test_a_record_that_is_trained_on_validates_nothing():
+    record = ac.Data(np.arange(4.0), {"u": np.arange(4.0), "y": np.ones(4)})
+    other = ac.Data(np.arange(4.0), {"u": np.arange(4.0), "y": np.zeros(4)})
+    with pytest.warns(UserWarning, match="'record' is the training's own record 'a'"):
+        split({"a": record}, ac.Data(record.time, dict(record.signals)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert split({"a": record}, other).held == {"record": other}

@@ -55,6 +55,14 @@ def test_one_number_of_updates_counts_for_every_part() -> None:
     assert FitOptions(strategy="gauss_newton").updates == (50,)
 
 
+def test_whole_numbers_may_be_of_numpy() -> None:
+    options = FitOptions(epochs=np.int32(2), batch_size=np.int8(3), starts=np.uint8(2))  # pyright: ignore[reportArgumentType]
+    assert (options.updates, options.batch_size, options.starts) == ((2,), 3, 2)
+    assert FitOptions(
+        strategy=("equation_error", "whole_record"), epochs=np.array([2, 3])
+    ).updates == (2, 3)  # pyright: ignore[reportArgumentType]
+
+
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
@@ -62,11 +70,13 @@ def test_one_number_of_updates_counts_for_every_part() -> None:
         ({"modifiers": [None]}, "modifiers=[None] is not names of parameters, nor modifiers by name."),
         ({"gamma": "x"}, "gamma='x' is not a number."),
         ({"loss": 3}, "loss=3 is not a loss, by name or as a function."),
-        ({"batch_size": 1.5}, "batch_size=1.5 is not a whole number."),
+        ({"batch_size": 1.5}, "batch_size=1.5; give a whole number, 1 or more."),
         ({"strategy": None}, "strategy=None is not a strategy, nor several: give their names."),
-        ({"epochs": float("nan")}, "epochs=nan is not a number of updates, nor several."),
+        ({"epochs": float("nan")}, "epochs=nan; give a whole number, 1 or more."),
         ({"optimizer": 3}, "optimizer=3 is not an optax optimizer; give one such as optax.adam(0.01)."),
-        ({"patience": "x"}, "patience='x' is not a whole number of evaluations."),
+        ({"patience": "x"}, "patience='x'; give a whole number, 1 or more."),
+        ({"starts": None}, "starts=None; give a whole number, 1 or more."),
+        ({"epochs": (2, True)}, "epochs=True; give a whole number, 1 or more."),
         ({"checkpoint": 3}, "checkpoint: 3 is not a path; give a text such as 'folder/file', or a pathlib.Path."),
     ],
 )  # fmt: skip

@@ -23,6 +23,10 @@ class Pushed(ac.Component):
         self.connect(self.mass.flange_b, self.push.flange, self.offset.flange)
 
 
+def free(name: str) -> tuple[float, float]:
+    return -np.inf, np.inf
+
+
 @pytest.fixture(scope="module")
 def pushed() -> tuple[ac.System, ac.Data]:
     system = ac.compile(Pushed())
@@ -35,10 +39,10 @@ def pushed() -> tuple[ac.System, ac.Data]:
 
 def test_the_mean_is_over_the_model_and_both_sides_of_each_parameter() -> None:
     params = {"a": jnp.asarray(1.0), "b": jnp.asarray(10.0), "c": jnp.asarray(5.0)}
-    given = parameter_spread({"a": 0.5, "b": 2.0}, params)
+    given = parameter_spread({"a": 0.5, "b": 2.0}, params, free)
     found = given.mean(lambda p: p["c"] + (p["a"] - 1) ** 2 + p["b"] ** 2, params)
     assert float(found) == pytest.approx(5 + (0.25 + 0.25) / 5 + (3 * 100 + 144 + 64) / 5)
-    assert parameter_spread(None, params).mean(lambda p: p["a"], params) == params["a"]
+    assert parameter_spread(None, params, free).mean(lambda p: p["a"], params) == params["a"]
 
 
 @pytest.mark.parametrize(
@@ -46,6 +50,7 @@ def test_the_mean_is_over_the_model_and_both_sides_of_each_parameter() -> None:
     [
         ({"offset.f_const": 1.0}, "no parameter 'offset.f_const'"),
         ({"offset.f_constant": 0.0}, "'offset.f_constant' is 0.0; give a positive deviation"),
+        ({"offset.f_constant": "x"}, "'offset.f_constant' is 'x'; give a positive deviation"),
         ({"spring.net": 1.0}, "no parameter 'spring.net'"),
     ],
 )
@@ -68,3 +73,16 @@ def test_a_model_with_a_spread_bears_another_offset(pushed) -> None:
         ran = ac.simulate(system, (0.0, 8.0), dt=0.05, inputs=inputs, params=other, x0=start)
         loss[name] = float(np.mean((np.asarray(ran["mass.s"]) - record["mass.s"]) ** 2))
     assert loss["tolerant"] < 0.7 * loss["exact"]
+
+
+def test_no_model_leaves_the_bounds_that_a_parameter_declares(pushed) -> None:
+    system, record = pushed
+    with pytest.raises(
+        ac.TrainingError, match=r"'mass.m' is 5 about 1, which leaves its bounds, 0 to inf"
+    ):
+        ac.fit(
+            system, record, ["mass.s"], parameter_spread={"mass.m": 5.0}, epochs=1, progress=False
+        )
+    given = parameter_spread({"m": 0.5}, {"m": 1.0}, lambda _: (0.0, 9.0))
+    moved = given.over_models(lambda p: p["m"], {"m": jnp.asarray(0.2)})  # trained down to there
+    np.testing.assert_allclose(moved, [0.2, 0.7, 0.0])

@@ -245,7 +245,7 @@ def test_parts_of_a_strategy_follow_each_other():
 
 
 def test_what_cannot_be_is_refused():
-    with pytest.raises(ac.TrainingError, match="starts=0; at least one"):
+    with pytest.raises(ac.TrainingError, match="starts=0; give a whole number, 1 or more"):
         train(starts=0)
     with pytest.raises(ac.TrainingError, match=r"starts=3 spreads trained parameters"):
         ac.fit(oscillator.learned(), oscillator.record(end=5.0), "mass.a", starts=3, progress=False)

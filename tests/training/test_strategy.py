@@ -321,9 +321,9 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
          ("At an instant no target depends on 'extra.net': the equation error cannot train it. "
           "Add a target that does, such as a force or an acceleration, or leave 'equation_error' out.")),
         ({"epochs": (3, 4)}, "epochs=(3, 4) for the strategy ('auto',): give one number, or one for each part."),
-        ({"epochs": 0}, "epochs=0; at least one is needed."),
+        ({"epochs": 0}, "epochs=0; give a whole number, 1 or more."),
         ({"dt": "0.01"}, "dt='0.01' is not a step; give a positive time in seconds."),
-        ({"epochs": 2.5}, "epochs=2.5; give a whole number of updates."),
+        ({"epochs": 2.5}, "epochs=2.5; give a whole number, 1 or more."),
         ({"evaluate_every": 0}, "evaluate_every=0; give one update or more."),
         (
             {"optimizer": optax.adam(0.01), "strategy": "whole_record"},

@@ -81,9 +81,11 @@ def names_in_tree(model: Component) -> set[str]:
 
 def connector_class(name: str, kind: type[Connector]) -> str:
     """The text of a connector's class."""
-    lines = [f"connector {name}{comment((kind.__doc__ or '').strip().splitlines()[0])}"]
+    doc, _, _ = (kind.__doc__ or "").strip().partition("\n")
+    lines = [f"connector {name}{comment(doc)}"]
     for variable, declared in kind.declarations.items():
         role = "flow Real" if isinstance(declared, Flow) else "Real"
         flat: Flat = {(key,): v for key, v in unit(declared.unit).items()}
-        lines.append(f"  {role} {identifier(class_name(variable))}{modifiers(flat)};")
+        own = class_name(variable) if "[" in variable else variable
+        lines.append(f"  {role} {identifier(own)}{modifiers(flat)};")
     return "\n".join([*lines, f"end {name};"])

@@ -31,8 +31,12 @@ UNIT = re.compile(r"[A-Za-zΩµ%.0-9/()\-]*")
 
 
 def identifier(name: str) -> str:
-    """A name, quoted where Modelica needs that; an index stays behind it."""
+    """A name, quoted where Modelica needs that; an index stays behind it.
+
+    Modelica's names are ASCII, quoted ones too: ``ω`` is ``'{U+03C9}'``, which no name of Python's is.
+    """
     word, bracket, index = name.partition("[")
+    word = "".join(c if c.isascii() else f"{{U+{ord(c):04X}}}" for c in word)
     if not PLAIN.fullmatch(word) or word in KEYWORDS | TAKEN:
         escaped = word.replace("\\", "\\\\").replace("'", "\\'")
         word = f"'{escaped}'"

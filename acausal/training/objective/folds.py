@@ -14,7 +14,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from acausal.data import Data
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, is_whole, shown
 from acausal.training.objective.held_out import HeldOut, of_others
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.problem import Problem
@@ -45,7 +45,11 @@ def left_out(records: Records, folds: Folds) -> tuple[LeftOut, ...]:
     Raises:
         DataError: for another word or number, or a fold without samples to train on or to be judged on.
     """
-    found = tuple(_records(records) if folds == "records" else _blocks(records, folds))
+    found = tuple(
+        _records(records)
+        if isinstance(folds, str) and folds == "records"
+        else _blocks(records, folds)
+    )
     measured = _counts(records.weight)
     for fold in found:
         for rows, what in ((fold.rows, "be judged on"), (~fold.rows, "train on")):
@@ -70,16 +74,17 @@ def _records(records: Records) -> Iterator[LeftOut]:
         yield LeftOut(name, np.asarray(records.of) == k, True)
 
 
-def _blocks(records: Records, count: object) -> Iterator[LeftOut]:
+def _blocks(records: Records, count: Folds) -> Iterator[LeftOut]:
     """Blocks of equal duration in each record."""
-    if not isinstance(count, int | np.integer) or isinstance(count, bool) or count < 2:
+    if not is_whole(count) or int(count) < 2:
         raise DataError(
             f"folds={shown(count)}; give 'records', or a number of blocks of time, at least 2."
         )
+    count = int(count)
     t, of = np.asarray(records.steps.t), np.asarray(records.of)
     first, last = (t[np.asarray(rows)][of] for rows in (records.first, records.last))
     block = np.minimum((count * (t - first) / (last - first)).astype(int), count - 1)
-    for k in range(int(count)):
+    for k in range(count):
         yield LeftOut(f"block {k + 1} of {count}", block == k, False)
 
 

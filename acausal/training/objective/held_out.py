@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from numbers import Real
@@ -12,8 +13,9 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from acausal._jax import is_number
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, listing, nearest
+from acausal.errors import DataError, listing, nearest, shown, user_level
 from acausal.training.objective.initial_state import InitialState, first_states
 from acausal.training.objective.lay_out import lay_out
 from acausal.training.objective.problem import Problem
@@ -58,11 +60,13 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
     if validation is None:
         return Split(data, None, {})
     if isinstance(validation, float | int | Real):
-        return _shared(data, float(validation))
+        return _shared(data, validation)
     if isinstance(validation, str) or _are_names(validation):
         names = (
             [validation] if isinstance(validation, str) else list(cast(Sequence[str], validation))
         )
+        if not names:
+            raise DataError("validation=[] names nothing to hold out: leave it out, or name some.")
         for name in names:
             if name not in data:
                 raise DataError(f"validation: there is no record '{name}': {nearest(name, data)}")
@@ -70,18 +74,36 @@ def split(data: dict[str, Data], validation: Validation) -> Split:
         if not training:
             raise DataError(f"validation={listing(names)} leaves no record to train on.")
         return Split(training, {n: data[n] for n in names}, {})
-    return Split(data, records_of(cast(RecordsLike, validation)), {})
+    held = records_of(cast(RecordsLike, validation))
+    for name, record in held.items():
+        if same := next((n for n, d in data.items() if _are_alike(d, record)), None):
+            warnings.warn(
+                f"validation: '{name}' is the training's own record '{same}', which cannot show how well the model "
+                "predicts: hold out another record, or a part of it, such as validation=0.2.",
+                stacklevel=user_level(),
+            )
+    return Split(data, held, {})
+
+
+def _are_alike(one: Data, other: Data) -> bool:
+    """Whether two records have the same samples of the signals that both have."""
+    shared = one.signals.keys() & other.signals.keys()
+    return np.array_equal(one.time, other.time) and all(
+        np.array_equal(one[n], other[n], equal_nan=True) for n in shared
+    )
 
 
 def _are_names(validation: Any) -> bool:
     return isinstance(validation, list | tuple) and all(isinstance(n, str) for n in validation)
 
 
-def _shared(data: dict[str, Data], share: float) -> Split:
+def _shared(data: dict[str, Data], share: Any) -> Split:
     """The last part of every record is held out."""
-    if not np.isfinite(share):
-        raise DataError(f"validation={share} is not a fraction; give a number between 0 and 1.")
-    training, ends = {}, {}
+    if not is_number(share):
+        raise DataError(
+            f"validation={shown(share)} is not a fraction; give a number between 0 and 1."
+        )
+    share, training, ends = float(share), {}, {}
     for name, record in data.items():
         first = len(record) - round(share * len(record))
         if not 2 <= first <= len(record) - 2:
@@ -152,7 +174,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         held=system.held_inputs,
     )
     records = problem.weighting.apply(records)
-    return replace(
+    other = replace(
         problem,
         records=replace(records, sigma=problem.records.sigma, known=False),
         sequences=whole_records(records),
@@ -162,3 +184,5 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         substeps=substeps,
         mesh=None,
     )
+    other.check_rest()
+    return other

@@ -6,13 +6,12 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeGuard, cast
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from acausal._jax import is_real
+from acausal._jax import is_number, traced
 from acausal.codegen import Packed
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, shown
@@ -85,8 +84,10 @@ class FirstStates(eqx.Module):
                 )
 
             rows = packed.values, u, t
-            alone = len(self.kind) == 1
-            found = one(jax.tree.map(lambda a: a[0], rows))[None] if alone else lax.map(one, rows)
+            if len(self.kind) == 1 or not traced(rows):  # one by one, so that each is checked
+                found = jnp.stack([one(row) for row in zip(*rows, strict=True)])
+            else:
+                found = lax.map(one, rows)
             known = jnp.where(jnp.isnan(self.given), found, self.given)
             states = jnp.where((self.kind == kind)[:, None], known, states)
         return states
@@ -166,7 +167,7 @@ def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
             raise DataError(
                 f"x0: '{name}' is not a state of the model: {nearest(name, system.states)}"
             )
-        if not is_real(value) or not np.isfinite(value).all():
+        if not is_number(value):
             raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
     state = np.array([given.get(n, v) for n, v in zip(system.states, measured, strict=True)], float)
     unknown = [n for n, v in zip(system.states, state, strict=True) if np.isnan(v)]

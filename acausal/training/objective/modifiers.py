@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 import equinox as eqx
 import jax
@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from scipy.special import ndtri
 
+from acausal._jax import is_real, traced
 from acausal.errors import TrainingError, nearest, shown
 from acausal.modeling import names_in
 
@@ -133,6 +134,10 @@ class Shift(_Absolute):
 
     scale: float
 
+    def __post_init__(self) -> None:
+        if not _is_real(self.scale):
+            raise TrainingError(f"Shift({shown(self.scale)}): give a size in the parameter's unit.")
+
     def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``scale · δ``."""
         return self.scale * delta
@@ -171,7 +176,7 @@ class Bounded(_Absolute):
     high: float
 
     def __post_init__(self) -> None:
-        if not self.low < self.high:
+        if not (_is_real(self.low) and _is_real(self.high) and self.low < self.high):
             raise TrainingError(
                 f"{type(self).__name__}({shown(self.low)}, {shown(self.high)}): the lower bound comes first, and "
                 "is less than the upper one."
@@ -260,6 +265,11 @@ class Free(_Relative):
         if value == 0.0:
             return FROM_ZERO
         return self._within(value).refusal(value)
+
+
+def _is_real(value: object) -> bool:
+    """Whether a value is one real number that is known; it may be infinite."""
+    return is_real(value) and np.ndim(cast(Any, value)) == 0 and not traced(value)
 
 
 def _logit(low: float, point: float, high: float) -> float:
@@ -358,7 +368,7 @@ def modifiers(
         kind: Any = Factor(float(wanted)) if isinstance(wanted, Real) else wanted
         if wanted is None and name not in by_name:
             kind = Free(*declared(name))
-        if not hasattr(kind, "refusal"):
+        if isinstance(kind, type) or not hasattr(kind, "refusal"):
             raise TrainingError(
                 f"The modifier of '{name}' is {shown(wanted)}; give a gamma, ac.Shift(...) or ac.Bounded(...)."
             )

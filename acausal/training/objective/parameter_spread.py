@@ -15,7 +15,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.errors import TrainingError, nearest
+from acausal._jax import is_number
+from acausal.errors import TrainingError, nearest, shown
 
 
 class ParameterSpread(eqx.Module):
@@ -24,10 +25,12 @@ class ParameterSpread(eqx.Module):
     Attributes:
         names: the parameters.
         shifts: of each model from the one that is trained.
+        limits: the bounds that each parameter declares; no model leaves them.
     """
 
     names: tuple[str, ...] = eqx.field(static=True)
     shifts: Float[Array, "n_models n_parameters"]
+    limits: tuple[tuple[float, float], ...] = eqx.field(static=True)
 
     def over_models(
         self, function: Callable[[dict[str, Any]], Float[Array, " ..."]], params: dict[str, Any]
@@ -37,8 +40,10 @@ class ParameterSpread(eqx.Module):
             return function(params)[None]
 
         def shifted(shift: Float[Array, " n_parameters"]) -> Float[Array, " ..."]:
-            moved = {n: params[n] + shift[i] for i, n in enumerate(self.names)}
-            return function({**params, **moved})
+            rows = zip(self.names, shift, self.limits, strict=True)
+            return function(
+                {**params, **{n: jnp.clip(params[n] + s, *ends) for n, s, ends in rows}}
+            )
 
         return jax.vmap(shifted)(self.shifts)
 
@@ -50,12 +55,20 @@ class ParameterSpread(eqx.Module):
 
 
 def parameter_spread(
-    given: Mapping[str, float] | None, params: Mapping[str, Any]
+    given: Mapping[str, float] | None,
+    params: Mapping[str, Any],
+    declared: Callable[[str], tuple[float, float]],
 ) -> ParameterSpread:
     """Check a user's deviations, in the units of the parameters.
 
+    Arguments:
+        given: the deviations.
+        params: all parameters where training starts.
+        declared: the bounds that a parameter declares.
+
     Raises:
-        TrainingError: for a name that is not a numeric parameter, or a deviation that is not positive.
+        TrainingError: for a name that is not a numeric parameter, or a deviation that is not positive or leads out of
+            the parameter's bounds.
     """
     chosen = {str(name): deviation for name, deviation in (given or {}).items()}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
@@ -64,12 +77,20 @@ def parameter_spread(
             raise TrainingError(
                 f"parameter_spread: no parameter '{name}': {nearest(name, numbers)}"
             )
-        if np.ndim(params[name]) or not (np.isfinite(deviation) and deviation > 0):
+        if np.ndim(params[name]) or not (is_number(deviation) and deviation > 0):
             raise TrainingError(
-                f"The spread of '{name}' is {deviation}; give a positive deviation of a number."
+                f"The spread of '{name}' is {shown(deviation)}; give a positive deviation of a number."
+            )
+        (low, high), value = declared(name), float(params[name])
+        if not low <= value - deviation < value + deviation <= high:
+            raise TrainingError(
+                f"The spread of '{name}' is {deviation:g} about {value:g}, which leaves its bounds, {low:g} to "
+                f"{high:g}: give a smaller one."
             )
     deviations = np.diag([float(d) for d in chosen.values()])
     alone = np.zeros((1, len(chosen)))
     return ParameterSpread(
-        tuple(chosen), jnp.asarray(np.concatenate([alone, deviations, -deviations]))
+        tuple(chosen),
+        jnp.asarray(np.concatenate([alone, deviations, -deviations])),
+        tuple(map(declared, chosen)),
     )

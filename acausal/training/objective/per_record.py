@@ -15,6 +15,7 @@ from jaxtyping import Array, Float
 from acausal._jax import is_number
 from acausal.codegen import Packed
 from acausal.errors import TrainingError, nearest, shown
+from acausal.modeling import names_in
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -110,7 +111,7 @@ def per_record(
     Raises:
         TrainingError: for a name that is not a numeric parameter, or what is not a deviation.
     """
-    chosen = dict(given or {})
+    chosen = {name: (given or {})[name] for name in names_in(given or {}, "per_record")}
     numbers = [n for n, leaf in params.items() if not callable(leaf)]
     for name, spread in chosen.items():
         if name not in numbers:

@@ -14,6 +14,7 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray
 from acausal.analysis import arguments
 from acausal.codegen import Values
 from acausal.training.objective.error_laws import LogLikelihood
+from acausal.training.objective.initial_state import STEADY
 from acausal.training.objective.losses import Loss, number
 from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.parameter_spread import ParameterSpread
@@ -103,6 +104,16 @@ class Problem(Simulator):
         prior = self.start_prior
         starts = None if prior is None else jnp.zeros_like(prior.scale)
         return Trainable(networks, self.modifiers.start(), own, states, starts)
+
+    def check_rest(self) -> None:
+        """Refuse records that are to start at rest where the model, as training starts, does not rest.
+
+        Raises:
+            InitializationError: for them; it names the fixed starts.
+        """
+        if STEADY in self.first_states.kinds:
+            start = self.start()
+            self.start_states(start, self.pack(self.assemble(start), start))
 
     def assemble(self, trainable: Trainable) -> dict[str, Any]:
         """Physical values, networks, delays and lags for some state of the training: those common to all records."""

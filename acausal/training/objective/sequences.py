@@ -182,9 +182,7 @@ def cut(
     else:
         n = _length(records, seconds, rows)
     batch_size = 1 if batch_size is None else batch_size
-    if batch_size != int(batch_size):
-        raise DataError(f"batch_size={batch_size}; give a whole number of sequences.")
-    if batch_size < 1 or (seconds is None and batch_size != 1):
+    if seconds is None and batch_size != 1:
         raise DataError(
             f"batch_size={batch_size} needs a sequence_length in seconds, shorter than the record."
         )

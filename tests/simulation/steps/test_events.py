@@ -314,3 +314,11 @@ def test_an_event_may_fall_on_the_end_of_a_fixed_step(dt: float) -> None:
     sol = ac.simulate(ac.compile(HalfWaves()), 0.06, dt=dt, solver="rk4")
     assert sol["q"][-1] == pytest.approx(0.03, abs=1e-12)
     np.testing.assert_allclose([e.t for e in sol.events], [0.01, 0.02, 0.03, 0.04, 0.05])
+
+
+def test_a_clock_that_is_too_fast_for_its_times_is_refused() -> None:
+    system = ac.compile(Sampled(period=1e-12))
+    with pytest.raises(
+        ac.SimulationError, match=r"ticks every 1e-12 s, .*give a period of 2e-12 s or more"
+    ):
+        ac.simulate(system, (0.0, 0.5))

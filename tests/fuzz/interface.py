@@ -1,0 +1,174 @@
+"""Slips at the interface: every public function called with a value of a wrong kind in the place of one argument."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import inspect
+import math
+import random
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+import sympy as sp
+
+import acausal as ac
+from acausal.components import translational as tl
+
+from .calls import Case, Oddity, case
+from .outcome import Mutant
+
+HOMES = (ac, ac.export)
+"""Where the public functions and classes are."""
+
+VALUES: dict[str, Callable[[Case], Any]] = {
+    "none": lambda c: None,
+    "a truth value": lambda c: True,
+    "zero": lambda c: 0,
+    "a negative number": lambda c: -1,
+    "a fraction": lambda c: 1.5,
+    "NaN": lambda c: math.nan,
+    "a huge number": lambda c: 10**400,
+    "a complex number": lambda c: 1j,
+    "NumPy's number": lambda c: np.int32(2),
+    "NumPy's truth value": lambda c: np.bool_(True),
+    "an empty text": lambda c: "",
+    "a text": lambda c: "q",
+    "a digit": lambda c: "1",
+    "bytes": lambda c: b"q",
+    "an empty list": lambda c: [],
+    "a list of numbers": lambda c: [1, 2, 3],
+    "a mixed list": lambda c: [1, "a", None],
+    "an empty mapping": lambda c: {},
+    "a mapping of numbers": lambda c: {3: 4},
+    "a mapping of names": lambda c: {c.state: "q"},
+    "a mapping of arrays": lambda c: {c.state: np.zeros(3)},
+    "a mapping of classes": lambda c: {c.parameter: ac.Bounded, c.input: ac.Signal},
+    "an array": lambda c: np.zeros(3),
+    "an array of texts": lambda c: np.array(["a", "b"]),
+    "an array of objects": lambda c: np.array([None, object()]),
+    "a date": lambda c: np.datetime64("2020-01-01"),
+    "an object": lambda c: Oddity(),
+    "a class": lambda c: ac.Data,
+    "a function of nothing": lambda c: lambda: None,
+    "a system": lambda c: c.system,
+    "a model": lambda c: c.system.model,
+    "a record": lambda c: c.data,
+    "an expression": lambda c: ac.time,
+    "a key": lambda c: jax.random.key(0),
+}
+"""By name, a value that most arguments cannot be."""
+
+SOUND: dict[str, Callable[[Case], Any]] = {
+    "system": lambda c: c.system,
+    "model": lambda c: c.system,
+    "data": lambda c: c.data,
+    "records": lambda c: c.data,
+    "targets": lambda c: c.state,
+    "modifiers": lambda c: [c.parameter],
+    "inputs": lambda c: {c.input: 0.5},
+    "epochs": lambda c: 1,
+    "strategy": lambda c: "whole_record",
+    "progress": lambda c: False,
+    "members": lambda c: 2,
+    "folds": lambda c: 2,
+    "params": lambda c: c.system.parameters(),
+    "over": lambda c: {c.parameter: [1.0, 2.0]},
+    "t": lambda c: (0.0, 0.2),
+    "dt": lambda c: 0.1,
+    "path": lambda c: "file",
+    "folder": lambda c: "folder",
+    "network": lambda c: ac.networks.Law(width=2, depth=1)(0),
+    "net": lambda c: ac.networks.Law(width=2, depth=1)(0),
+    "operating_point": lambda c: "steady",
+    "low": lambda c: 0.5,
+    "high": lambda c: 2.0,
+    "key": lambda c: 0,
+    "ranges": lambda c: {c.parameter: (1.0, 2.0)},
+    "q": lambda c: ac.time,
+}
+"""By the name of an argument, what is right for it where another argument is wrong."""
+
+SOUND_OF: dict[str, dict[str, Callable[[Case], Any]]] = {
+    "compile": {"model": lambda c: tl.Mass(m=1.0), "inputs": lambda c: ()},
+    "save": {"model": lambda c: c.system.model},
+    "sliders": {"params": lambda c: None},
+    "linearize": {"inputs": lambda c: {c.input: 0.5}},
+    "cross_validate": {"epochs": lambda c: 1},
+}
+"""The same for single functions."""
+
+RESULTS = frozenset([
+    "CrossValidation", "Diagram", "Distilled", "Ensemble", "Fit", "Formula", "Initialization", "Linearization",
+    "OperatingPoint", "Profile", "RecordFit", "Solution", "Sweep", "System",
+])  # fmt: skip
+"""Classes of which no user makes objects."""
+
+
+def _made() -> Iterator[tuple[str, Callable[..., Any]]]:
+    """The functions, and the classes that users call, each once."""
+    for home in HOMES:
+        for name in sorted(dir(home)):
+            found = getattr(home, name)
+            an_error = inspect.isclass(found) and issubclass(found, Exception | sp.Function)
+            sympys = str(getattr(found, "__module__", "")).startswith(
+                "sympy"
+            )  # which say what is wrong themselves
+            if callable(found) and not (
+                name.startswith("_") or name in RESULTS or an_error or sympys
+            ):
+                yield name, found
+
+
+def _arguments(function: Callable[..., Any]) -> list[inspect.Parameter]:
+    try:
+        found = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return []
+    return [p for p in found if p.kind is not p.VAR_KEYWORD]
+
+
+@functools.cache
+def slips() -> tuple[tuple[str, Callable[..., Any], str, str], ...]:
+    """Function, argument and value of every slip, in an order by chance."""
+    found = [
+        (name, function, p.name, value)
+        for name, function in _made()
+        for p in _arguments(function)
+        for value in VALUES
+    ]
+    return tuple(random.Random("interface").sample(found, len(found)))
+
+
+def mutant(seed: int, folder: Path) -> Mutant:
+    """The slip of a seed."""
+    name, function, wrong, value = slips()[seed]
+    c = case("translational")
+
+    def make() -> Any:
+        sound = {n: of(c) for n, of in {**SOUND, **SOUND_OF.get(name, {})}.items()}
+        before = jax.config.jax_compilation_cache_dir  # type: ignore[attr-defined]
+        given, named = [], {}
+        for p in _arguments(function):
+            is_wrong, needed = (
+                p.name == wrong,
+                p.default is p.empty and p.kind is not p.VAR_POSITIONAL,
+            )
+            if is_wrong or needed or (p.kind is p.KEYWORD_ONLY and p.name in sound):
+                argument = VALUES[value](c) if is_wrong else sound.get(p.name, 1.0)
+                if p.kind is not p.KEYWORD_ONLY and not named:
+                    given.append(argument)
+                else:
+                    named[p.name] = argument
+            elif p.kind is p.POSITIONAL_OR_KEYWORD:
+                given.append(p.default)
+        try:
+            with contextlib.chdir(folder):
+                return function(*given, **named)
+        finally:
+            jax.config.update("jax_compilation_cache_dir", before)
+
+    return Mutant(seed, "interface", name, f"{name}({wrong}={value})", ("",), False, make)
