@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any
@@ -13,7 +14,7 @@ import numpy as np
 
 from acausal._jax import need_known
 from acausal.data.tensors import filled_like, named_arrays, read_arrays, write_arrays
-from acausal.errors import DataError, reason, shortened, shown
+from acausal.errors import DataError, reason, shortened, shown, user_level
 from acausal.files import need_path
 from acausal.modeling import names_in
 
@@ -75,8 +76,11 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
             parameters like those that were saved.
 
     Raises:
-        DataError: if the file cannot be read, is damaged, or belongs to another model; or if its numbers are NaN,
-            infinite where the model's own are not, or outside of the bounds that the model declares.
+        DataError: if the file cannot be read, is damaged, or belongs to another model; or if its numbers are NaN, or
+            infinite where the model's own are not.
+
+    Warns:
+        UserWarning: of values outside of the bounds that the model declares, to which a training may lead.
     """
     if not isinstance(path, str | os.PathLike) or not (
         isinstance(model, Mapping) or hasattr(model, "parameters")
@@ -109,10 +113,9 @@ def load_params(path: str | os.PathLike[str], model: System | Mapping[str, Any])
             raise DataError(f"'{path}': '{place}' is not finite; no model runs with that.")
     params = {name: params[name] for name in like}  # JAX sorts them
     if not isinstance(model, Mapping):
-        try:
-            model.pack(params)
-        except DataError as error:
-            raise DataError(f"'{path}': {error}") from None
+        numbers = np.asarray([params[name] for name in model.layout.names], float)
+        if clause := model.layout.out_of_range(numbers):
+            warnings.warn(f"'{path}': {clause}; no simulation takes that.", stacklevel=user_level())
     return params
 
 

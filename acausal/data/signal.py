@@ -102,6 +102,8 @@ class Signal(eqx.Module):
         _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
         if extrapolation is not None:
             _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))
+        if isinstance(ts, jax.Array) and not is_real(ts):  # keys, of which NumPy makes nothing
+            raise DataError(f"'{name}' has the times {shown(ts)}; give real numbers.")
         if not traced(ts):
             check_time_base(np.asarray(ts), f"'{name}'")
         check_samples(values, np.shape(ts), f"'{name}'")

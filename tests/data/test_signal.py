@@ -157,6 +157,13 @@ def test_bad_samples_are_refused(ts, values, message):
     assert str(error.value).startswith(message)
 
 
+def test_half_a_derivative_is_refused():
+    with pytest.raises(
+        ac.DataError, match=r"differentiated: times=1\.5; give a whole number, 0 or more"
+    ):
+        ac.Signal([0.0, 1.0], [0.0, 1.0]).differentiated(1.5)  # pyright: ignore[reportArgumentType]
+
+
 def test_unknown_interpolation_is_refused():
     with pytest.raises(ac.DataError, match="interpolation='spline'; choose one of linear"):
         ac.Signal([0.0, 1.0], [0.0, 1.0], "spline")  # pyright: ignore[reportArgumentType]

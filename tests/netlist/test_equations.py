@@ -109,6 +109,13 @@ def test_a_subsystem_has_equations_and_conditions_may_stay_literal(write: Write)
     assert system.states == ("lag.z",)
 
 
+def test_a_variable_may_be_called_self(write: Write) -> None:
+    path = write(
+        {"variables": {"self": {"start": 2.0}}, "components": {}, "equations": ["der(self) = 1"]}
+    )
+    assert ac.compile(ac.load(path)).table()["start"]["self"] == 2.0
+
+
 WRONG = {
     "an unknown name": ("when q < 0 then n = 1; end when", "'q' is not known here"),
     "no end": ("when h < 0 then n = 1;", "'end' expected"),

@@ -49,3 +49,5 @@ def test_a_second_input_of_a_law_of_one_is_not_ignored(network):
         network(0.5, 1.0)
     with pytest.raises(ac.DeclarationError, match=r"scalars, not an array of shape \(3,\); use"):
         network(jnp.ones(3))
+    with pytest.raises(ac.DeclarationError, match="takes real numbers, not '1'"):
+        network("1")

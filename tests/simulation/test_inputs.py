@@ -117,6 +117,7 @@ def test_inputs_without_names_show_the_right_form(inputs):
         ([[0, 1], [2]], "[[0, 1], [2]]"),
         (np.ones(11) * 1j, "an array of complex128, shape (11,)"),
         ({"a": 1}, "{'a': 1}"),
+        (ac.Signal, "<class 'acausal.data.signal.Signal'>"),
     ],
 )
 def test_what_is_no_input(value, told):

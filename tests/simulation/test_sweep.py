@@ -129,3 +129,5 @@ def test_a_wrong_selection_is_told(swept: ac.Sweep) -> None:
         swept.sel({"mass.m": 1.0})
     with pytest.raises(ac.DataError, match="has 4 values, counted from 0; there is no 4"):
         swept.isel({"spring.c": 4})
+    with pytest.raises(ac.DataError, match=r"isel: 'spring\.c'=0\.5; give a whole number"):
+        swept.isel({"spring.c": 0.5})  # pyright: ignore[reportArgumentType]

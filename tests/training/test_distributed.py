@@ -64,3 +64,5 @@ def test_the_same_weights(processes, devices, alone, tmp_path):
 def test_unequal_shares_are_refused():
     with pytest.raises(ac.TrainingError, match="batch of 4 has no equal shares for 3 devices"):
         trained(3 * jax.devices()[:1])
+    with pytest.raises(ac.TrainingError, match=r"devices=.* name one twice; give each once"):
+        trained(2 * jax.devices()[:1])

@@ -458,6 +458,7 @@ def test_outputs_alone_suffice_for_the_whole_record():
           "leave out x0='data' to have them found, or give x0={'mass.v': ...}.")),
         ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is not a state of the model: did you mean 'mass.v'?"),
         ({"x0": {"mass.s": float("nan")}}, ac.DataError, "x0: 'mass.s' is nan; give a finite number."),
+        ({"x0": {"mass.s": np.zeros(1)}}, ac.DataError, "x0: 'mass.s' is array([0.]); give a finite number."),
         ({"x0": {"mass.s": "rest"}}, ac.DataError, "x0: 'mass.s' is 'rest'; give a finite number."),
         ({"x0": "modle"}, ac.DataError, "x0='modle' is not an initial state: did you mean 'model'?"),
         ({"data": ["mass.a", "mass.s", "mass.v"]}, ac.DataError, "The data lack 'push.f', an input of the model."),
@@ -510,3 +511,16 @@ def test_a_parameter_at_zero_cannot_be_modified():
         modifiers(
             ["spring.d"], 0.2, params, plain().layout.why_not_free, plain().layout.declared_range
         )
+
+
+def test_what_needs_numbers_says_so_where_jax_traces():
+    system, data = plain(), record()
+    calls = (
+        lambda p: ac.fit(system, data, "mass.a", modifiers=["mass.m"], params={"mass.m": p}),
+        lambda p: ac.Data([0.0, 1.0], {"mass.a": [p, p]}),
+        lambda p: ac.export.c(system, "nowhere", params={"mass.m": p}),
+        lambda p: ac.save_params({"mass.m": p}, "nowhere"),
+    )
+    for call in calls:
+        with pytest.raises(ac.AcausalError, match=r"needs numbers, .*outside of jax\.jit"):
+            jax.jit(call)(1.0)

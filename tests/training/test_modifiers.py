@@ -202,6 +202,8 @@ def test_one_name_is_no_list_of_letters():
         (ac.Bounded(-INF, INF), 2.0,
          "The bounds of 'p' are both infinite; give one of them, or take ac.Shift(...)."),
         (0.2, 0.0, ZERO),
+        (ac.Bounded, 2.0,
+         f"The modifier of 'p' is {ac.Bounded}; give a gamma, ac.Shift(...) or ac.Bounded(...)."),
         ("much", 2.0,
          "The modifier of 'p' is 'much'; give a gamma, ac.Shift(...) or ac.Bounded(...)."),
     ],
@@ -246,7 +248,7 @@ def test_a_parameter_that_is_not_free_is_explained():
             ac.fit(system, data, "a.s", modifiers=[name], progress=False)
 
 
-@pytest.mark.parametrize(("low", "high"), [(5, 1), (np.nan, 1), (2, 2)])
+@pytest.mark.parametrize(("low", "high"), [(5, 1), (np.nan, 1), (2, 2), ("a", "b")])
 def test_bounds_in_the_wrong_order_are_refused_where_they_are_given(low, high):
     with pytest.raises(ac.TrainingError, match=r"^Bounded\(.*: the lower bound comes first"):
         ac.Bounded(low, high)

@@ -324,7 +324,7 @@ def test_the_gradient_with_initial_states_is_that_of_differences():
         ({"epochs": 0}, "epochs=0; give a whole number, 1 or more."),
         ({"dt": "0.01"}, "dt='0.01' is not a step; give a positive time in seconds."),
         ({"epochs": 2.5}, "epochs=2.5; give a whole number, 1 or more."),
-        ({"evaluate_every": 0}, "evaluate_every=0; give one update or more."),
+        ({"evaluate_every": 0}, "evaluate_every=0; give a whole number, 1 or more."),
         (
             {"optimizer": optax.adam(0.01), "strategy": "whole_record"},
             "optimizer= is for sequences, but the strategy is whole_record, which has its own: leave it out.",

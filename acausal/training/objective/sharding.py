@@ -41,13 +41,13 @@ def device_mesh(devices: Sequence[Device] | None, batch_size: int) -> Mesh | Non
         raise TrainingError(
             f"devices={shown(devices)} are not JAX devices; give some of jax.devices()."
         )
-    if len(set(devices)) < len(devices):
-        raise TrainingError(f"devices={shown(devices)} name one twice; give each once.")
     if not len(devices) or batch_size % len(devices):
         raise TrainingError(
             f"A batch of {batch_size} has no equal shares for {len(devices)} devices; "
             "let batch_size be a multiple of them."
         )
+    if len(set(devices)) < len(devices):
+        raise TrainingError(f"devices={shown(devices)} name one twice; give each once.")
     return Mesh(np.asarray(devices), (SEQUENCES,))
 
 
