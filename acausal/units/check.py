@@ -129,11 +129,11 @@ def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
         slots = _slots(group, measures)
         finding = examine(group.template.residual, slots)
         if finding is not None:
-            cls, _, equation = group.template.origin.partition(": ")
+            origin = group.origins[0]
             hint = _hint(group.template, slots, finding)
-            wrong = f"'{shortened(equation)}': {finding.reason}{hint}"
+            wrong = f"'{shortened(origin.text)}': {finding.reason}{hint}"
             names = [flat.layout.paths[i] for i in group.components]
-            found.setdefault((cls, wrong), []).extend(names)
+            found.setdefault((origin.cls, wrong), []).extend(names)
     for (cls, wrong), names in found.items():
         first = f"{cls} '{names[0]}'" if names[0] else cls
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""

@@ -15,6 +15,25 @@ def fold():
     return component
 
 
+class Fold(ac.Component):
+    """As `fold`; subclasses inherit its equations."""
+
+    x, y = ac.Variable(), ac.Variable()
+
+    def equations(self):
+        yield Eq(der(self.x), self.y)
+        yield Eq(self.y**2, 1 - self.x)
+
+
+def test_of_classes_that_inherit_a_loop_the_one_that_fails_is_named():
+    whole = ac.Component()
+    for name, x in (("Early", 0.0), ("Late", 0.5)):
+        start = {"x": ac.Start(x, fixed=True), "y": ac.Start(1.0)}
+        setattr(whole, name.lower(), type(name, (Fold,), {})(**start))
+    with pytest.raises(ac.SimulationError, match=r"for 'late\.y'.*leaves 'Late: y\*\*2 = 1"):
+        ac.simulate(ac.compile(whole), 1.8, dt=0.02)
+
+
 def square_root():
     component = Equations("x", lambda s: [Eq(der(s.x), -ac.sqrt(s.x))])
     component.modify(x=ac.Start(1.0, fixed=True))

@@ -77,6 +77,38 @@ def test_equal_components_share_their_templates():
     assert all(len(g) == 3 for g in flat.groups if (g.components >= 0).all())
 
 
+class Rule(ac.Component):
+    """Two laws that subclasses inherit."""
+
+    x, y = ac.Variable(), ac.Variable()
+    k = ac.Parameter()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.y / self.k)
+        yield ac.Eq(self.y**2, 1 - self.x)
+
+
+class First(Rule):
+    k = ac.Parameter(default=1.0)
+
+
+class Second(Rule):
+    k = ac.Parameter(default=0.0)
+
+
+def test_classes_that_inherit_equations_share_their_templates_and_are_named_each():
+    flat = flatten(model(a=First(), b=Second(k=2.0)))
+    (one, two), (other, another) = zip(*[flat.groups[:2], flat.groups[2:]], strict=True)
+    assert one.template is two.template
+    assert other.template is another.template
+    assert str(another.origins[0]) == "Second: y**2 = 1 - x"
+    assert len(ac.compile(model(a=First(), b=Second(k=2.0))).program.instructions) == 2
+    with pytest.raises(
+        ac.ModelError, match=r"^Second: der\(x\) = y/k: division by zero; k is zero there"
+    ):
+        ac.compile(model(a=First(), b=Second()))
+
+
 def test_what_the_author_keeps_in_an_instance_tells_forms_apart():
     class Gain(ac.Component):
         x = ac.Variable()
