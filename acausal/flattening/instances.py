@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,14 +20,26 @@ from acausal.flattening.origin import Origin
 from acausal.flattening.reading import read_statements
 from acausal.flattening.stated import Guard, Stated, Update, without_events
 from acausal.flattening.template import Integers
-from acausal.flattening.templates import Filled, SlotSource, Templates, route_to
+from acausal.flattening.templates import Filled, Shape, SlotSource, Templates, route_to
 from acausal.modeling import Component, Eq, Reference, charge
 
 
-def instantiate(
-    layout: Layout, statements: Sequence[Stated]
-) -> tuple[tuple[EquationGroup, ...], tuple[EquationGroup, ...], EventEquations]:
-    """All equations, all initial equations, and those of events, as groups of instances of templates.
+@dataclass(frozen=True)
+class Instances:
+    """All that components state, as groups of instances of templates.
+
+    Attributes:
+        constants: numbers of equations; they are numbered behind the parameters.
+    """
+
+    equations: tuple[EquationGroup, ...]
+    initial: tuple[EquationGroup, ...]
+    events: EventEquations
+    constants: tuple[float, ...]
+
+
+def instantiate(layout: Layout, statements: Sequence[Stated]) -> Instances:
+    """All equations, all initial equations, and those of events.
 
     Arguments:
         layout: where everything lies. statements: what the components of each form state.
@@ -41,13 +54,18 @@ def instantiate(
     jumps: list[UpdateGroup] = []
     members = members_of_forms(layout)
     templates = Templates(layout)
+    shapes: list[list[Shape]] = []
+    for form, stated in zip(layout.forms, statements, strict=True):
+        shapes.append([_shape(templates, form.prototype, e) for e in stated.equations])
+        for shape in shapes[-1]:
+            templates.count(shape)
     for number, form in enumerate(layout.forms):
         prototype, own, stated = form.prototype, members[number], statements[number]
         charge("equations", (len(own) - 1) * len(stated.equations), prototype._node)
         at_start = read_statements(prototype, prototype.initial_equations, len(own))
-        for groups, some in ((equations, stated.equations), (initial, at_start)):
-            for equation in some:
-                groups.append(_equation(templates, prototype, equation, own))
+        equations += [_equation(templates, shape, own) for shape in shapes[number]]
+        at_start_shapes = [_shape(templates, prototype, e) for e in at_start]
+        initial += [_equation(templates, shape, own) for shape in at_start_shapes]
         for guard in stated.guards:
             group, previous = _group(templates, prototype, guard, own)
             targets = _targets(layout, prototype, guard.target, own)
@@ -59,28 +77,30 @@ def instantiate(
                 groups.append(UpdateGroup(group, targets, previous))
     order = np.argsort([g.components[0] for g in equations], kind="stable")
     events = EventEquations(tuple(guards), tuple(updates), tuple(jumps))
-    return tuple(equations[i] for i in order), tuple(initial), events
+    constants = tuple(templates.constants)
+    return Instances(tuple(equations[i] for i in order), tuple(initial), events, constants)
 
 
-def _equation(
-    templates: Templates, owner: Component, stated: Any, members: Integers
-) -> EquationGroup:
-    """An equation as a template's residual, for all members."""
+def _shape(templates: Templates, owner: Component, stated: Any) -> Shape:
+    """The shape of an equation of a component."""
     if not isinstance(stated, Eq):
         raise DeclarationError(
             f"{owner._node.label}: equations() yields {shown(stated)}; yield ac.Eq(left, right)"
         )
-    equation = without_events(stated)
-    return _fill(templates.layout, templates.of(owner, equation), Origin(equation, owner), members)
+    return templates.shape(owner, without_events(stated))
+
+
+def _equation(templates: Templates, shape: Shape, members: Integers) -> EquationGroup:
+    """An equation as a template's residual, for all members."""
+    return _fill(templates, templates.of(shape), Origin(Eq(*shape.sides), shape.owner), members)
 
 
 def _group(
     templates: Templates, owner: Component, stated: Guard | Update, members: Integers
 ) -> tuple[EquationGroup, tuple[bool, ...]]:
     """An expression as a template's residual, for all members; and which slots take values before an event."""
-    filled = templates.of(owner, stated.value, stated.text)
-    origin = Origin(stated.text, owner)
-    return _fill(templates.layout, filled, origin, members), filled.previous
+    filled = templates.of(templates.shape(owner, stated.value, stated.text))
+    return _fill(templates, filled, Origin(stated.text, owner), members), filled.previous
 
 
 def _targets(layout: Layout, owner: Component, target: Reference, members: Integers) -> Integers:
@@ -90,9 +110,17 @@ def _targets(layout: Layout, owner: Component, target: Reference, members: Integ
     return layout.variable_base[_owners(layout, members, route)] + local
 
 
-def _fill(layout: Layout, filled: Filled, origin: Origin, members: Integers) -> EquationGroup:
-    def indices(entries: tuple[SlotSource, ...], base: Integers) -> Integers:
-        columns = [base[_owners(layout, members, route)] + local for route, local in entries]
+def _fill(templates: Templates, filled: Filled, origin: Origin, members: Integers) -> EquationGroup:
+    layout = templates.layout
+
+    def column(entry: SlotSource | float, base: Integers) -> Integers:
+        if isinstance(entry, tuple):
+            route, local = entry
+            return base[_owners(layout, members, route)] + local
+        return np.full(len(members), templates.constant(entry), dtype=np.int64)
+
+    def indices(entries: Sequence[SlotSource | float], base: Integers) -> Integers:
+        columns = [column(entry, base) for entry in entries]
         return np.stack(columns, axis=1) if columns else np.empty((len(members), 0), dtype=np.int64)
 
     return EquationGroup(

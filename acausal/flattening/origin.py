@@ -46,6 +46,7 @@ class Origin(LeavesCaches):
         whole = f"{self.cls}: {self.text}" if self.owner else self.text
         return "derivative of " * self.derivatives + whole
 
+    @cached_property
     def differentiated(self) -> Origin:
         """The origin of the equation's derivative."""
         return replace(self, derivatives=self.derivatives + 1)

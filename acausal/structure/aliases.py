@@ -114,13 +114,14 @@ def _in_order(groups: Iterable[EquationGroup], order: dict[Origin, int]) -> list
     """The groups split by origin, in the order in which the model states them."""
     parts: list[tuple[int, EquationGroup]] = []
     for group in groups:
-        place = np.fromiter((order[o] for o in group.origins), np.int64, len(group))
-        rows = np.argsort(place, kind="stable")
-        first = np.flatnonzero(np.diff(place[rows], prepend=-1))
-        if len(first) == 1:
-            parts.append((int(place[0]), group))
+        origins = group.origins.tolist()
+        if len(set(origins)) == 1:
+            parts.append((order[origins[0]], group))
             continue
-        parts += [(int(place[own[0]]), group.rows(own)) for own in np.split(rows, first[1:])]
+        place = np.fromiter(map(order.__getitem__, origins), np.int64, len(group))
+        rows = np.argsort(place, kind="stable")
+        for own in np.split(rows, np.flatnonzero(np.diff(place[rows])) + 1):
+            parts.append((int(place[own[0]]), group.rows(own)))
     return [group for _, group in sorted(parts, key=lambda part: part[0])]
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from acausal.errors import StructureError
-from acausal.flattening import FlatModel, Integers, Origin, Statement, specialised
+from acausal.flattening import FEW, FlatModel, Integers, Origin, Statement, specialised
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
@@ -151,6 +151,19 @@ class Equations:
         """Where every equation is stated: origin and component."""
         return list(zip(self.origin, self.component, strict=True))
 
+    @cached_property
+    def apart(self) -> list[str | None]:
+        """For every equation what keeps it apart from equal ones of other classes: its text, or None if these are many.
+
+        A program computes equal equations side by side. Those of few classes are rather computed where they are needed.
+        """
+        stating: dict[int, list[Origin]] = {}
+        pairs = list(zip(map(id, self.template), self.origin, strict=True))
+        for template, origin in dict.fromkeys(pairs):
+            stating.setdefault(template, []).append(origin)
+        text = {(t, o): str(o) for t, own in stating.items() if len(own) <= FEW for o in own}
+        return list(map(text.get, pairs))
+
     def describe(self, equation: int) -> str:
         """Where an equation is stated, and its text (of a derivative, that of the original equation)."""
         while equation in self.derived_from:
@@ -196,7 +209,7 @@ class Equations:
         template = self.template[equation]
         symbols = template.partial(column).free_symbols
         slots = zip(template.parameters, self.parameters[equation], strict=True)
-        return [p for s, p in slots if s in symbols]
+        return [p for s, p in slots if s in symbols and p < self.model.n_parameters]
 
     def _by_template(self, chosen: Sequence[int]) -> list[tuple[Statement, list[int]]]:
         """Positions in ``chosen`` of the equations that share a template."""
@@ -234,7 +247,7 @@ class Equations:
             place = first.setdefault(node, len(nodes))
             codes.append(0 if node == self.aliases.zero else sign * place)
         pattern = (*codes, *[0] * len(template.parameters))
-        origin = self.origin[equation].differentiated()
+        origin = self.origin[equation].differentiated
         special, (columns, kept, used) = specialised(template, pattern, origin)
         self.origin.append(origin)
         self.template.append(special)

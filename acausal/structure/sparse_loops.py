@@ -131,12 +131,12 @@ def _places(unknowns: Integers, nodes: Integers) -> Integers:
 
 def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[SparseGroup, ...]:
     """The equations that are not sums, by template and by the slots that are unknown."""
-    found: dict[tuple[Statement, tuple[int, ...]], list[int]] = {}
+    found: dict[tuple[Statement, tuple[int, ...], str | None], list[int]] = {}
     for e in equations:
         template = system.template[e]
         if template.coefficients() is None:
             inner = tuple(c for c, v in enumerate(system.variables[e]) if v in unknowns)
-            found.setdefault((template, inner), []).append(e)
+            found.setdefault((template, inner, system.apart[e]), []).append(e)
     return tuple(
         SparseGroup(
             template,
@@ -146,7 +146,7 @@ def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tupl
             matrix([system.modules[e] for e in members]),
             tuple(system.origin[e] for e in members),
         )
-        for (template, inner), members in found.items()
+        for (template, inner, _), members in found.items()
     )
 
 

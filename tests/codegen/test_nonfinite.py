@@ -3,6 +3,7 @@
 import pytest
 
 import acausal as ac
+from acausal.flattening import FEW
 from tests.support.parts import Equations, model
 
 Eq, der = ac.Eq, ac.der
@@ -27,8 +28,8 @@ class Fold(ac.Component):
 
 def test_of_classes_that_inherit_a_loop_the_one_that_fails_is_named():
     whole = ac.Component()
-    for name, x in (("Early", 0.0), ("Late", 0.5)):
-        start = {"x": ac.Start(x, fixed=True), "y": ac.Start(1.0)}
+    for name in (*(f"Early{i}" for i in range(FEW)), "Late"):
+        start = {"x": ac.Start(0.5 * (name == "Late"), fixed=True), "y": ac.Start(1.0)}
         setattr(whole, name.lower(), type(name, (Fold,), {})(**start))
     with pytest.raises(ac.SimulationError, match=r"for 'late\.y'.*leaves 'Late: y\*\*2 = 1"):
         ac.simulate(ac.compile(whole), 1.8, dt=0.02)
