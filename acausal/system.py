@@ -207,7 +207,7 @@ class System(LeavesCaches):
             for target, component in zip(group.targets, group.group.components, strict=True):
                 if self.reduced.resolve(int(target))[0] == node:
                     path = self.flat.layout.paths[component]
-                    text = group.group.template.origin.partition(": ")[2]
+                    text = group.group.origins[0].text
                     return f"{path}: {text}" if path else text
         return name
 

@@ -119,7 +119,7 @@ def it_is_refused_exactly_if_it_is_ill_posed(network: Network, seed: int) -> Non
 def it_obeys_the_equations_it_was_made_from(network: Network, seed: int) -> None:
     found = Snapshot.anywhere(compiled(network), seed)
     for group, rest in zip(found.system.flat.groups, found.residuals, strict=True):
-        assert np.abs(rest).max(initial=0.0) <= TOLERANCE * found.scale, group.template.origin
+        assert np.abs(rest).max(initial=0.0) <= TOLERANCE * found.scale, group.origins[0]
     for name, rate in found.rates.items():
         assert abs(rate - found(name, 1)) <= TOLERANCE * found.scale, f"der({name})"
 

@@ -94,11 +94,14 @@ class _Writer:
 
     # -- where arguments lie ---------------------------------------------------------------------------
 
-    def places(self, gather: Gather, size: int) -> list[Place]:
-        """Where a gather reads, for each of ``size`` instances; looked up once for all of them."""
+    def places(self, gather: Gather, size: int, sizes: Sequence[int] = ()) -> list[Place]:
+        """Where a gather reads, for each of ``size`` instances; looked up once for all of them.
+
+        ``sizes`` are the lengths of the arrays that it reads, if not the program's.
+        """
         key = id(gather), size  # the program keeps the gathers alive
         if key not in self._places:
-            source, index = gather.positions(self.program.sizes)
+            source, index = gather.positions(sizes or self.program.sizes)
             arrays, rows = (np.broadcast_to(side, size).tolist() for side in (source, index))
             self._places[key] = list(zip(arrays, rows, strict=True))
         return self._places[key]
@@ -112,7 +115,8 @@ class _Writer:
         for symbol, gather in arguments.variables:
             names[symbol] = self._values[self.places(gather, size)[row]]
         for symbol, gather in arguments.parameters:
-            names[symbol] = sp.Symbol(self.parameters.name_at[self.places(gather, size)[row][1]])
+            place = self.places(gather, size, (self.parameters.size,))[row]
+            names[symbol] = self.parameters.symbol(place[1])
         for symbol, chosen in arguments.modules:
             one = chosen[row if len(chosen) == size else 0]
             names[symbol] = sp.Symbol(self.parameters.model.layout.module(one))

@@ -140,7 +140,7 @@ class Events(LeavesCaches):
         model = self.layout.model
         found: list[tuple[str, str]] = []
         for group in model.events.guards:
-            text = group.group.template.origin.partition(": ")[2]
+            text = group.group.origins[0].text
             found += [(model.layout.paths[c], text) for c in group.group.components]
         return found
 
@@ -214,7 +214,7 @@ class _Generator:
             ),
             places[[node for node, _ in targets]],
             np.asarray([sign for _, sign in targets]),
-            template.origin,
+            str(group.group.origins[0]),
         )
 
     def _parameters(self, numbers: Integers) -> Gather | Integers:

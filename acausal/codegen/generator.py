@@ -116,7 +116,7 @@ class _Generator:
             self.reduced.start_guess(tears),
             self.reduced.nominal(tears),
             len(loop.unknowns),
-            tuple(shape.equations[e].template.origin for e in torn.residuals),
+            tuple(tuple(own[e] for e in torn.residuals) for own in loop.origins),
         )
 
     def solve_sparse_loop(self, loop: SparseLoop) -> SolveSparseLoop:
@@ -156,7 +156,7 @@ class _Generator:
             arguments,
             tuple((s, loop.places(v)) for c, (s, v) in slots if c in group.inner),
             len(group.variables),
-            template.origin,
+            group.origins,
         )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.codegen.gather import Gather
-from acausal.flattening import Integers, LeavesCaches
+from acausal.flattening import Integers, LeavesCaches, Origin
 from acausal.structure import Pattern
 
 Place = tuple[int, int]
@@ -114,7 +114,7 @@ class SolveTornLoop:
         matched: for every unknown an equation of its own that contains it.
         arguments: what fills `external`, `parameter` and `module` slots.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
-        origins: the equations that give residuals, as they were written.
+        origins: where the equations that give residuals are stated, for each instance.
     """
 
     equations: tuple[BlockFormula, ...]
@@ -127,7 +127,7 @@ class SolveTornLoop:
     guess: np.ndarray
     scale: np.ndarray
     size: int
-    origins: tuple[str, ...]
+    origins: tuple[tuple[Origin, ...], ...]
 
     @property
     def sources(self) -> set[int]:
@@ -163,7 +163,7 @@ class SparseFormula:
     arguments: Arguments
     inner: tuple[tuple[sp.Symbol, Integers], ...]
     size: int
-    origin: str
+    origins: tuple[Origin, ...]
 
 
 @dataclass(frozen=True)
@@ -176,7 +176,7 @@ class Balances:
     outer_rows: Integers
     outer: Gather
     outer_factors: np.ndarray
-    origins: tuple[str, ...]
+    origins: tuple[Origin, ...]
 
 
 @dataclass(frozen=True)
@@ -212,10 +212,10 @@ class SolveSparseLoop(LeavesCaches):
         return own | set(self.balances.outer.sources)
 
     @cached_property
-    def origins(self) -> tuple[str, ...]:
-        """The equations as they were written, row by row."""
-        own = [origin for f in self.formulas for origin in [f.origin] * f.size]
-        return (*own, *self.balances.origins)
+    def origins(self) -> tuple[tuple[Origin, ...]]:
+        """Where the equations are stated, row by row: one loop is one instance."""
+        own = [origin for f in self.formulas for origin in f.origins]
+        return ((*own, *self.balances.origins),)
 
     def found_with(self, place: Place) -> list[Place]:
         """The values that are computed with this one: all unknowns."""

@@ -16,6 +16,7 @@ from acausal.codegen.reading import Arrays
 from acausal.codegen.sparse_loop import nearest_of_sparse_loop
 from acausal.codegen.values import Values
 from acausal.errors import listing
+from acausal.flattening import Origin
 
 _NEAREST: dict[type, Callable[[Any, int, Values, Arrays], tuple[Array, Array]]] = {
     SolveTornLoop: nearest_of_torn_loop,
@@ -52,7 +53,8 @@ def explain_nonfinite(
         if instruction.is_linear:
             return _singular(names)
         nearest = _NEAREST[type(instruction)](instruction, place[1], values, arrays)
-        return _stopped(names, instruction.origins, *nearest)
+        row = place[1] if isinstance(instruction, SolveTornLoop) else 0
+        return _stopped(names, instruction.origins[row], *nearest)
     return None
 
 
@@ -78,7 +80,7 @@ def _singular(names: list[str]) -> str:
     )
 
 
-def _stopped(names: list[str], origins: Sequence[str], values: Array, residuals: Array) -> str:
+def _stopped(names: list[str], origins: Sequence[Origin], values: Array, residuals: Array) -> str:
     """A sentence on nonlinear equations, from where the search for their solution ended."""
     off = np.abs(np.asarray(residuals))
     left = [f"{origins[i]} (off by {off[i]:.3g})" for i in np.argsort(-off, kind="stable")]

@@ -100,13 +100,15 @@ def _as_array(given: Sequence[Any], known: Float[np.ndarray, " n_free"]) -> Floa
 
 
 def bind(layout: ParameterLayout, free: Array) -> Array:
-    """All parameters, shape (n_parameters,), from those that are free, in the program's order."""
+    """All parameters and constants, shape (n_values,), from those that are free, in the program's order."""
     arrays = [free]
     for group in layout.bound:
         arguments = {symbol: read_elements(g, arrays) for symbol, g in group.arguments}
         value = jnp.asarray(evaluate(group.expression, arguments))
         arrays.append(value if group.size == 1 else jnp.broadcast_to(value, (group.size,)))
-    return jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if layout.bound else free
+    if len(layout.constants):
+        arrays.append(jnp.asarray(layout.constants, free.dtype))
+    return jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if len(arrays) > 1 else free
 
 
 def traced_names(params: object) -> list[str]:

@@ -38,6 +38,7 @@ class ParameterLayout(LeavesCaches):
         order: position of every free parameter in the vector, so that equal ones are neighbours.
         position: (n_parameters,) of a parameter in ``Packed.values`` (-1: folded).
         bound: groups of bound parameters, in order of computation.
+        constants: numbers of equations, which follow in ``Packed.values``.
         module_of: (n_modules,) the module that a module refers to, or itself.
     """
 
@@ -46,6 +47,7 @@ class ParameterLayout(LeavesCaches):
     order: Integers
     position: Integers
     bound: tuple[BoundGroup, ...]
+    constants: np.ndarray
     module_of: Integers
 
     @cached_property
@@ -152,11 +154,24 @@ class ParameterLayout(LeavesCaches):
                 moved[offset : offset + group.size] |= moved[offsets[source] + index]
         return tuple(np.flatnonzero(moved).tolist())
 
+    @property
+    def size(self) -> int:
+        """The length of ``Packed.values``."""
+        return len(self.free) + sum(group.size for group in self.bound) + len(self.constants)
+
     @cached_property
     def name_at(self) -> dict[int, str]:
         """By position in ``Packed.values`` the parameter that lies there."""
-        own = np.flatnonzero(self.model.parameter_aliases == np.arange(len(self.position)))
+        n = self.model.n_parameters
+        own = np.flatnonzero(self.model.parameter_aliases[:n] == np.arange(n))
         return {int(self.position[p]): self.model.layout.parameter(int(p)) for p in own}
+
+    def symbol(self, position: int) -> sp.Expr:
+        """What lies at a position in ``Packed.values``: a parameter by name, or a constant's number."""
+        name = self.name_at.get(position)
+        if name is not None:
+            return sp.Symbol(name)
+        return sp.Float(self.constants[position - self.size])
 
     def chosen(self, modules: Integers) -> tuple[int, ...]:
         """The modules that a column of module slots refers to."""
@@ -173,7 +188,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     n = len(model.value)
     bound = np.zeros(n, dtype=bool)
     bound[[b.target for b in model.bindings]] = True
-    free = np.flatnonzero(~bound & ~model.folded)
+    free = np.flatnonzero((~bound & ~model.folded)[: model.n_parameters])
     rank = np.lexsort((free, *_kind(model, free)))
     source, index, position = (np.full(n, -1, dtype=np.int64) for _ in range(3))
     source[free] = 0
@@ -201,8 +216,11 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
             source[own], index[own] = len(groups), np.arange(len(members))
             position[own] = sum(sizes) + index[own]
             sizes.append(len(members))
+    constants = model.value[model.n_parameters :]
+    position[model.n_parameters :] = sum(sizes) + np.arange(len(constants))
     position = position[target]
-    return ParameterLayout(model, free, rank, position, tuple(groups), _module_targets(model))
+    modules = _module_targets(model)
+    return ParameterLayout(model, free, rank, position, tuple(groups), constants, modules)
 
 
 def _kind(model: FlatModel, free: Integers) -> tuple[Integers, Integers]:

@@ -9,11 +9,14 @@ from acausal.flattening.equation_group import (
     EquationGroup as EquationGroup,
     GuardGroup as GuardGroup,
     UpdateGroup as UpdateGroup,
+    joined as joined,
+    specialised as specialised,
 )
 from acausal.flattening.flat_model import FlatModel as FlatModel, flatten as flatten
 from acausal.flattening.given import with_inputs as with_inputs
 from acausal.flattening.layout import Layout as Layout, tiled as tiled
 from acausal.flattening.leaves_caches import LeavesCaches as LeavesCaches
+from acausal.flattening.origin import Origin as Origin, Origins as Origins
 from acausal.flattening.reading import (
     equations_of as equations_of,
     read_statements as read_statements,
@@ -21,3 +24,4 @@ from acausal.flattening.reading import (
 from acausal.flattening.stated import HIDDEN as HIDDEN
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template
+from acausal.flattening.templates import FEW as FEW

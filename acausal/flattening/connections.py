@@ -17,8 +17,9 @@ from scipy.sparse.csgraph import connected_components
 from acausal.errors import ConnectionError
 from acausal.flattening.equation_group import EquationGroup
 from acausal.flattening.layout import Layout
+from acausal.flattening.origin import Origin
 from acausal.flattening.sums import Statement, balance
-from acausal.flattening.template import Integers, Template, slot
+from acausal.flattening.template import Integers, Template, interned, slot
 from acausal.modeling import (
     Component,
     Connector,
@@ -105,15 +106,17 @@ def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[Equati
             else:
                 equal += [(first, other) for other in others]
     zero = _unconnected_flows(layout, connected.pairs)
-    groups = [_group(_equality(), np.asarray(equal, dtype=np.int64).reshape(-1, 2))]
-    groups += [_group(_balance(inner), np.asarray(rows)) for inner, rows in sums.items()]
-    groups.append(_group(balance((1,), "unconnected: no flow"), zero[:, None]))
+    joined = np.asarray(equal, dtype=np.int64).reshape(-1, 2)
+    groups = [_group(_equality(), joined, "connected: equal potentials")]
+    for inner, rows in sums.items():
+        groups.append(_group(_balance(inner), np.asarray(rows), "connected: flows sum to zero"))
+    groups.append(_group(balance((1,)), zero[:, None], "unconnected: no flow"))
     return tuple(g for g in groups if len(g))
 
 
-def zeros(variables: Integers, origin: str) -> tuple[EquationGroup, ...]:
+def zeros(variables: Integers, text: str) -> tuple[EquationGroup, ...]:
     """Equations by which variables are zero."""
-    return (_group(balance((1,), origin), variables[:, None]),) if len(variables) else ()
+    return (_group(balance((1,)), variables[:, None], text),) if len(variables) else ()
 
 
 def model_inputs(layout: Layout, connected: ConnectionSets) -> Integers:
@@ -220,17 +223,19 @@ def _unconnected_flows(layout: Layout, pairs: Integers) -> Integers:
     return np.sort(np.concatenate(flows)) if flows else np.empty(0, dtype=np.int64)
 
 
-def _group(template: Statement, variables: Integers) -> EquationGroup:
+def _group(template: Statement, variables: Integers, text: str) -> EquationGroup:
     nothing = np.empty((len(variables), 0), dtype=np.int64)
-    return EquationGroup(template, variables, nothing, nothing, -1 - variables[:, -1])
+    components = -1 - variables[:, -1]
+    origins = Origin(text).of(len(variables))
+    return EquationGroup(template, variables, nothing, nothing, components, origins)
 
 
 @cache
 def _equality() -> Template:
     a, b = slot("a"), slot("b")
-    return Template(a - b, (a, b), (0, 0), (), (), "connected: equal potentials")
+    return interned(Template(a - b, (a, b), (0, 0), (), ()))
 
 
 def _balance(inner: tuple[bool, ...]) -> Statement:
     """The sum of the flows into the connected components: at an inner side the flow counts negatively."""
-    return balance(tuple(-1 if i else 1 for i in inner), "connected: flows sum to zero")
+    return balance(tuple(-1 if i else 1 for i in inner))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from acausal.errors import StructureError
+from acausal.flattening.origin import Origin, Origins
 from acausal.flattening.sums import Statement
-from acausal.flattening.template import Integers
+from acausal.flattening.template import Integers, KeptSlots
 
 
 @dataclass(frozen=True)
@@ -18,6 +21,7 @@ class EquationGroup:
         variables: (n, slots) variable indices; ``parameters`` and ``modules`` likewise.
         components: (n,) index of the component that states each instance; for a connection, -1 minus the index of
             a variable that it joins.
+        origins: (n,) where each instance is stated, as an `Origin`.
     """
 
     template: Statement
@@ -25,6 +29,7 @@ class EquationGroup:
     parameters: Integers
     modules: Integers
     components: Integers
+    origins: Origins
 
     def __len__(self) -> int:
         return len(self.components)
@@ -37,7 +42,42 @@ class EquationGroup:
             self.parameters[chosen],
             self.modules[chosen],
             self.components[chosen],
+            self.origins[chosen],
         )
+
+    def stated(self, rows: Iterable[int]) -> list[tuple[Origin, int]]:
+        """Where some instances are stated: origin and component."""
+        return [(self.origins[i], int(self.components[i])) for i in rows]
+
+    def specialised(self, pattern: tuple[int, ...]) -> tuple[Statement, KeptSlots]:
+        """The template of instances of one pattern; see `Template.specialised`."""
+        return specialised(self.template, pattern, self.origins[0])
+
+
+def joined(groups: Sequence[EquationGroup]) -> EquationGroup:
+    """Groups of one template as one."""
+    return EquationGroup(
+        groups[0].template,
+        np.concatenate([g.variables for g in groups]),
+        np.concatenate([g.parameters for g in groups]),
+        np.concatenate([g.modules for g in groups]),
+        np.concatenate([g.components for g in groups]),
+        np.concatenate([g.origins for g in groups]),
+    )
+
+
+def specialised(
+    template: Statement, pattern: tuple[int, ...], origin: Origin
+) -> tuple[Statement, KeptSlots]:
+    """A template specialised; an error names the origin of the equation.
+
+    Raises:
+        StructureError: see `Template.specialised`.
+    """
+    try:
+        return template.specialised(pattern)
+    except StructureError as error:
+        raise StructureError(f"{origin}: {error}") from None
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,8 @@ class FlatModel(LeavesCaches):
         tear: (n_variables,) how much they are preferred as tearing variables, from 0 "never" to 4 "always".
         start_given: (n_variables,) whether a modifier gave the start.
         starts: start values that are expressions of parameters.
-        value: (n_parameters,) values (nan where bound); ``bindings``: the bound ones.
+        value: (n_parameters,) values (nan where bound), then those of constants, which are numbers in equations;
+            ``bindings``: the bound ones.
         folded: (n_parameters,) whether a parameter is left at a default of zero, or bound to such parameters only.
         given: discrete variables that are not found at events: inputs, and conditions that nothing else needs.
         module_values: value or factory of every module; an int refers to another module.
@@ -82,6 +83,11 @@ class FlatModel(LeavesCaches):
         """Number of equations, including those of connections."""
         return sum(len(g) for g in self.groups)
 
+    @property
+    def n_parameters(self) -> int:
+        """Number of parameters; constants follow."""
+        return int(self.layout.parameter_base[-1])
+
     @cached_property
     def discrete(self) -> Integers:
         """The variables that change at events only: first those of watched conditions, in order of the guards."""
@@ -116,15 +122,15 @@ def flatten(model: Component, budget: Budget | None = None, *, watch: bool = Fal
 
 def _flat(model: Component, watch: bool) -> FlatModel:
     layout, statements = lay_out(model, watch=watch)
-    equations, initial, events = instantiate(layout, statements)
+    stated = instantiate(layout, statements)
     sets = connection_sets(layout)
     attributes, parameters = variable_attributes(layout), parameter_values(layout)
     return FlatModel(
         name=model._node.label,
         layout=layout,
-        groups=(*equations, *connection_groups(layout, sets)),
-        initial=initial,
-        events=events,
+        groups=(*stated.equations, *connection_groups(layout, sets)),
+        initial=stated.initial,
+        events=stated.events,
         inputs=model_inputs(layout, sets),
         start=attributes.start,
         fixed=attributes.fixed,
@@ -133,9 +139,9 @@ def _flat(model: Component, watch: bool) -> FlatModel:
         tear=attributes.tear,
         start_given=attributes.start_given,
         starts=attributes.start_bindings,
-        value=parameters.value,
+        value=np.append(parameters.value, stated.constants),
         bindings=parameters.bindings,
-        folded=parameters.folded,
+        folded=np.append(parameters.folded, np.zeros(len(stated.constants), np.bool_)),
         module_values=module_values(layout),
         silent=_silent(layout, statements),
         outputs=model_outputs(layout, sets),

@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from acausal.flattening.leaves_caches import LeavesCaches
-from acausal.flattening.template import KeptSlots, Template, slot
+from acausal.flattening.template import KeptSlots, Template, interned, slot
 
 FEW = 8
 """The most terms of a sum that is a template like any other equation."""
@@ -27,7 +27,6 @@ class Sum(LeavesCaches):
     """
 
     factors: tuple[int, ...]
-    origin: str
 
     parameters = modules = ()
     is_void = False
@@ -64,12 +63,12 @@ class Sum(LeavesCaches):
                 target = abs(code) - 1
                 merged[target] = merged.get(target, 0) + (factor if code > 0 else -factor)
         left = [target for target, factor in sorted(merged.items()) if factor]
-        return balance(tuple(merged[target] for target in left), self.origin), (left, [], [])
+        return balance(tuple(merged[target] for target in left)), (left, [], [])
 
     def differentiated(self) -> tuple[Sum, tuple[tuple[int, bool], ...]]:
         """The same sum of derivatives; see `Template.differentiated`."""
         sources = tuple((i, True) for i in range(len(self.factors)))
-        return Sum(self.factors, f"derivative of {self.origin}"), sources
+        return self, sources
 
     def with_orders(self, orders: tuple[int, ...]) -> Sum:
         """The sum as it is: no slot is a derivative."""
@@ -124,16 +123,16 @@ class Sum(LeavesCaches):
         kept = [f for f, is_inside in zip(self.factors, inside, strict=True) if is_inside]
         if len(self.factors) - len(kept) < 2:
             return None
-        return balance((*kept, 1), self.origin)
+        return balance((*kept, 1))
 
 
 @lru_cache(maxsize=256)
-def balance(coefficients: tuple[int, ...], origin: str) -> Template | Sum:
+def balance(coefficients: tuple[int, ...]) -> Template | Sum:
     """``sum(coefficients[i] * slot[i]) = 0``, as a template where the terms are few."""
-    total = Sum(coefficients, origin)
+    total = Sum(coefficients)
     if len(coefficients) > FEW:
         return total
-    return Template(total.residual, total.variables, total.orders, (), (), origin)
+    return interned(Template(total.residual, total.variables, total.orders, (), ()))
 
 
 Statement = Template | Sum

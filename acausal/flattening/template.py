@@ -32,7 +32,6 @@ class Template(LeavesCaches):
         residual: expression in the slot symbols and `acausal.time`.
         variables: slot symbols of variables; ``orders`` says how often each is differentiated.
         parameters: slot symbols of parameters. ``modules``: slot symbols of callable parameters.
-        origin: the equation as its author wrote it, for messages.
     """
 
     residual: sp.Expr
@@ -40,7 +39,6 @@ class Template(LeavesCaches):
     orders: tuple[int, ...]
     parameters: tuple[sp.Symbol, ...]
     modules: tuple[sp.Symbol, ...]
-    origin: str
 
     @cached_property
     def _hash(self) -> int:
@@ -49,14 +47,6 @@ class Template(LeavesCaches):
     def __hash__(self) -> int:
         """Computed once: templates with many slots are looked up often."""
         return self._hash
-
-    @cached_property
-    def key(self) -> tuple[Any, ...]:
-        """Two templates with one key are the same equation, whatever classes they came from."""
-        names = [*self.variables, *self.parameters, *self.modules]
-        canonical = {s: sp.Symbol(f"_{i}", real=True) for i, s in enumerate(names)}
-        counts = (len(self.variables), len(self.parameters), len(self.modules))
-        return self.residual.xreplace(canonical), self.orders, counts
 
     # -- rewriting ---------------------------------------------------------------------------------
 
@@ -84,7 +74,7 @@ class Template(LeavesCaches):
         if residual.has(sp.zoo, sp.nan, sp.oo):
             zeros = [s.name for s, r in replaced.items() if r == 0 and s in self.parameters]
             raise StructureError(
-                f"{self.origin}: division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
+                f"division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
             )
         present = residual.free_symbols
         variables, parameters, modules = (
@@ -97,7 +87,6 @@ class Template(LeavesCaches):
             (0,) * len(variables),
             tuple(self.parameters[i] for i in parameters),
             tuple(self.modules[i] for i in modules),
-            self.origin,
         )
         return interned(special), (variables, parameters, modules)
 
@@ -124,7 +113,6 @@ class Template(LeavesCaches):
             (0,) * len(variables),
             self.parameters,
             self.modules,
-            f"derivative of {self.origin}",
         )
         return derivative, tuple(kept)
 

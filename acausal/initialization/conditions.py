@@ -80,7 +80,7 @@ class Conditions(LeavesCaches):
         for group in self.reduced.model.initial:
             places = [layout.paths[c] for c in group.components]
             names += [
-                f"{p} ({group.template.origin})" if p else group.template.origin for p in places
+                f"{p} ({o})" if p else str(o) for p, o in zip(places, group.origins, strict=True)
             ]
         states = self.reduced.states
         return names + [f"der({self.reduced.name(int(states[i]))}) = 0" for i in resting]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.errors import StructureError, listing
-from acausal.flattening import Integers, Statement
+from acausal.flattening import Integers, Origin, Statement
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.equations import Equations
@@ -65,13 +65,17 @@ class BlockShape:
 
 @dataclass(frozen=True)
 class TornLoop:
-    """Algebraic loops of one shape, side by side: (n, m) unknowns, solved from externals."""
+    """Algebraic loops of one shape, side by side: (n, m) unknowns, solved from externals.
+
+    ``origins`` says of each loop where its equations are stated.
+    """
 
     shape: BlockShape
     unknowns: Integers
     externals: Integers
     parameters: Integers
     modules: Integers
+    origins: tuple[tuple[Origin, ...], ...]
 
     @property
     def results(self) -> tuple[Integers, ...]:
@@ -136,6 +140,7 @@ def torn_loop(system: Equations, blocks: Sequence[Block], parameters: np.ndarray
         matrix([b.externals for b in blocks]),
         matrix([b.parameters for b in blocks]),
         matrix([b.modules for b in blocks]),
+        tuple(tuple(system.origin[e] for e in b.stated) for b in blocks),
     )
     wrong = _singular(loop, parameters)
     if wrong is not None:

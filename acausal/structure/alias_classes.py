@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -43,9 +43,7 @@ class AliasClasses:
         for column, order in enumerate(group.template.orders):
             for _ in range(order):
                 variables[:, column] = [self._node(int(v)) for v in variables[:, column]]
-        return EquationGroup(
-            group.template, variables, group.parameters, group.modules, group.components
-        )
+        return replace(group, variables=variables)
 
     def _node(self, variable: int) -> int:
         if variable not in self.derivative:

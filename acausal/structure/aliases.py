@@ -8,13 +8,13 @@ pattern of merged, negated and vanished slots, which may reveal further aliases.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from acausal.errors import StructureError
-from acausal.flattening import EquationGroup, FlatModel, Integers
+from acausal.flattening import EquationGroup, FlatModel, Integers, Origin, Statement, joined
 from acausal.structure.alias_classes import KNOWN, MERGED, REFUSED, AliasClasses
 
 
@@ -39,41 +39,40 @@ class AliasFree:
     derivative_sign: Integers
     base: Integers
     groups: tuple[EquationGroup, ...]
-    redundant: tuple[tuple[str, int], ...]
+    redundant: tuple[tuple[Origin, int], ...]
 
 
 def eliminate_aliases(model: FlatModel) -> AliasFree:
     """Merge aliased variables of a flat model and specialise its equations."""
     classes = AliasClasses.of(model.n_variables)
     parameters = model.parameter_aliases
-    pending = [
+    pending = _by_template(
         classes.with_derivative_nodes(piece)
         for group in model.groups
         for piece in _fold(group, parameters, model.folded)
-    ]
-    redundant: list[tuple[str, int]] = []
+    )
+    order = {group.origins[0]: i for i, group in enumerate(model.groups)}
+    redundant: list[tuple[Origin, int]] = []
     changed = True
     while changed:
         classes.update_roots()
         pieces = [
             p for group in pending for p in _specialise(group, classes, parameters, model.folded)
         ]
-        pending, changed = [], False
-        for piece in pieces:
+        pending = [p for p in pieces if not _is_settled(p.template)]
+        changed = False
+        for piece in _in_order((p for p in pieces if _is_settled(p.template)), order):
             alias = piece.template.alias()
-            if piece.template.is_void:
-                redundant += [(piece.template.origin, int(c)) for c in piece.components]
-            elif alias is None:
-                pending.append(piece)
-            else:
-                outcome = classes.merge(piece, alias)
-                known = np.flatnonzero(outcome == KNOWN)
-                redundant += [(piece.template.origin, int(piece.components[i])) for i in known]
-                if (outcome == REFUSED).any():
-                    pending.append(piece.rows(outcome == REFUSED))
-                changed = changed or bool((outcome == MERGED).any())
+            if alias is None:
+                redundant += piece.stated(range(len(piece)))
+                continue
+            outcome = classes.merge(piece, alias)
+            redundant += piece.stated(np.flatnonzero(outcome == KNOWN).tolist())
+            if (outcome == REFUSED).any():
+                pending.append(piece.rows(outcome == REFUSED))
+            changed = changed or bool((outcome == MERGED).any())
     _check_inputs(model, classes)
-    return _result(model, classes, pending, tuple(redundant))
+    return _result(model, classes, _in_order(pending, order), tuple(redundant))
 
 
 def _check_inputs(model: FlatModel, classes: AliasClasses) -> None:
@@ -93,6 +92,37 @@ def _check_inputs(model: FlatModel, classes: AliasClasses) -> None:
             raise StructureError(
                 f"overdetermined: {text} is made a derivative of {seen[below]}; one of them cannot be free"
             )
+
+
+def _is_settled(template: Statement) -> bool:
+    """Whether an equation only says that variables are equal up to sign, or zero, or nothing."""
+    return template.is_void or template.alias() is not None
+
+
+# -- grouping -----------------------------------------------------------------------------------------
+
+
+def _by_template(groups: Iterable[EquationGroup]) -> list[EquationGroup]:
+    """The groups with all instances of one template in one, whatever classes state them."""
+    found: dict[Statement, list[EquationGroup]] = {}
+    for group in groups:
+        found.setdefault(group.template, []).append(group)
+    return [same[0] if len(same) == 1 else joined(same) for same in found.values()]
+
+
+def _in_order(groups: Iterable[EquationGroup], order: dict[Origin, int]) -> list[EquationGroup]:
+    """The groups split by origin, in the order in which the model states them."""
+    parts: list[tuple[int, EquationGroup]] = []
+    for group in groups:
+        origins = group.origins.tolist()
+        if len(set(origins)) == 1:
+            parts.append((order[origins[0]], group))
+            continue
+        place = np.fromiter(map(order.__getitem__, origins), np.int64, len(group))
+        rows = np.argsort(place, kind="stable")
+        for own in np.split(rows, np.flatnonzero(np.diff(place[rows])) + 1):
+            parts.append((int(place[own[0]]), group.rows(own)))
+    return [group for _, group in sorted(parts, key=lambda part: part[0])]
 
 
 # -- specialising -------------------------------------------------------------------------------------
@@ -115,15 +145,17 @@ def _specialise(
         kinds, which = kinds[order], np.argsort(order)[which.ravel()]
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        template, columns = group.template.specialised(tuple(int(k) for k in kind))
         rows = np.flatnonzero(which == number)
+        own = group.rows(rows)
+        template, columns = own.specialised(tuple(int(k) for k in kind))
         pieces.append(
             EquationGroup(
                 template,
                 roots[rows][:, columns[0]],
                 arguments[rows][:, columns[1]],
-                group.modules[rows][:, columns[2]],
-                group.components[rows],
+                own.modules[:, columns[2]],
+                own.components,
+                own.origins,
             )
         )
     return pieces
@@ -138,9 +170,9 @@ def _fold(group: EquationGroup, parameters: Integers, folded: np.ndarray) -> lis
     as_it_is = tuple(range(1, len(group.template.variables) + 1))
     pieces: list[EquationGroup] = []
     for number, kind in enumerate(kinds):
-        template, columns = group.template.specialised((*as_it_is, *(int(k) for k in kind)))
-        orders = tuple(group.template.orders[c] for c in columns[0])
         rows = group.rows(which.ravel() == number)
+        template, columns = rows.specialised((*as_it_is, *(int(k) for k in kind)))
+        orders = tuple(group.template.orders[c] for c in columns[0])
         pieces.append(
             EquationGroup(
                 template.with_orders(orders),
@@ -148,6 +180,7 @@ def _fold(group: EquationGroup, parameters: Integers, folded: np.ndarray) -> lis
                 rows.parameters[:, columns[1]],
                 rows.modules[:, columns[2]],
                 rows.components,
+                rows.origins,
             )
         )
     return pieces
@@ -179,7 +212,7 @@ def _result(
     model: FlatModel,
     classes: AliasClasses,
     groups: Sequence[EquationGroup],
-    redundant: tuple[tuple[str, int], ...],
+    redundant: tuple[tuple[Origin, int], ...],
 ) -> AliasFree:
     """Name every class by its best member and express everything in these."""
     root, root_sign, zero = classes.root, classes.root_sign, classes.zero
@@ -199,15 +232,7 @@ def _result(
     for group in groups:
         flips = root_sign[best[group.variables]]
         for piece in _negated(group, flips):
-            renamed.append(
-                EquationGroup(
-                    piece.template,
-                    best[piece.variables],
-                    piece.parameters,
-                    piece.modules,
-                    piece.components,
-                )
-            )
+            renamed.append(replace(piece, variables=best[piece.variables]))
     return AliasFree(
         zero,
         representative,
@@ -269,9 +294,6 @@ def _negated(group: EquationGroup, flips: Integers) -> list[EquationGroup]:
         pattern = tuple(int(s) * (j + 1) for j, s in enumerate(kind)) + (0,) * len(
             group.template.parameters
         )
-        template, _ = group.template.specialised(pattern)
         rows = group.rows(which.ravel() == number)
-        pieces.append(
-            EquationGroup(template, rows.variables, rows.parameters, rows.modules, rows.components)
-        )
+        pieces.append(replace(rows, template=rows.specialised(pattern)[0]))
     return pieces

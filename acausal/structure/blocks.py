@@ -78,7 +78,7 @@ _Groups = dict[Hashable, _Pending]
 def order_steps(
     system: Equations, incidence: list[list[int]], variable_of: list[int], blocks: graph.Blocks
 ) -> tuple[SolvingStep, ...]:
-    """Group the blocks of one level that have the same formula.
+    """Group the blocks of one level that have the same formula and are stated by one class, or by many.
 
     The terms of a loop's sums that lie outside of the loop are added up first, as one variable.
 
@@ -112,7 +112,8 @@ def order_steps(
                 _collect(sums, level, len(outside.terms), _accumulation, outside)
             block = block_of(system, equations, unknowns, vanishing)
             make = partial(torn_loop, system, parameters=values)
-            _collect(formulas, level, (block.equations, block.ranks), make, block)
+            apart = tuple(system.apart[e] for e in equations)
+            _collect(formulas, level, (block.equations, block.ranks, apart), make, block)
         elif (weights := template.weights(column)) is not None:
             terms = [v for i, v in enumerate(system.variables[e]) if i != column]
             _collect(sums, level, len(terms), _accumulation, _Sum(unknowns[0], terms, weights))
@@ -120,7 +121,7 @@ def order_steps(
             raise StructureError(_no_divisor(system, e, column))
         else:
             make = partial(_assignment, system, template, column)
-            _collect(formulas, level, (template, column), make, e)
+            _collect(formulas, level, (template, column, system.apart[e]), make, e)
     groups = [*sums.values(), *formulas.values(), *large.values()]
     steps = [(g.level, g.make(g.members)) for g in groups]
     return tuple(step for _, step in sorted(steps, key=lambda s: s[0]))

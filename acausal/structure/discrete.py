@@ -71,5 +71,5 @@ def _given(model: FlatModel) -> list[tuple[Integers, list[str]]]:
 
 def _origins(model: FlatModel, group: UpdateGroup) -> list[str]:
     paths = (model.layout.paths[c] for c in group.group.components)
-    origin = group.group.template.origin
-    return [f"{path} ({origin})" if path else origin for path in paths]
+    origin = group.group.origins[0]
+    return [f"{path} ({origin})" if path else str(origin) for path in paths]

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from acausal.errors import StructureError
-from acausal.flattening import FlatModel, Integers, Statement
+from acausal.flattening import FEW, FlatModel, Integers, Origin, Statement, specialised
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
@@ -29,6 +29,7 @@ class Equations:
     parameters: list[list[int]]
     modules: list[list[int]]
     component: list[int]
+    origin: list[Origin]
     known: set[int]
     structure: graph.DifferentialStructure
     sign: list[int]
@@ -44,12 +45,14 @@ class Equations:
         parameters: list[list[int]] = []
         modules: list[list[int]] = []
         component: list[int] = []
+        origin: list[Origin] = []
         for group in aliases.groups:
             template += [group.template] * len(group)
             variables += group.variables.tolist()
             parameters += group.parameters.tolist()
             modules += group.modules.tolist()
             component += group.components.tolist()
+            origin += group.origins.tolist()
         discrete = set(discrete_nodes(model, aliases).tolist())
         known = {aliases.zero, *discrete, *(int(aliases.representative[i]) for i in model.inputs)}
         derivative = aliases.derivative.tolist()
@@ -74,6 +77,7 @@ class Equations:
             parameters,
             modules,
             component,
+            origin,
             known,
             structure,
             aliases.derivative_sign.tolist(),
@@ -143,16 +147,28 @@ class Equations:
                         bottom[node_of_chain] = v
         return bottom
 
-    def origins(self) -> list[tuple[str, int]]:
-        """Text and component of every equation."""
-        return [(t.origin, c) for t, c in zip(self.template, self.component, strict=True)]
+    def origins(self) -> list[tuple[Origin, int]]:
+        """Where every equation is stated: origin and component."""
+        return list(zip(self.origin, self.component, strict=True))
+
+    @cached_property
+    def apart(self) -> list[str | None]:
+        """For every equation what keeps it apart from equal ones of other classes: its text, or None if these are many.
+
+        A program computes equal equations side by side. Those of few classes are rather computed where they are needed.
+        """
+        stating: dict[int, list[Origin]] = {}
+        pairs = list(zip(map(id, self.template), self.origin, strict=True))
+        for template, origin in dict.fromkeys(pairs):
+            stating.setdefault(template, []).append(origin)
+        text = {(t, o): str(o) for t, own in stating.items() if len(own) <= FEW for o in own}
+        return list(map(text.get, pairs))
 
     def describe(self, equation: int) -> str:
         """Where an equation is stated, and its text (of a derivative, that of the original equation)."""
         while equation in self.derived_from:
             equation = self.derived_from[equation]
-        origin = self.template[equation].origin, self.component[equation]
-        return equation_name(self.model, origin)
+        return equation_name(self.model, (self.origin[equation], self.component[equation]))
 
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""
@@ -193,7 +209,7 @@ class Equations:
         template = self.template[equation]
         symbols = template.partial(column).free_symbols
         slots = zip(template.parameters, self.parameters[equation], strict=True)
-        return [p for s, p in slots if s in symbols]
+        return [p for s, p in slots if s in symbols and p < self.model.n_parameters]
 
     def _by_template(self, chosen: Sequence[int]) -> list[tuple[Statement, list[int]]]:
         """Positions in ``chosen`` of the equations that share a template."""
@@ -207,7 +223,7 @@ class Equations:
         try:
             graph.pantelides(self.structure)
         except RecursionError as error:
-            origin = self.template[int(error.args[0])].origin
+            origin = self.origin[int(error.args[0])]
             raise StructureError(f"index reduction does not end at: {origin}") from None
         self.derived_from = {d: e for e, d in enumerate(self.structure.successor) if d >= 0}
         first_new = len(self.base)
@@ -231,7 +247,9 @@ class Equations:
             place = first.setdefault(node, len(nodes))
             codes.append(0 if node == self.aliases.zero else sign * place)
         pattern = (*codes, *[0] * len(template.parameters))
-        special, (columns, kept, used) = template.specialised(pattern)
+        origin = self.origin[equation].differentiated
+        special, (columns, kept, used) = specialised(template, pattern, origin)
+        self.origin.append(origin)
         self.template.append(special)
         self.variables.append([nodes[c] for c in columns])
         self.parameters.append([self.parameters[equation][c] for c in kept])

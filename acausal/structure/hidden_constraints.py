@@ -17,7 +17,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.flattening import Statement, Template
+from acausal.flattening import Statement, Template, specialised
 from acausal.structure.equations import Equations
 from acausal.structure.rank import cancelling, prune_singletons
 
@@ -144,9 +144,11 @@ def _replace(
         parts.append((system.template[e], factor, kept, parameters))
         nodes += [row[c] for c in kept]
         modules += system.modules[e]
-    template = _combined(tuple(parts), len(numbers), system.template[target].origin)
+    template = _combined(tuple(parts), len(numbers))
     codes = [nodes.index(v) + 1 for v in nodes]
-    special, (columns, used, called) = template.specialised((*codes, *[0] * len(numbers)))
+    special, (columns, used, called) = specialised(
+        template, (*codes, *[0] * len(numbers)), system.origin[target]
+    )
     every = list(numbers)
     system.template[target] = special
     system.variables[target] = [nodes[c] for c in columns]
@@ -156,7 +158,7 @@ def _replace(
 
 
 @cache
-def _combined(parts: tuple[Part, ...], n_parameters: int, origin: str) -> Template:
+def _combined(parts: tuple[Part, ...], n_parameters: int) -> Template:
     """The sum of multiples of equations, without the slots that cancel."""
     terms: list[sp.Expr] = []
     variables: list[sp.Symbol] = []
@@ -177,5 +179,4 @@ def _combined(parts: tuple[Part, ...], n_parameters: int, origin: str) -> Templa
         (0,) * len(variables),
         tuple(_symbol(n) for n in range(n_parameters)),
         tuple(modules),
-        origin,
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from acausal.errors import listing
-from acausal.flattening import FlatModel
+from acausal.flattening import FlatModel, Origin
 from acausal.modeling import Potential
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
@@ -17,7 +17,7 @@ def explain_singularity(
     aliases: AliasFree,
     incidence: Sequence[Sequence[int]],
     chains: dict[int, int],
-    origins: Sequence[tuple[str, int]],
+    origins: Sequence[tuple[Origin, int]],
     combined: Mapping[int, Sequence[int]],
 ) -> str | None:
     """A sentence about a structurally singular model, or None for a sound one.
@@ -66,13 +66,13 @@ def _name(model: FlatModel, aliases: AliasFree, node: int) -> str:
     return f"der({_name(model, aliases, int(aliases.base[node]))})"
 
 
-def equation_name(model: FlatModel, origin: tuple[str, int]) -> str:
+def equation_name(model: FlatModel, stated: tuple[Origin, int]) -> str:
     """The component and text of an equation, for messages."""
-    text, component = origin
+    origin, component = stated
     if component < 0:
-        return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({text})"
+        return f"{model.layout.variable(-1 - component).rpartition('.')[0]} ({origin})"
     path = model.layout.paths[component]
-    return f"{path} ({text})" if path else text
+    return f"{path} ({origin})" if path else str(origin)
 
 
 def _is_potential(model: FlatModel, node: int) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from acausal.errors import StructureError, listing
-from acausal.flattening import Integers, Statement
+from acausal.flattening import Integers, Origin, Statement
 from acausal.structure.algebraic_loops import matrix
 from acausal.structure.elimination_order import Pattern, analyse, match_rows
 from acausal.structure.equations import Equations
@@ -24,6 +24,7 @@ class SparseGroup:
     variables: Integers
     parameters: Integers
     modules: Integers
+    origins: tuple[Origin, ...]
 
 
 @dataclass(frozen=True)
@@ -31,13 +32,13 @@ class LinearRows:
     """Equations ``sum(factors * nodes) = 0``, all in one list: ``rows`` is the equation that each term belongs to.
 
     Attributes:
-        origins: of every equation, for messages.
+        origins: where every equation is stated.
     """
 
     rows: Integers
     nodes: Integers
     factors: np.ndarray
-    origins: tuple[str, ...]
+    origins: tuple[Origin, ...]
 
     def chosen(self, which: np.ndarray) -> LinearRows:
         """Some of the terms."""
@@ -130,12 +131,12 @@ def _places(unknowns: Integers, nodes: Integers) -> Integers:
 
 def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tuple[SparseGroup, ...]:
     """The equations that are not sums, by template and by the slots that are unknown."""
-    found: dict[tuple[Statement, tuple[int, ...]], list[int]] = {}
+    found: dict[tuple[Statement, tuple[int, ...], str | None], list[int]] = {}
     for e in equations:
         template = system.template[e]
         if template.coefficients() is None:
             inner = tuple(c for c, v in enumerate(system.variables[e]) if v in unknowns)
-            found.setdefault((template, inner), []).append(e)
+            found.setdefault((template, inner, system.apart[e]), []).append(e)
     return tuple(
         SparseGroup(
             template,
@@ -143,8 +144,9 @@ def _groups(system: Equations, equations: list[int], unknowns: set[int]) -> tupl
             matrix([system.variables[e] for e in members]),
             matrix([system.parameters[e] for e in members]),
             matrix([system.modules[e] for e in members]),
+            tuple(system.origin[e] for e in members),
         )
-        for (template, inner), members in found.items()
+        for (template, inner, _), members in found.items()
     )
 
 
@@ -155,7 +157,7 @@ def _sums(system: Equations, equations: list[int]) -> LinearRows:
         np.repeat(np.arange(len(equations)), lengths),
         np.asarray([v for e in equations for v in system.variables[e]], dtype=np.int64),
         np.asarray(factors, dtype=float),
-        tuple(system.template[e].origin for e in equations),
+        tuple(system.origin[e] for e in equations),
     )
 
 

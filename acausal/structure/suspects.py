@@ -7,22 +7,22 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from acausal.errors import DeclarationError, listing
-from acausal.flattening import FlatModel
+from acausal.flattening import FlatModel, Origin
 from acausal.modeling import Component, Eq
 
 
-def inputs_that_are_set(model: FlatModel, surplus: Sequence[tuple[str, int]]) -> str | None:
+def inputs_that_are_set(model: FlatModel, surplus: Sequence[tuple[Origin, int]]) -> str | None:
     """A sentence on inputs of the model in equations that are too many, or None.
 
     Arguments:
         model: the singular model.
-        surplus: text and component of every such equation.
+        surplus: origin and component of every such equation.
     """
     inputs = set(model.inputs.tolist())
     found: dict[str, None] = {}
-    for text, component in surplus:
+    for origin, component in surplus:
         for group in model.groups:
-            if group.template.origin == text:
+            if origin in group.origins:
                 for row in group.variables[np.flatnonzero(group.components == component)].tolist():
                     found |= {model.layout.variable(v): None for v in row if v in inputs}
     if not found:

@@ -27,7 +27,7 @@ from acausal.flattening import (
 )
 from acausal.modeling import Declaration, Module
 from acausal.units.dimensions import SECOND, Dimension, described, dimension
-from acausal.units.infer import Finding, Signature, SlotDimensions, examine
+from acausal.units.infer import Finding, Signature, SlotDimensions, examine, is_small
 
 MAX_LISTED = 12
 
@@ -42,7 +42,7 @@ def check_dimensions(flat: FlatModel) -> None:
             the components, the equations as they are written, and the unlike terms in them, at most a dozen.
     """
     _refuse(list(_misspelt(flat.layout)))
-    measures = _measure(flat.layout)
+    measures = _measure(flat)
     wrong = [*_equations(flat, measures)]
     wrong += _values(
         flat.bindings, measures.parameters, flat.layout.parameter, flat.layout, measures
@@ -97,7 +97,8 @@ def _misspelt(layout: Layout) -> Iterator[str]:
                 yield f"{name}: {e}"
 
 
-def _measure(layout: Layout) -> _Measures:
+def _measure(flat: FlatModel) -> _Measures:
+    layout = flat.layout
     indices: dict[Dimension | None, int] = {None: 0}
 
     def index(declaration: Declaration) -> int:
@@ -106,9 +107,11 @@ def _measure(layout: Layout) -> _Measures:
     variables = [[index(d) for _, d in form.variables] for form in layout.forms]
     parameters = [[index(d) for _, d in form.parameters] for form in layout.forms]
     modules = [[_signature(d) for _, d in form.modules] for form in layout.forms]
+    declared = tiled(layout, layout.parameter_base, parameters, np.int64)
+    constants = np.zeros(len(flat.value) - flat.n_parameters, np.int64)
     return _Measures(
         variables=tiled(layout, layout.variable_base, variables, np.int64),
-        parameters=tiled(layout, layout.parameter_base, parameters, np.int64),
+        parameters=np.concatenate([declared, constants]),
         modules=tuple(s for form in layout.form_of for s in modules[form]),
         known=tuple(indices),
     )
@@ -123,17 +126,21 @@ def _signature(module: Module) -> Signature:
 
 def _equations(flat: FlatModel, measures: _Measures) -> Iterator[str]:
     found: dict[tuple[str, str], list[str]] = {}
-    for group in (*flat.groups, *flat.initial, *_at_events(flat)):
-        if group.components[0] < 0:  # a connection
+    for stated in (*flat.groups, *flat.initial, *_at_events(flat)):
+        if stated.components[0] < 0:  # a connection
             continue
+        group = _with_numbers(flat, stated, least=True)
+        if examine(group.template.residual, _slots(group, measures)) is None:
+            continue
+        group = _with_numbers(flat, stated, least=False)
         slots = _slots(group, measures)
         finding = examine(group.template.residual, slots)
         if finding is not None:
-            cls, _, equation = group.template.origin.partition(": ")
+            origin = group.origins[0]
             hint = _hint(group.template, slots, finding)
-            wrong = f"'{shortened(equation)}': {finding.reason}{hint}"
+            wrong = f"'{shortened(origin.text)}': {finding.reason}{hint}"
             names = [flat.layout.paths[i] for i in group.components]
-            found.setdefault((cls, wrong), []).extend(names)
+            found.setdefault((origin.cls, wrong), []).extend(names)
     for (cls, wrong), names in found.items():
         first = f"{cls} '{names[0]}'" if names[0] else cls
         more = f" and {len(names) - 1} more" if len(names) > 1 else ""
@@ -157,6 +164,27 @@ def _at_events(flat: FlatModel) -> Iterator[EquationGroup]:
         )
         variables = np.concatenate([update.targets[:, None], own.variables], axis=1)
         yield replace(own, template=equation, variables=variables)
+
+
+def _with_numbers(flat: FlatModel, group: EquationGroup, least: bool) -> EquationGroup:
+    """The group with its constants as numbers; with the ``least`` of them where others may have any dimension.
+
+    Only a small number is a pure number. Without the others many groups have one residual, which is examined once.
+    """
+    template, values = group.template, flat.value[group.parameters[0]].tolist()
+    constant = (group.parameters[0] >= flat.n_parameters).tolist()
+    slots = zip(template.parameters, values, constant, strict=True)
+    numbers = {symbol: sp.Float(value) for symbol, value, is_number in slots if is_number}
+    numbers = {s: n for s, n in numbers.items() if not least or is_small(n)}
+    if not numbers or not isinstance(template, Template):
+        return group
+    kept = [i for i, s in enumerate(template.parameters) if s not in numbers]
+    plain = replace(
+        template,
+        residual=template.residual.xreplace(numbers),
+        parameters=tuple(template.parameters[i] for i in kept),
+    )
+    return replace(group, template=plain, parameters=group.parameters[:, kept])
 
 
 def _slots(group: EquationGroup, measures: _Measures) -> SlotDimensions:

@@ -3,6 +3,7 @@
 import pytest
 
 import acausal as ac
+from acausal.flattening import FEW
 from tests.support.parts import Equations, model
 
 Eq, der = ac.Eq, ac.der
@@ -13,6 +14,25 @@ def fold():
     component = Equations("x y", lambda s: [Eq(der(s.x), s.y), Eq(s.y**2, 1 - s.x)])
     component.modify(x=ac.Start(0.5, fixed=True), y=ac.Start(1.0))
     return component
+
+
+class Fold(ac.Component):
+    """As `fold`; subclasses inherit its equations."""
+
+    x, y = ac.Variable(), ac.Variable()
+
+    def equations(self):
+        yield Eq(der(self.x), self.y)
+        yield Eq(self.y**2, 1 - self.x)
+
+
+def test_of_classes_that_inherit_a_loop_the_one_that_fails_is_named():
+    whole = ac.Component()
+    for name in (*(f"Early{i}" for i in range(FEW)), "Late"):
+        start = {"x": ac.Start(0.5 * (name == "Late"), fixed=True), "y": ac.Start(1.0)}
+        setattr(whole, name.lower(), type(name, (Fold,), {})(**start))
+    with pytest.raises(ac.SimulationError, match=r"for 'late\.y'.*leaves 'Late: y\*\*2 = 1"):
+        ac.simulate(ac.compile(whole), 1.8, dt=0.02)
 
 
 def square_root():

@@ -83,7 +83,7 @@ def test_a_torn_loop_says_what_is_guessed_what_follows_and_what_is_left():
     assert sorted((*solve.tears, *(unknown for unknown, _ in solve.assigned))) == [0, 1, 2]
     assert len(solve.residuals) == len(solve.tears) == 1
     assert len(solve.equations) == solve.outputs == 3
-    assert solve.origins == ("Equations: w**3 + w = -y",)
+    assert [[str(o) for o in own] for own in solve.origins] == [["Equations: w**3 + w = -y"]]
 
 
 @pytest.mark.parametrize("n", [1, 2, 7, 40])

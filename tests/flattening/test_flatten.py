@@ -6,10 +6,13 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
+import sympy as sp
 
 import acausal as ac
 from acausal.flattening.connections import connection_sets
 from acausal.flattening.flat_model import flatten
+from acausal.flattening.templates import FEW
+from acausal.units.check import check_dimensions
 from tests.support.oracle import worst
 from tests.support.parts import (
     Equations,
@@ -75,6 +78,39 @@ def test_equal_components_share_their_templates():
     flat = flatten(model(a=Mass(m=1.0), b=Mass(m=2.0), c=Mass(m=3.0)))
     assert len(flat.layout.forms) == 2  # Model and Mass
     assert all(len(g) == 3 for g in flat.groups if (g.components >= 0).all())
+
+
+class Rule(ac.Component):
+    """Two laws that subclasses inherit."""
+
+    x, y = ac.Variable(), ac.Variable()
+    k = ac.Parameter()
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), self.y / self.k)
+        yield ac.Eq(self.y**2, 1 - self.x)
+
+
+class First(Rule):
+    k = ac.Parameter(default=1.0)
+
+
+class Second(Rule):
+    k = ac.Parameter(default=0.0)
+
+
+def test_classes_that_inherit_equations_share_their_templates_and_are_named_each():
+    flat = flatten(model(a=First(), b=Second(k=2.0)))
+    (one, two), (other, another) = zip(*[flat.groups[:2], flat.groups[2:]], strict=True)
+    assert one.template is two.template
+    assert other.template is another.template
+    assert str(another.origins[0]) == "Second: y**2 = 1 - x"
+    classes = {f"a{i}": type(f"Class{i}", (First,), {})() for i in range(FEW + 1)}
+    assert len(ac.compile(model(**classes)).program.instructions) == 2
+    with pytest.raises(
+        ac.ModelError, match=r"^Second: der\(x\) = y/k: division by zero; k is zero there"
+    ):
+        ac.compile(model(a=First(), b=Second()))
 
 
 def test_what_the_author_keeps_in_an_instance_tells_forms_apart():
@@ -650,3 +686,75 @@ def test_parameters_are_found_by_name():
     assert [flat.layout.find_parameter(n) for n in names] == list(range(len(names)))
     assert flat.layout.find_parameter("a.no_such") is None
     assert flat.layout.find_parameter("") is None
+
+
+# -- numbers ----------------------------------------------------------------------------------------------
+
+
+def law(number):
+    """A class of its own, whose law differs from others in numbers alone."""
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.x), -number * self.x + 0.5 * ac.tanh(number * self.x**2) + self.u)
+
+    declared = {"x": ac.Variable(unit="m"), "u": ac.Parameter(default=1.0)}
+    return type(
+        f"Law{number:g}".replace(".", "_"), (ac.Component,), {**declared, "equations": equations}
+    )
+
+
+def laws(count):
+    return model(
+        **{f"a{i}": law(1.25 + 0.5 * i)(x=ac.Start(0.1, fixed=True)) for i in range(count)}
+    )
+
+
+def test_equations_that_differ_in_numbers_alone_are_one_from_so_many_on():
+    few, many = flatten(laws(FEW)), flatten(laws(FEW + 2))
+    assert len({g.template for g in few.groups}) == FEW
+    assert len(few.value) == few.n_parameters
+    assert len({g.template for g in many.groups}) == 1
+    assert sorted(many.value[many.n_parameters :]) == [
+        0.5,
+        *(1.25 + 0.5 * i for i in range(FEW + 2)),
+    ]
+    assert [str(g.origins[0]) for g in many.groups[:1]] == [
+        "Law1_25: der(x) = u - 1.25*x + 0.5*tanh(1.25*x**2)"
+    ]
+
+
+def test_what_has_constants_runs_and_is_written_as_what_has_numbers():
+    few, many = (ac.compile(laws(n)) for n in (FEW, FEW + 2))
+    assert len(many.program.instructions) == 1 < len(few.program.instructions)
+    assert many.equations[:FEW] == few.equations
+    assert dict(many.parameters()).keys() == {f"a{i}.u" for i in range(FEW + 2)}
+    x = jnp.linspace(0.1, 0.9, FEW)
+    rates = few.vector_field(0.0, x, None, few.pack())
+    found = many.vector_field(
+        0.0, jnp.append(x, x[:2]), None, many.pack({**many.parameters(), "a1.u": 1.0})
+    )
+    np.testing.assert_allclose(found[:FEW], rates, rtol=1e-15)
+
+
+def test_units_of_equations_with_constants_are_checked_with_their_numbers():
+    def wrong(number):
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), number * self.x * self.y)
+
+        declared = {"x": ac.Variable(unit="m"), "y": ac.Variable(unit="m")}
+        return type("Wrong", (ac.Component,), {**declared, "equations": equations})
+
+    parts = {f"a{i}": wrong(1.5 + i)() for i in range(FEW + 2)}
+    with pytest.raises(ac.UnitError, match=r"Wrong 'a0'.*1\.5\*x\*y"):
+        check_dimensions(flatten(model(**parts)))
+
+
+def test_whole_numbers_stay_exact_and_apart_from_others():
+    system = ac.compile(
+        model(
+            a=Equations("x y", lambda s: [ac.Eq(ac.der(s.x), -s.x), ac.Eq(2 * s.y, 2 * s.x)]),
+            b=Equations("x y", lambda s: [ac.Eq(ac.der(s.x), -s.x), ac.Eq(2.0 * s.y, 2.0 * s.x)]),
+        )
+    )
+    kinds = [{type(n) for n in g.template.residual.atoms(sp.Number)} for g in system.flat.groups]
+    assert [any(issubclass(k, sp.Float) for k in some) for some in kinds].count(True) == 1

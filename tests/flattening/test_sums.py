@@ -18,7 +18,7 @@ MANY = FEW + 7
 
 
 def test_few_terms_are_a_template_and_many_a_total_of_the_same_meaning():
-    few, many = (balance((1, -1, 2, *[1] * n), "test") for n in (FEW - 3, FEW - 2))
+    few, many = (balance((1, -1, 2, *[1] * n)) for n in (FEW - 3, FEW - 2))
     assert isinstance(few, Template)
     assert isinstance(many, Sum)
     for stated in (few, many):
@@ -27,7 +27,7 @@ def test_few_terms_are_a_template_and_many_a_total_of_the_same_meaning():
 
 
 def test_merged_negated_and_vanished_slots_of_a_total():
-    total = Sum((1, 1, -1, *[1] * FEW), "test")
+    total = Sum((1, 1, -1, *[1] * FEW))
     pattern = (1, 1, -3, 0, *(j + 1 for j in range(4, 3 + FEW)))
     special, (left, _, _) = total.specialised(pattern)
     assert isinstance(special, Sum)
@@ -39,8 +39,8 @@ def test_merged_negated_and_vanished_slots_of_a_total():
 
 
 def test_the_derivative_of_a_total_is_a_total():
-    derivative, sources = Sum((1, -1) * FEW, "test").differentiated()
-    assert derivative == Sum((1, -1) * FEW, "derivative of test")
+    derivative, sources = Sum((1, -1) * FEW).differentiated()
+    assert derivative == Sum((1, -1) * FEW)
     assert sources == tuple((i, True) for i in range(2 * FEW))
 
 

@@ -18,7 +18,6 @@ def template(residual, variables=(x, y), parameters=(p, q), modules=()):
         tuple(0 for v in variables if v in present),
         tuple(v for v in parameters if v in present),
         modules,
-        "stated",
     )
 
 
@@ -35,7 +34,6 @@ def test_the_total_derivative_and_where_its_slots_come_from():
         dy: (1, True),
     }
     assert derivative.parameters == (p, q)[:1]
-    assert derivative.origin == "derivative of stated"
 
 
 def test_a_slot_and_its_derivative_in_one_equation_stay_apart():

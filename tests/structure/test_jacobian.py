@@ -28,7 +28,7 @@ AT = Point(np.array([2.0, 3.0, -1.0]), np.array([10.0, 20.0]))
 
 
 def partial(residual, column=0):
-    template = Template(residual, (x, y), (0, 0), (p, q), (net,), "stated")
+    template = Template(residual, (x, y), (0, 0), (p, q), (net,))
     rows = np.array([[0, 1], [2, 0]])
     return partials(template, column, rows, np.array([[0, 1], [1, 0]]), AT)
 
@@ -58,7 +58,7 @@ def test_a_long_equation_reads_a_few_values_for_each_derivative(monkeypatch):
     n, made = 40, []
     xs, ps = ([slot(f"{name}{i}") for i in range(n)] for name in "xp")
     residual = sp.Add(*(u * v for u, v in zip(xs, ps, strict=True)))
-    template = Template(residual, tuple(xs), (0,) * n, tuple(ps), (), "stated")
+    template = Template(residual, tuple(xs), (0,) * n, tuple(ps), ())
     at = Point(np.arange(1.0, n + 1), np.arange(n) + 10.0)
     lambdify = sp.lambdify
     monkeypatch.setattr(sp, "lambdify", lambda *given: made.append(given[0]) or lambdify(*given))
@@ -89,8 +89,8 @@ def test_modules_have_a_partial_derivative_other_than_zero():
     [(p * x + y**2, True), (3 * x, True), (x * y, False), (x * time, False), (x**2, False)],
 )
 def test_constant(residual, expected):
-    assert is_constant(Template(residual, (x, y), (0, 0), (p, q), (), "stated"), 0) == expected
-    with_net = Template(ModuleCall(net, sp.Tuple(0), p) * x, (x,), (0,), (p,), (net,), "stated")
+    assert is_constant(Template(residual, (x, y), (0, 0), (p, q), ()), 0) == expected
+    with_net = Template(ModuleCall(net, sp.Tuple(0), p) * x, (x,), (0,), (p,), (net,))
     assert not is_constant(with_net, 0)
 
 

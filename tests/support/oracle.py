@@ -86,7 +86,7 @@ def _by_name(system: ac.System, rest: list[Array]) -> dict[str, float]:
     for group, values in zip(system.flat.groups, rest, strict=True):
         for component, value in zip(group.components.tolist(), np.abs(values), strict=True):
             place = system.flat.layout.paths[component] if component >= 0 else "connection"
-            name = f"{place} ({group.template.origin})"
+            name = f"{place} ({group.origins[0]})"
             found[name] = float(np.max([found.get(name, 0.0), value]))  # NaN wins
     return found
 

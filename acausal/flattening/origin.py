@@ -1,0 +1,67 @@
+"""Origins: where equations are stated, for messages; what an equation is does not depend on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.flattening.leaves_caches import LeavesCaches
+from acausal.flattening.template import slot
+from acausal.modeling import Component, Eq, references
+
+Origins = np.ndarray[Any, np.dtype[np.object_]]
+"""An `Origin` for every instance."""
+
+
+@dataclass(frozen=True, eq=False)
+class Origin(LeavesCaches):
+    """Where an equation is stated, and how its author wrote it: text that is made when a message needs it.
+
+    Attributes:
+        stated: the equation, or a text. owner: a component that states it; None for connections.
+        derivatives: how often it was differentiated since.
+    """
+
+    stated: Eq | str
+    owner: Component | None = None
+    derivatives: int = 0
+
+    @property
+    def cls(self) -> str:
+        """The class that states it."""
+        return "" if self.owner is None else type(self.owner).__name__
+
+    @cached_property
+    def text(self) -> str:
+        """The equation as its author wrote it."""
+        if isinstance(self.stated, str) or self.owner is None:
+            return str(self.stated)
+        return str(_with_names(self.stated, self.owner))
+
+    def __str__(self) -> str:
+        whole = f"{self.cls}: {self.text}" if self.owner else self.text
+        return "derivative of " * self.derivatives + whole
+
+    @cached_property
+    def differentiated(self) -> Origin:
+        """The origin of the equation's derivative."""
+        return replace(self, derivatives=self.derivatives + 1)
+
+    def of(self, instances: int) -> Origins:
+        """The origin of so many instances."""
+        return np.full(instances, self, dtype=np.object_)
+
+
+def _with_names(equation: Eq, owner: Component) -> Eq:
+    """The equation with dotted names for the variables and parameters of parts, also where it says nothing (x = x)."""
+    names: dict[sp.Basic, sp.Basic] = {}
+    for reference in {*references(equation.lhs), *references(equation.rhs)}:
+        if route := reference.owner.route_from(owner._node):
+            names[reference] = slot(".".join((*route, reference.path)))
+    if not names:
+        return equation
+    return Eq(equation.lhs.xreplace(names), equation.rhs.xreplace(names))
