@@ -24,7 +24,7 @@ from rich.table import Table
 import acausal as ac
 from acausal.components import translational as tl
 
-SIZES = {"one": (100, 1000), "numbers": (100, 1000), "laws": (100, 1000)}
+SIZES = {"one": (100, 1000), "numbers": (100, 1000), "laws": (50, 200)}
 """By kind, the numbers of masses."""
 
 Base = tl.PartialCompliantWithRelativeStates
