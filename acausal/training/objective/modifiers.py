@@ -134,10 +134,6 @@ class Shift(_Absolute):
 
     scale: float
 
-    def __post_init__(self) -> None:
-        if not _is_real(self.scale):
-            raise TrainingError(f"Shift({shown(self.scale)}): give a size in the parameter's unit.")
-
     def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``scale · δ``."""
         return self.scale * delta
@@ -155,10 +151,10 @@ class Shift(_Absolute):
         return None
 
     def refusal(self, value: float) -> str | None:
-        """A scale that is not positive and finite."""
-        if 0 < self.scale < np.inf:
+        """A scale that is not a positive and finite number."""
+        if _is_real(self.scale) and 0 < self.scale < np.inf:
             return None
-        return f"The shift of '{{}}' has scale={self.scale}; give a positive size in its unit."
+        return f"The shift of '{{}}' has scale={shown(self.scale)}; give a positive size in its unit."
 
 
 @dataclass(frozen=True)
