@@ -154,7 +154,9 @@ class Shift(_Absolute):
         """A scale that is not a positive and finite number."""
         if _is_real(self.scale) and 0 < self.scale < np.inf:
             return None
-        return f"The shift of '{{}}' has scale={shown(self.scale)}; give a positive size in its unit."
+        return (
+            f"The shift of '{{}}' has scale={shown(self.scale)}; give a positive size in its unit."
+        )
 
 
 @dataclass(frozen=True)
