@@ -47,7 +47,7 @@ def rows(system: ac.System) -> list[tuple[str, str, str, str, str]]:
     """Verb, room, form and its size, and what the suspension's force is in it."""
     flat, reduced, program = system.flat, system.reduced, system.program
     number = flat.layout.find_variable("suspension.f")
-    group = next(g for g in flat.groups if number in g.variables and "c*" in g.template.origin)
+    group = next(g for g in flat.groups if number in g.variables and "c*" in str(g.origins[0]))
     suspension, tyre = group.variables.tolist()
     step = next(i for i in program.instructions if "c*s_rel" in str(getattr(i, "expression", "")))
     return [
