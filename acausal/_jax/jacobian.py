@@ -19,4 +19,4 @@ def value_and_jacobian(
     def push(direction: Float[Array, " P"]) -> tuple[Float[Array, " ..."], Float[Array, " ..."]]:
         return jax.jvp(function, (at,), (direction,))
 
-    return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at)))
+    return jax.vmap(push, out_axes=(None, axis))(jnp.eye(len(at), dtype=at.dtype))

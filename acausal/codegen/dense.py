@@ -8,8 +8,9 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from acausal._jax import value_and_jacobian
 from acausal.codegen.elimination import eliminate
-from acausal.codegen.newton import Dense, Residual, jacobian_and_value, root
+from acausal.codegen.newton import Dense, Residual, root
 
 FEW = 12
 """The most unknowns that are eliminated in array operations; more take XLA too long to compile."""
@@ -26,7 +27,7 @@ def solve_linear(
     origin = jnp.zeros_like(guess)
 
     def solve(residual: Residual, start: Array) -> Array:
-        jacobian, r = jacobian_and_value(residual, start)
+        r, jacobian = value_and_jacobian(residual, start, axis=-1)
         return -_solve(jacobian, r)
 
     return block(jax.lax.custom_root(lambda z: block(z)[1], origin, solve, _tangent))[0]

@@ -6,6 +6,7 @@ They are data: the operation, and where its arguments lie. `acausal.codegen.inte
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -144,6 +145,10 @@ class SolveTornLoop:
         """The residuals for given tearing variables."""
         return tuple(self.equations[row] for row in self.residual_rows)
 
+    def origins_of(self, place: Place) -> Sequence[Origin]:
+        """Where the residuals of an unknown's loop are stated."""
+        return self.origins[place[1]]
+
     def found_with(self, place: Place) -> list[Place]:
         """The values that are computed with this one: all unknowns of its loop."""
         return [(array, place[1]) for array in range(self.outputs)]
@@ -211,11 +216,9 @@ class SolveSparseLoop(LeavesCaches):
         own = {s for f in self.formulas for s in f.arguments.sources}
         return own | set(self.balances.outer.sources)
 
-    @cached_property
-    def origins(self) -> tuple[tuple[Origin, ...]]:
-        """Where the equations are stated, row by row: one loop is one instance."""
-        own = [origin for f in self.formulas for origin in f.origins]
-        return ((*own, *self.balances.origins),)
+    def origins_of(self, place: Place) -> Sequence[Origin]:
+        """Where the equations are stated that an unknown is solved from: all of them."""
+        return [*(origin for f in self.formulas for origin in f.origins), *self.balances.origins]
 
     def found_with(self, place: Place) -> list[Place]:
         """The values that are computed with this one: all unknowns."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, reduce
+from functools import cache
 from typing import Any
 
 import equinox as eqx
@@ -172,24 +172,30 @@ def _power(node: sp.Pow, visit: Visit) -> Any:
 
 
 def _piecewise(node: Any, visit: Visit) -> Any:
-    cases: list[tuple[Any, Any]] = []
-    earlier: list[Any] = []
-    for value, condition in node.args:
-        holds = visit(condition)
-        cases.append((holds, _case(value, holds, earlier, visit)))
-        earlier.append(holds)
+    values = [value for value, _ in node.args]
+    holds = [visit(condition) for _, condition in node.args]
+    firsts = _firsts(holds) if any(map(_is_steep, values)) else holds
+    cases = [_case(value, first, visit) for value, first in zip(values, firsts, strict=True)]
     result: Any = jnp.nan
-    for holds, value in reversed(cases):
-        result = value if holds is True else jnp.where(holds, value, result)
+    for condition, value in zip(reversed(holds), reversed(cases), strict=True):
+        result = value if condition is True else jnp.where(condition, value, result)
     return result
 
 
-def _case(value: Any, holds: Any, earlier: Sequence[Any], visit: Visit) -> Any:
+def _firsts(conditions: Sequence[Any]) -> list[Any]:
+    """Whether each condition is the first that holds."""
+    earlier = conditions[0]
+    found = [earlier]
+    for holds in conditions[1:]:
+        found.append(jnp.logical_and(holds, jnp.logical_not(earlier)))
+        earlier = jnp.logical_or(holds, earlier)
+    return found
+
+
+def _case(value: Any, holds: Any, visit: Visit) -> Any:
     """A case whose gradient counts only where it holds: elsewhere its derivative may be infinite."""
     if not _is_steep(value):
         return visit(value)
-    if earlier:
-        holds = jnp.logical_and(holds, jnp.logical_not(reduce(jnp.logical_or, earlier)))
     read = {s: visit(s) for s in sorted(value.free_symbols, key=str)}
     return evaluate(value, {s: _only_where(holds, v) for s, v in read.items()})
 

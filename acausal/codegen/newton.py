@@ -16,6 +16,8 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
+from acausal._jax import value_and_jacobian
+
 Tolerance = dict[str, float]
 """By precision."""
 TOLERANCE: Tolerance = {"float64": 1e-10, "float32": 1e-5}
@@ -75,7 +77,7 @@ class Dense:
 
     def linearized(self, z: Array) -> tuple[Array, Matrix]:
         """The residuals and their Jacobian, which share their evaluation."""
-        jacobian, r = jax.lax.optimization_barrier(jacobian_and_value(self.residual, z))
+        r, jacobian = jax.lax.optimization_barrier(value_and_jacobian(self.residual, z, axis=-1))
         return r, Matrix(jacobian, self.solve)
 
 
@@ -96,18 +98,6 @@ class Matrix:
         """See `Jacobian`."""
         above = jnp.concatenate([self.values, column[:, None]], axis=1)
         return self.solve(jnp.concatenate([above, row[None]]), jnp.append(r, 0.0))
-
-
-def jacobian_and_value(
-    residual: Residual, z: Float[Array, " m"]
-) -> tuple[Float[Array, "k m"], Float[Array, " k"]]:
-    """The Jacobian of residuals and the residuals, from one evaluation."""
-
-    def doubled(z: Array) -> tuple[Array, Array]:
-        r = residual(z)
-        return r, r
-
-    return jax.jacfwd(doubled, has_aux=True)(z)
 
 
 _State = tuple[Array, Array, Array]

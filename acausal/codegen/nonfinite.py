@@ -53,8 +53,7 @@ def explain_nonfinite(
         if instruction.is_linear:
             return _singular(names)
         nearest = _NEAREST[type(instruction)](instruction, place[1], values, arrays)
-        row = place[1] if isinstance(instruction, SolveTornLoop) else 0
-        return _stopped(names, instruction.origins[row], *nearest)
+        return _stopped(names, instruction.origins_of(place), *nearest)
     return None
 
 

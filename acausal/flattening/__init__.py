@@ -24,4 +24,4 @@ from acausal.flattening.reading import (
 from acausal.flattening.stated import HIDDEN as HIDDEN
 from acausal.flattening.sums import Statement as Statement
 from acausal.flattening.template import Integers as Integers, Template as Template
-from acausal.flattening.templates import FEW as FEW
+from acausal.flattening.templates import FEW_VARIANTS as FEW_VARIANTS

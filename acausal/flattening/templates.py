@@ -42,7 +42,7 @@ SlotSource = tuple[tuple[str, ...], int]
 Number = tuple[type, float]
 """A number's kind, as whole numbers are exact in sympy, and its magnitude."""
 
-FEW = 8
+FEW_VARIANTS = 8
 """Where so many classes state an equation, or it has so many variants that differ in numbers, they stay apart: programs
 of few formulas are compiled and run as they are written."""
 
@@ -172,7 +172,7 @@ class Templates:
         Raises:
             DeclarationError: for an equation that cannot be read.
         """
-        is_lifted = len(self._variants.get(shape.key, ())) > FEW
+        is_lifted = len(self._variants.get(shape.key, ())) > FEW_VARIANTS
         key = shape.key, None if is_lifted else shape.numbers
         if key not in self._known:
             self._known[key] = _read(shape, is_lifted)

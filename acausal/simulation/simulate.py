@@ -113,9 +113,7 @@ def simulate(
     """
     need_compiled(system, "simulate")
     need_double_precision()
-    called = (
-        solver if isinstance(solver, str) else ""
-    )  # an array equals no text, but element by element
+    called = solver if isinstance(solver, str) else ""
     if called != "bdf" and not isinstance(solver, solvers.BDF):
         system = system.watching(traced_names(params))
     check_tolerances(rtol, atol, len(system.states))

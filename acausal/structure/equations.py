@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from acausal.errors import StructureError
-from acausal.flattening import FEW, FlatModel, Integers, Origin, Statement, specialised
+from acausal.flattening import FEW_VARIANTS, FlatModel, Integers, Origin, Statement, specialised
 from acausal.modeling import TEAR_SELECT
 from acausal.structure import graph
 from acausal.structure.aliases import AliasFree
@@ -161,7 +161,9 @@ class Equations:
         pairs = list(zip(map(id, self.template), self.origin, strict=True))
         for template, origin in dict.fromkeys(pairs):
             stating.setdefault(template, []).append(origin)
-        text = {(t, o): str(o) for t, own in stating.items() if len(own) <= FEW for o in own}
+        text = {
+            (t, o): str(o) for t, own in stating.items() if len(own) <= FEW_VARIANTS for o in own
+        }
         return list(map(text.get, pairs))
 
     def describe(self, equation: int) -> str:

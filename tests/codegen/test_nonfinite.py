@@ -3,7 +3,7 @@
 import pytest
 
 import acausal as ac
-from acausal.flattening import FEW
+from acausal.flattening import FEW_VARIANTS
 from tests.support.parts import Equations, model
 
 Eq, der = ac.Eq, ac.der
@@ -28,7 +28,7 @@ class Fold(ac.Component):
 
 def test_of_classes_that_inherit_a_loop_the_one_that_fails_is_named():
     whole = ac.Component()
-    for name in (*(f"Early{i}" for i in range(FEW)), "Late"):
+    for name in (*(f"Early{i}" for i in range(FEW_VARIANTS)), "Late"):
         start = {"x": ac.Start(0.5 * (name == "Late"), fixed=True), "y": ac.Start(1.0)}
         setattr(whole, name.lower(), type(name, (Fold,), {})(**start))
     with pytest.raises(ac.SimulationError, match=r"for 'late\.y'.*leaves 'Late: y\*\*2 = 1"):

@@ -11,7 +11,7 @@ import sympy as sp
 import acausal as ac
 from acausal.flattening.connections import connection_sets
 from acausal.flattening.flat_model import flatten
-from acausal.flattening.templates import FEW
+from acausal.flattening.templates import FEW_VARIANTS
 from acausal.units.check import check_dimensions
 from tests.support.oracle import worst
 from tests.support.parts import (
@@ -105,7 +105,7 @@ def test_classes_that_inherit_equations_share_their_templates_and_are_named_each
     assert one.template is two.template
     assert other.template is another.template
     assert str(another.origins[0]) == "Second: y**2 = 1 - x"
-    classes = {f"a{i}": type(f"Class{i}", (First,), {})() for i in range(FEW + 1)}
+    classes = {f"a{i}": type(f"Class{i}", (First,), {})() for i in range(FEW_VARIANTS + 1)}
     assert len(ac.compile(model(**classes)).program.instructions) == 2
     with pytest.raises(
         ac.ModelError, match=r"^Second: der\(x\) = y/k: division by zero; k is zero there"
@@ -710,13 +710,13 @@ def laws(count):
 
 
 def test_equations_that_differ_in_numbers_alone_are_one_from_so_many_on():
-    few, many = flatten(laws(FEW)), flatten(laws(FEW + 2))
-    assert len({g.template for g in few.groups}) == FEW
+    few, many = flatten(laws(FEW_VARIANTS)), flatten(laws(FEW_VARIANTS + 2))
+    assert len({g.template for g in few.groups}) == FEW_VARIANTS
     assert len(few.value) == few.n_parameters
     assert len({g.template for g in many.groups}) == 1
     assert sorted(many.value[many.n_parameters :]) == [
         0.5,
-        *(1.25 + 0.5 * i for i in range(FEW + 2)),
+        *(1.25 + 0.5 * i for i in range(FEW_VARIANTS + 2)),
     ]
     assert [str(g.origins[0]) for g in many.groups[:1]] == [
         "Law1_25: der(x) = u - 1.25*x + 0.5*tanh(1.25*x**2)"
@@ -724,16 +724,16 @@ def test_equations_that_differ_in_numbers_alone_are_one_from_so_many_on():
 
 
 def test_what_has_constants_runs_and_is_written_as_what_has_numbers():
-    few, many = (ac.compile(laws(n)) for n in (FEW, FEW + 2))
+    few, many = (ac.compile(laws(n)) for n in (FEW_VARIANTS, FEW_VARIANTS + 2))
     assert len(many.program.instructions) == 1 < len(few.program.instructions)
-    assert many.equations[:FEW] == few.equations
-    assert dict(many.parameters()).keys() == {f"a{i}.u" for i in range(FEW + 2)}
-    x = jnp.linspace(0.1, 0.9, FEW)
+    assert many.equations[:FEW_VARIANTS] == few.equations
+    assert dict(many.parameters()).keys() == {f"a{i}.u" for i in range(FEW_VARIANTS + 2)}
+    x = jnp.linspace(0.1, 0.9, FEW_VARIANTS)
     rates = few.vector_field(0.0, x, None, few.pack())
     found = many.vector_field(
         0.0, jnp.append(x, x[:2]), None, many.pack({**many.parameters(), "a1.u": 1.0})
     )
-    np.testing.assert_allclose(found[:FEW], rates, rtol=1e-15)
+    np.testing.assert_allclose(found[:FEW_VARIANTS], rates, rtol=1e-15)
 
 
 def test_units_of_equations_with_constants_are_checked_with_their_numbers():
@@ -744,7 +744,7 @@ def test_units_of_equations_with_constants_are_checked_with_their_numbers():
         declared = {"x": ac.Variable(unit="m"), "y": ac.Variable(unit="m")}
         return type("Wrong", (ac.Component,), {**declared, "equations": equations})
 
-    parts = {f"a{i}": wrong(1.5 + i)() for i in range(FEW + 2)}
+    parts = {f"a{i}": wrong(1.5 + i)() for i in range(FEW_VARIANTS + 2)}
     with pytest.raises(ac.UnitError, match=r"Wrong 'a0'.*1\.5\*x\*y"):
         check_dimensions(flatten(model(**parts)))
 
