@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -114,6 +114,11 @@ class Events(LeavesCaches):
         return np.concatenate(
             [np.zeros(0, bool), *(np.full(g.formula.size, g.ticks) for g in self.guards)]
         )
+
+    @cached_property
+    def clocks(self) -> Events:
+        """These with the conditions of clocks alone."""
+        return replace(self, guards=tuple(guard for guard in self.guards if guard.ticks))
 
     def sources(self, formulas: Sequence[Formula], *, previous: bool) -> set[int]:
         """The arrays that some formulas read, now or before the event."""

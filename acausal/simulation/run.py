@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
 from acausal._jax import traced
-from acausal.codegen import Values, guards
+from acausal.codegen import Events, Values, guards
 from acausal.errors import SimulationError
 from acausal.initialization import COINCIDE
 from acausal.simulation.finite import explain_ahead
@@ -82,13 +82,14 @@ class Run(NamedTuple):
         events, at = self.system.events, self.start
         if events is None or at.d is None or not events.ticks.any() or traced(at):
             return
-        period = guards(events, at) - guards(events, at._replace(d=at.d + 1))
+        period = np.asarray(_periods(events.clocks, at))
         longest = max(abs(self.begin), abs(self.end), self.end - self.begin)
-        fast = events.ticks & (np.asarray(period) < APART * longest)
+        fast = period < APART * longest
         if fast.any():
             i = int(np.argmax(fast))
+            clock = events.describe(int(np.flatnonzero(events.ticks)[i]))
             raise SimulationError(
-                f"'{events.describe(i)}' ticks every {float(period[i]):.3g} s, which times up to {longest:g} s cannot "
+                f"'{clock}' ticks every {float(period[i]):.3g} s, which times up to {longest:g} s cannot "
                 f"tell apart: give a period of {APART * longest:.3g} s or more, or a shorter span of time."
             )
 
@@ -163,6 +164,13 @@ class Run(NamedTuple):
 
         reason = explain_ahead(self.system, later, at, ahead)
         return "" if reason is None else f" There {reason}"
+
+
+@eqx.filter_jit
+def _periods(clocks: Events, at: Values) -> Float[Array, " n_clocks"]:
+    """How long after a tick each clock ticks again."""
+    assert at.d is not None
+    return guards(clocks, at) - guards(clocks, at._replace(d=at.d + 1))
 
 
 @eqx.filter_jit
