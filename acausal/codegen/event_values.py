@@ -20,15 +20,24 @@ from acausal.codegen.values import Values
 from acausal.modeling import INITIAL, time
 
 
-def guards(events: Events, now: Values, before: Values | None = None) -> Float[Array, " n_guards"]:
+def guards(
+    events: Events, now: Values, before: Values | None = None, *, timed: bool = False
+) -> Float[Array, " n_guards"]:
     """The numbers that are positive where a condition holds.
 
     Arguments:
         now: the values. before: those before the event; between events the same.
+        timed: only those of conditions whose time is known, which need no equation of the model; zero for the others.
     """
-    formulas = events.guard_formulas
-    arrays, earlier = _arrays(events, formulas, now, now if before is None else before)
-    return _joined([_value(events, f, now, arrays, earlier, 0.0) for f in formulas], now)
+    wanted = [g.formula for g in events.guards if g.timed or not timed]
+    arrays, earlier = _arrays(events, wanted, now, now if before is None else before)
+    numbers = [
+        _value(events, g.formula, now, arrays, earlier, 0.0)
+        if g.timed or not timed
+        else jnp.zeros(g.formula.size, now.x.dtype)
+        for g in events.guards
+    ]
+    return jnp.concatenate([jnp.zeros(0, now.x.dtype), *numbers])
 
 
 def holds(events: Events, values: Float[Array, " n_guards"]) -> Bool[Array, " n_guards"]:
@@ -49,7 +58,9 @@ class Due(NamedTuple):
 
 def due(events: Events, now: Values) -> Due:
     """When conditions change whose time is known."""
-    at_zero, at_one = (guards(events, now._replace(t=jnp.full_like(now.t, t))) for t in (0.0, 1.0))
+    at_zero, at_one = (
+        guards(events, now._replace(t=jnp.full_like(now.t, t)), timed=True) for t in (0.0, 1.0)
+    )
     rate = jnp.where(events.timed, at_one - at_zero, 1.0)
     known = events.timed & (
         rate != 0
@@ -124,7 +135,3 @@ def _value(
         filled[symbol] = chosen_module(now.packed, chosen)
     value = jnp.asarray(evaluate(formula.expression, filled), now.x.dtype)
     return jnp.broadcast_to(value, (formula.size,))
-
-
-def _joined(values: Sequence[Array], now: Values) -> Array:
-    return jnp.concatenate([jnp.zeros(0, now.x.dtype), *values])

@@ -217,7 +217,8 @@ def settle(
         g = guards(events, at, before)
         if events.timed.any():  # one whose time comes with the event is what it is just behind it
             behind = jnp.asarray(at.t) + COINCIDE * jnp.abs(at.t)
-            g = jnp.where(events.timed, guards(events, at._replace(t=behind), before), g)
+            there = guards(events, at._replace(t=behind), before, timed=True)
+            g = jnp.where(events.timed, there, g)
         as_decreed = (jnp.abs(g) <= band) & (k < DECREED)
         r = jnp.where(as_decreed, decreed, holds(events, g).astype(d.dtype))
         r = jnp.where(events.ticks & (jnp.asarray(initial) > 0), 0, r)

@@ -195,13 +195,8 @@ def land(
             end = reach(method, problem, row, row.t, row.x, row.d, is_event=True)
         in_turn = follow_in_turn if forward and problem.watched.n_guards > 1 else None
         t, after = follow(problem, row, end, row.d, in_turn)
-        behind = problem.held(after.d)
-        if problem.field.has_edges:
-            behind = behind.sided(t, jnp.full_like(t, jnp.inf))
-        begun, cost = method.begin(behind, t, after.x)
-        begun = method.resumed(begun, made.memory)
         there = (end.dense, end.h) if forward else None
-        return Landing(t, after.x, begun, cost, after.d, after.settled, there)
+        return plain._replace(t=t, x=after.x, d=after.d, settled=after.settled, within=there)
 
     def goes_on() -> Landing:
         shorter = memory._replace(
@@ -212,22 +207,21 @@ def land(
         stays = seen.hunt.active | seen.doubted
         kept = jax.tree.map(lambda a, b: jnp.where(stays, a, b), shorter, made.memory)
         within = (made.dense, h) if forward else None
-        cost = plain.cost
+        return plain._replace(memory=kept, d=row.d, settled=jnp.array(True), within=within)
+
+    landing, begins = cond_any(happens, event, goes_on), happens
+    if problem.field.has_edges:
+        begins = begins | (seen.ok & (row.kind == EDGE))
+
+    def begun() -> tuple[Any, Counts]:
+        behind = problem.held(landing.d)
         if problem.field.has_edges:
-            there = problem.held(row.d)
-            behind = there.sided(plain.t, jnp.full_like(plain.t, jnp.inf))
+            behind = behind.sided(landing.t, jnp.full_like(landing.t, jnp.inf))
+        first, cost = method.begin(behind, landing.t, landing.x)
+        return method.resumed(first, landing.memory), cost
 
-            def renewed() -> tuple[Any, Counts]:
-                begun, cost = method.begin(behind, plain.t, plain.x)
-                return method.resumed(begun, kept), cost
-
-            at_edge = seen.ok & (row.kind == EDGE)
-            kept, cost = lax.cond(at_edge, renewed, lambda: (kept, Counts.of()))
-        return plain._replace(
-            memory=kept, cost=cost, d=row.d, settled=jnp.array(True), within=within
-        )
-
-    return cond_any(happens, event, goes_on)
+    kept, cost = cond_any(begins, begun, lambda: (landing.memory, landing.cost))
+    return landing._replace(memory=kept, cost=cost)
 
 
 def after(
