@@ -14,8 +14,11 @@ from typing import Any
 import numpy as np
 
 from acausal.codegen.gather import Gather, gather
-from acausal.codegen.instructions import Instruction
+from acausal.codegen.instructions import Accumulate, Evaluate, Instruction
 from acausal.flattening import Integers, LeavesCaches
+
+FEW = 12
+"""Instructions at most of rates that are compiled in no time."""
 
 STATES, INPUTS, ZERO, DISCRETE = 0, 1, 2, 3
 """The first arrays of every program."""
@@ -85,6 +88,13 @@ class Program(LeavesCaches):
                 active.append(i)
                 wanted.update(instruction.sources)
         return active[::-1]
+
+    @cached_property
+    def is_long(self) -> bool:
+        """Whether XLA takes long for the rates: they are of many instructions, or there are loops to solve."""
+        some = [self.instructions[i] for i in self.needed(self.rate_sources)]
+        simple = all(isinstance(one, Evaluate | Accumulate) for one in some)
+        return len(some) > FEW or not simple
 
     @cached_property
     def filled_by(self) -> dict[int, int]:

@@ -90,8 +90,8 @@ class _Going(NamedTuple):
     rounds: Array
 
 
-Rates = Callable[[Array, Array], Array]
-"""How fast the numbers of `guards` grow, for states and discrete variables."""
+Rates = Callable[[Array, Array], tuple[Array, Array]]
+"""The numbers of `guards`, and how fast they grow, for states and discrete variables."""
 
 
 def happen(
@@ -182,11 +182,8 @@ def _round(
     done = jnp.all(_same(found, going.d_before))
     decreed, turned = going.decreed, going.turned
     if rates is not None and events.n_guards:
-        again = without_derivatives(at._replace(x=x, d=found))
-        looked = done & ~turned
-        decreed = lax.cond(
-            looked, partial(_turned, events, again, band, decreed, rates), lambda: decreed
-        )
+        look = partial(_turned, events, band, decreed, rates, *without_derivatives((x, found)))
+        decreed = lax.cond(done & ~turned, look, lambda: decreed)
         turned = turned | done
         done = done & jnp.all(decreed == going.decreed)
     return _Going(x, d, x, d, decreed, turned, done, settled, going.rounds + 1), this
@@ -242,15 +239,10 @@ def settle(
 
 
 def _turned(
-    events: Events,
-    now: Values,
-    band: Array,
-    decreed: Array,
-    rates: Rates,
+    events: Events, band: Array, decreed: Array, rates: Rates, x: Array, d: Array
 ) -> Array:
     """What conditions within their band are just behind the event: what their rates say."""
-    assert now.d is not None
-    number, rate = guards(events, now), lax.stop_gradient(rates(now.x, now.d))
+    number, rate = lax.stop_gradient(rates(x, d))
     at_zero = (jnp.abs(number) <= band) & (rate != 0) & jnp.isfinite(rate) & ~events.timed
     return jnp.where(at_zero, (rate > 0).astype(decreed.dtype), decreed)
 

@@ -184,15 +184,13 @@ class BDF(eqx.Module):
         error = jnp.where(newton.done, error, jnp.inf)
         inside = _fixed(Dense(jnp.concatenate([x[None], m.states]), _with_end(s), q))
 
-        def defects() -> Array:
-            sizes: list[Array] = []
-            fixed, begin, length, found = _fixed((matrix, t, h, x))
-            for share in INSIDE:  # solved with the matrix, as fast modes would count else
-                _, r = defect(self, problem, inside, begin, length, share)
-                sizes.append(problem.size(self.matrix.solve(fixed, r), x_before, found))
-            return jnp.max(jnp.stack(sizes))
+        fixed, begin, length, found = _fixed((matrix, t, h, x))
 
-        look = look_inside(problem, error, defects, OF_DEFECT)
+        def size(share: Any) -> Array:  # solved with the matrix, as fast modes would count else
+            _, r = defect(self, problem, inside, begin, length, share)
+            return problem.size(self.matrix.solve(fixed, r), x_before, found)
+
+        look = look_inside(problem, error, INSIDE, size, OF_DEFECT)
         looked = (error < 1) & (look.error >= 1)
         error, accepted = look.error, look.error < 1
         if self.tangents:

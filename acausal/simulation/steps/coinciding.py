@@ -34,8 +34,13 @@ class Turn(NamedTuple):
     waits: Bool[Array, " n_guards"]
 
     def rates(self, rates: Rates) -> Rates:
-        """How fast the numbers of conditions grow; zero for those that wait, whatever becomes of them."""
-        return lambda x, d: jnp.where(self.waits, 0.0, rates(x, d))
+        """The numbers of conditions, and how fast they grow: zero for those that wait, whatever becomes of them."""
+
+        def masked(x: Array, d: Array) -> tuple[Array, Array]:
+            number, rate = rates(x, d)
+            return number, jnp.where(self.waits, 0.0, rate)
+
+        return masked
 
 
 def count(row: Row) -> Int[Array, ""]:

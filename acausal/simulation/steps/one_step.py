@@ -91,22 +91,33 @@ class Look(NamedTuple):
 
 
 def look_inside(
-    problem: Problem, error: Array, defects: Callable[[], Array], weight: float
+    problem: Problem,
+    error: Array,
+    points: tuple[float, ...],
+    size: Callable[[Any], Array],
+    weight: float,
 ) -> Look:
     """Look at more points of a step whose error is small, or in which the right-hand side may bend.
 
     Arguments:
-        error: of the step, over what is allowed. defects: the largest at the points, over the same.
+        error: of the step, over what is allowed.
+        points: shares of the step. size: the defect at one, over what is allowed.
         weight: what a defect counts as an error.
     """
     looks = error < (1.0 if problem.field.bends else SMALL)
-    found = lax.cond(looks, defects, lambda: jnp.zeros_like(error))
+
+    def largest() -> Array:
+        if problem.field.is_long:
+            return jnp.max(lax.map(size, jnp.asarray(points, error.dtype)))
+        return jnp.max(jnp.stack([size(share) for share in points]))
+
+    found = lax.cond(looks, largest, lambda: jnp.zeros_like(error))
     found = weight * jnp.where(jnp.isfinite(found), found, jnp.inf)
-    return Look(jnp.maximum(error, found), len(INSIDE) * looks.astype(jnp.int32))
+    return Look(jnp.maximum(error, found), len(points) * looks.astype(jnp.int32))
 
 
 def defect(
-    method: Any, problem: Problem, dense: Any, t: Array, h: Array, share: float
+    method: Any, problem: Problem, dense: Any, t: Array, h: Array, share: Any
 ) -> tuple[Array, State]:
     """A time within a step, and how far its interpolation is there from the equations, times the step's length."""
     at = t + share * h
@@ -190,13 +201,10 @@ class OneStep(eqx.Module):
         """The error with what the right-hand side is at two more points."""
         fixed, dense, t, h, x, end = without_derivatives((problem, made.dense, t, h, x, made.x))
 
-        def defects() -> Array:
-            sizes = [
-                fixed.size(defect(self, fixed, dense, t, h, share)[1], x, end) for share in INSIDE
-            ]
-            return jnp.max(jnp.stack(sizes))
+        def size(share: Any) -> Array:
+            return fixed.size(defect(self, fixed, dense, t, h, share)[1], x, end)
 
-        return look_inside(problem, error, defects, OF_DEFECT)
+        return look_inside(problem, error, INSIDE, size, OF_DEFECT)
 
     def between(self, dense: dict[str, Any], t: Array, h: Array, at: Array) -> State:
         """The state at a time within a step from t of length h."""

@@ -86,6 +86,11 @@ class Clock(eqx.Module):
         return bool(self.system.edges) or self.steps.parts is not None
 
     @property
+    def is_long(self) -> bool:
+        """Whether it takes long to compile."""
+        return self.system.program.is_long
+
+    @property
     def bends(self) -> bool:
         """Whether it jumps or bends somewhere that depends on states or inputs."""
         return self.system.edges.bends

@@ -38,6 +38,11 @@ class RightHandSide(Protocol):
         """Whether it jumps or bends somewhere that depends on states or inputs."""
         ...
 
+    @property
+    def is_long(self) -> bool:
+        """Whether it takes long to compile: then there is one copy of it in a step, in a loop over the stages."""
+        ...
+
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """What is known of the time to come, as of `Edges.ahead`."""
         ...
@@ -77,6 +82,11 @@ class Sided(eqx.Module):
     def bends(self) -> bool:
         """As the whole."""
         return self.field.bends
+
+    @property
+    def is_long(self) -> bool:
+        """As the whole."""
+        return self.field.is_long
 
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """As the whole."""

@@ -12,7 +12,7 @@ from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
 from acausal.codegen import Values, due, guards
-from acausal.initialization import After, happen
+from acausal.initialization import After, Rates, happen
 from acausal.simulation.steps.problem import Problem
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
@@ -162,15 +162,18 @@ def values_at(problem: Problem, t: Array, x: Array, d: Array) -> Values:
     return problem.held(d).field.at(t).values(x)
 
 
-def rates_at(problem: Problem, t: Array) -> Callable[[Array, Array], Array]:
-    """How fast the conditions' numbers grow at a time, for states and discrete variables; without derivatives."""
+def rates_at(problem: Problem, t: Array) -> Rates:
+    """The conditions' numbers at a time, and how fast they grow, for states and discrete variables.
+
+    Without derivatives.
+    """
     problem, t = without_derivatives((problem, t))
     events = problem.watched
 
-    def rates(x: Array, d: Array) -> Array:
+    def rates(x: Array, d: Array) -> tuple[Array, Array]:
         field = problem.held(d).field
         number = lambda t, x: guards(events, field.at(t).values(x))  # noqa: E731
-        return jax.jvp(number, (t, x), (jnp.ones_like(t), field(t, x)))[1]
+        return jax.jvp(number, (t, x), (jnp.ones_like(t), field(t, x)))
 
     return rates
 

@@ -1,7 +1,9 @@
-"""Explicit Runge–Kutta schemes: their steps written out from the tableau, and made in reverse stage by stage."""
+"""Explicit Runge–Kutta schemes: their steps from the tableau, and in reverse."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import jax
@@ -14,7 +16,7 @@ from acausal.simulation.steps.one_step import Made, OneStep, State
 from acausal.simulation.steps.problem import Counts, RightHandSide
 
 MANY = 256
-"""States from which on a step is made in reverse stage by stage.
+"""States from which on a step is made in reverse stage by stage, as it is where the right-hand side is long.
 
 XLA compiles the loop of a small model as a whole if all stages are written out, which can be eight times faster.
 """
@@ -28,14 +30,11 @@ class Explicit(OneStep):
         return f
 
     def make(self, field: RightHandSide, t: Array, h: Array, x: State, first: State) -> Made:
-        """One step, its stages written out."""
+        """One step."""
         tableau = self.solver.tableau
-        stages, inner = [first], x
-        for row, fraction in zip(tableau.a_lower, tableau.c, strict=True):
-            inner = _sum(x, h, row, stages)
-            stages.append(field(t + float(fraction) * h, inner))
+        stages = self._stages(field, t, h, x, first)
         if tableau.fsal:
-            end, last = inner, stages[-1]
+            end, last = _sum(x, h, tableau.a_lower[-1], stages), stages[-1]
         else:
             end = _sum(x, h, tableau.b_sol, stages)
             last = field(t + h, end)
@@ -46,6 +45,35 @@ class Explicit(OneStep):
         done = jnp.array(True)
         fastest = self._fastest(x, h, stages, end)
         return Made(end, error, {"y0": x, "y1": end, "k": k}, last, done, fastest, counts)
+
+    def _stages(
+        self, field: RightHandSide, t: Array, h: Array, x: State, first: State
+    ) -> list[State]:
+        """The derivatives of all stages: in a loop where the right-hand side is long, else written out."""
+        if field.is_long:
+            c = self._tableau(h.dtype)[2]
+            known = jnp.zeros((len(c), *x.shape), x.dtype).at[0].set(first)
+            return list(self._loop(lambda i, inner: field(t + c[i] * h, inner), h, x, known, 1))
+        tableau, stages = self.solver.tableau, [first]
+        for row, fraction in zip(tableau.a_lower, tableau.c, strict=True):
+            stages.append(field(t + float(fraction) * h, _sum(x, h, row, stages)))
+        return stages
+
+    def _loop(
+        self,
+        rates: Callable[[Array, State], State],
+        h: Array,
+        x: State,
+        stages: Float[Array, "n_stages n_states"],
+        begin: int,
+    ) -> Float[Array, "n_stages n_states"]:
+        """The derivatives of the stages from one on, by stage and state; those before it are known."""
+        a = self._tableau(h.dtype)[0]
+
+        def one(i: Array, stages: Array) -> Array:
+            return stages.at[i].set(rates(i, x + h * (a[i] @ stages)))
+
+        return lax.fori_loop(begin, len(a), one, stages)
 
     def back(
         self,
@@ -63,7 +91,7 @@ class Explicit(OneStep):
         them again for each. Of stage i, at the state ``x + h sum a_ij k_j``, the cotangent is ``b_i`` of the end's
         and ``a_ji`` of what each later one has handed on.
         """
-        if begin.size < MANY:
+        if begin.size < MANY and not of_moved(own)[1].field.is_long:
             return super().back(of_moved, own, row, begin, adjoint, to_saved, which)
         a, b, c = self._tableau(row.h.dtype)
         t, h, n = row.t, row.h, len(c)
@@ -73,22 +101,16 @@ class Explicit(OneStep):
         def rates(i: Array, own: list[Array], x: State) -> State:
             return of_moved(own)[1].field(t + c[i] * h, x)
 
-        def inner(i: Array, stages: Array) -> State:
-            return begin + h * (a[i] @ stages)
-
-        def forth(i: Array, stages: Array) -> Array:
-            return stages.at[i].set(rates(i, own, inner(i, stages)))
-
         def reverse(carry: tuple[Array, Array, list[Array]]) -> tuple[Array, Array, list[Array]]:
             i, handed, totals = carry
             to_stage = h * (b[i] * to_end + a[:, i] @ handed + dense["k"][i])
-            pull = jax.vjp(lambda own, x: rates(i, own, x), own, inner(i, stages))[1]
+            pull = jax.vjp(partial(rates, i), own, begin + h * (a[i] @ stages))[1]
             by_own, by_x = pull(to_stage)
             totals = [total + own for total, own in zip(totals, by_own, strict=True)]
             return i - 1, handed.at[i].set(by_x), totals
 
         nothing = jnp.zeros((n, *begin.shape), begin.dtype)
-        stages = lax.fori_loop(0, n - 1, forth, nothing)
+        stages = self._loop(lambda i, inner: rates(i, own, inner), h, begin, nothing, 0)
         unseen = (which[0] >= which[1]) & (b[-1] == 0)  # the last stage, where nothing is saved
         state = n - 1 - unseen, nothing, [jnp.zeros_like(v) for v in own]
         _, handed, totals = lax.while_loop(lambda s: s[0] >= 0, reverse, state)

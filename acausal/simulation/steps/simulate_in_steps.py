@@ -53,6 +53,11 @@ class ModelField(eqx.Module):
         """Whether it jumps or bends somewhere that depends on states or inputs."""
         return self.system.edges.bends
 
+    @property
+    def is_long(self) -> bool:
+        """Whether it takes long to compile."""
+        return self.system.program.is_long
+
     def ahead(self, t: Array, apart: Array) -> Ahead:
         """The next of these times."""
         return self.system.edges.ahead(self.packed, t, apart, self.d)
