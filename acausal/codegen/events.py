@@ -80,6 +80,7 @@ class Events(LeavesCaches):
         program: of the model. layout: of its parameters.
         guards: the conditions. updates: the discrete variables, those that others read first. jumps: of states.
         exact: which discrete variables are whole numbers or truth values, shape (n_discrete,).
+        resets: which conditions read a state that jumps when they come true, shape (n_guards,).
     """
 
     program: Program
@@ -88,6 +89,7 @@ class Events(LeavesCaches):
     updates: tuple[Formula, ...]
     jumps: tuple[Formula, ...]
     exact: np.ndarray
+    resets: np.ndarray
 
     @cached_property
     def n_guards(self) -> int:
@@ -177,8 +179,31 @@ class _Generator:
             self._formula(g, np.arange(len(g.targets)), self.state) for g in model.events.jumps
         ]
         return Events(
-            self.program, self.layout, tuple(guards), tuple(updates), tuple(jumps), self._exact()
+            self.program,
+            self.layout,
+            tuple(guards),
+            tuple(updates),
+            tuple(jumps),
+            self._exact(),
+            self._resets(),
         )
+
+    def _resets(self) -> np.ndarray:
+        """Which conditions read a state that jumps when they come true."""
+        model = self.reduced.model
+        jumps = {
+            (int(self.state[self.reduced.resolve(int(target))[0]]), int(self.place[node]))
+            for group in model.events.jumps
+            for target, row in zip(group.targets, group.group.variables, strict=True)
+            for node, _ in map(self.reduced.resolve, row.tolist())
+        }
+        reads: list[list[int]] = []
+        for group in model.events.guards:
+            now = np.equal(group.group.template.orders, 0) & ~np.asarray(group.previous, bool)
+            reads += group.group.variables[:, now].tolist()
+        places = [[int(self.state[self.reduced.resolve(v)[0]]) for v in row] for row in reads]
+        found = [any((p, i) in jumps for p in row) for i, row in enumerate(places)]
+        return np.array(found, dtype=bool)
 
     def _exact(self) -> np.ndarray:
         model = self.reduced.model

@@ -76,13 +76,14 @@ class Round(NamedTuple):
 class _Going(NamedTuple):
     """How far an event has come.
 
-    ``decreed`` is what conditions are within their band; ``turned``: whether that was looked at again.
+    ``decreed`` is what conditions are within their ``band``; ``turned``: whether that was looked at again.
     """
 
     x: Array
     d: Array
     x_before: Array
     d_before: Array
+    band: Array
     decreed: Array
     turned: Array
     done: Array
@@ -113,7 +114,7 @@ def happen(
         decreed: what they change to, if that is not the opposite of what they are.
     """
     start = _start(events, at, band, decreed)
-    one = partial(_round, events, at, band, rates)
+    one = partial(_round, events, at, rates)
     end = lax.while_loop(_goes_on, lambda g: one(g)[0], start)
     return After(end.x, end.d, end.settled & end.done)
 
@@ -136,7 +137,7 @@ def rounds_of(
 
     def one(state: tuple[_Going, Round]) -> tuple[_Going, Round]:
         going, rounds = state
-        after, this = _round(events, at, band, rates, going)
+        after, this = _round(events, at, rates, going)
         return after, jax.tree.map(lambda a, v: a.at[going.rounds].set(v), rounds, this)
 
     end, rounds = lax.while_loop(lambda s: _goes_on(s[0]), one, (start, room))
@@ -163,30 +164,33 @@ def _start(events: Events, at: Values, band: Array, decreed: Array | None) -> _G
     if decreed is None:
         decreed = jnp.where(band >= 0, 1 - d[:n], d[:n])
     no, yes = jnp.array(False), jnp.array(True)
-    return _Going(at.x, d, at.x, d, decreed, no, no, yes, jnp.asarray(0))
+    return _Going(at.x, d, at.x, d, band, decreed, no, no, yes, jnp.asarray(0))
 
 
 def _goes_on(going: _Going) -> Array:
     return ~going.done & going.settled & (going.rounds < ROUNDS)
 
 
-def _round(
-    events: Events, at: Values, band: Array, rates: Rates | None, going: _Going
-) -> tuple[_Going, Round]:
-    """One more round."""
+def _round(events: Events, at: Values, rates: Rates | None, going: _Going) -> tuple[_Going, Round]:
+    """One more round.
+
+    A condition that has come true and set what it reads is what its number says from then on.
+    """
     now = at._replace(x=going.x, d=going.d)
     before = at._replace(x=going.x_before, d=going.d_before)
-    found, settled = settle(events, now, before, band, going.decreed)
+    found, settled = settle(events, now, before, going.band, going.decreed)
     this = Round(going.x, going.x_before, going.d_before, found)
     x, d = after_round(events, at, this)
     done = jnp.all(_same(found, going.d_before))
-    decreed, turned = going.decreed, going.turned
-    if rates is not None and events.n_guards:
+    n, decreed, turned = events.n_guards, going.decreed, going.turned
+    has_set = events.resets & (found[:n] > 0.5) & (going.d_before[:n] < 0.5)
+    band = jnp.where(has_set, -1.0, going.band)
+    if rates is not None and n:
         look = partial(_turned, events, band, decreed, rates, *without_derivatives((x, found)))
         decreed = lax.cond(done & ~turned, look, lambda: decreed)
         turned = turned | done
         done = done & jnp.all(decreed == going.decreed)
-    return _Going(x, d, x, d, decreed, turned, done, settled, going.rounds + 1), this
+    return _Going(x, d, x, d, band, decreed, turned, done, settled, going.rounds + 1), this
 
 
 def settle(
@@ -238,9 +242,7 @@ def settle(
     return lax.stop_gradient(d), same
 
 
-def _turned(
-    events: Events, band: Array, decreed: Array, rates: Rates, x: Array, d: Array
-) -> Array:
+def _turned(events: Events, band: Array, decreed: Array, rates: Rates, x: Array, d: Array) -> Array:
     """What conditions within their band are just behind the event: what their rates say."""
     number, rate = lax.stop_gradient(rates(x, d))
     at_zero = (jnp.abs(number) <= band) & (rate != 0) & jnp.isfinite(rate) & ~events.timed

@@ -15,6 +15,7 @@ import pytest
 import acausal as ac
 from acausal.components import rotational as rot
 from acausal.export.c_text import event_lines
+from tests.simulation.steps.test_chattering import Level
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy
 from tests.support.hybrid import Ball, Sampled, Step, Thermostat, ball_height
@@ -125,8 +126,10 @@ def test_a_discrete_variable_is_an_output(tmp_path: Path) -> None:
     assert height == pytest.approx(ball_height(1.0, 0.8, 2.5), abs=1e-9)
 
 
-def test_a_model_that_bounces_for_ever_is_named(tmp_path: Path) -> None:
-    model = ExportedC(CASES["ball"].system, tmp_path)
+@pytest.mark.parametrize("name", ["ball", "level"])
+def test_a_model_that_bounces_for_ever_is_named(name: str, tmp_path: Path) -> None:
+    system = CASES["ball"].system if name == "ball" else ac.compile(Level(to=0.0))
+    model = ExportedC(system, tmp_path)
     assert model.call("begin") == 0
     status = [model.step(0.5) for _ in range(10)]
     crowded = int(model.header.split("_CROWDED = ")[1].split()[0])

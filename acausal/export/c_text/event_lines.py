@@ -82,6 +82,8 @@ static NAME_status happen(NAME *m, const real t, const real *u, const real *alon
         int done = equal(m->d, m->e.d_before, DISCRETE);
         jumped(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.next_x);
         copy(m->e.next_x, m->x, STATES);
+        for (int i = 0; i < GUARDS; i++) /* it has set what it reads: its number counts from now on */
+            if (resets[i] && m->d[i] > R(0.5) && m->e.d_before[i] < R(0.5)) m->e.band[i] = -1;
         if (done && !turned) {
             turned = 1;
             done = !turn(m, t, u, along_u);
@@ -425,6 +427,7 @@ def event_tables(events: Events) -> Iterator[str]:
     for name, values in (
         ("strict", events.strict),
         ("timed", events.timed),
+        ("resets", events.resets),
         ("ticks", events.ticks),
     ):
         yield from _flags(name, values)

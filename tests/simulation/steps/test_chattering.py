@@ -60,3 +60,34 @@ def test_a_trapezoid_without_a_ramp_stays_within_its_amplitude(ramps: dict[str, 
     assert np.max(np.abs(run["s.y"])) <= 1
     area = shape["width"] + (shape["rising"] + shape["falling"]) / 2
     np.testing.assert_allclose(run["i.y"][-1], 3 * area, rtol=1e-6)
+
+
+class Level(ac.Component):
+    """A level that falls, and is set when it is below zero: to the threshold itself, it goes on falling."""
+
+    h = ac.Variable(start=1.0, fixed=True)
+    to = ac.Parameter(0.0)
+
+    def equations(self) -> Any:
+        yield ac.Eq(ac.der(self.h), -1)
+        yield ac.When(self.h < 0, ac.Reinit(self.h, self.to))
+
+
+@pytest.mark.parametrize("options", [{}, {"dt": 0.01}], ids=["adaptive", "fixed"])
+@pytest.mark.parametrize("to", [0.0, 1e-12])
+def test_a_state_that_is_set_to_its_own_threshold_has_events_without_end(
+    level: ac.System, to: float, options: dict[str, float]
+) -> None:
+    with pytest.raises(ac.SimulationError, match=r"events follow each other .*\(h < 0\)"):
+        ac.simulate(level, 2.0, params={"to": to}, **options)
+
+
+def test_a_state_that_is_set_beyond_its_threshold_goes_on(level: ac.System) -> None:
+    run = ac.simulate(level, 2.0, params={"to": 0.3})
+    np.testing.assert_allclose([e.t for e in run.events], [1.0, 1.3, 1.6, 1.9], rtol=1e-9)
+    np.testing.assert_allclose(run["h"][-1], 0.2, rtol=1e-8)
+
+
+@pytest.fixture(scope="module")
+def level() -> ac.System:
+    return ac.compile(Level(to=0.0))
