@@ -103,6 +103,8 @@ from .training import (
     Huber as Huber,
     Lag as Lag,
     Likelihood as Likelihood,
+    Prediction as Prediction,
+    Predictions as Predictions,
     Profile as Profile,
     RecordFit as RecordFit,
     Shift as Shift,
