@@ -213,6 +213,13 @@ def test_states_and_a_parameter_of_a_pendulum_are_found_with_default_arguments(m
     assert found["w"].shape == (501,)
 
 
+def test_fitted_noise_is_more_likely_than_the_default():
+    given = {"dt": H, "states": GIVEN["states"], "sensors": ["mass.s"]}
+    fitted, default = (ac.estimate(plain(), record(), noise=n, **given) for n in ("fit", None))
+    assert float(fitted.log_likelihood) > float(default.log_likelihood)
+    assert float(fitted.sensors["mass.s"]) == pytest.approx(R, rel=0.5)
+
+
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
