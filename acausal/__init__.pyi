@@ -2,11 +2,15 @@ from . import export as export, networks as networks
 from ._jax import use_compilation_cache as use_compilation_cache
 from .analysis import (
     Distilled as Distilled,
+    Estimation as Estimation,
     Formula as Formula,
     Linearization as Linearization,
+    Observer as Observer,
     OperatingPoint as OperatingPoint,
     distill as distill,
+    estimate as estimate,
     linearize as linearize,
+    observer as observer,
     operating_point as operating_point,
 )
 from .data import (
@@ -103,6 +107,8 @@ from .training import (
     Huber as Huber,
     Lag as Lag,
     Likelihood as Likelihood,
+    Prediction as Prediction,
+    Predictions as Predictions,
     Profile as Profile,
     RecordFit as RecordFit,
     Shift as Shift,

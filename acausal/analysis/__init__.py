@@ -1,10 +1,12 @@
 """Analyse: properties of a compiled model or a learned law.
 
-In: a `System` or a network. Out: a linearization, a formula, names.
-It knows nothing of simulation or training.
+In: a `System`, a network or a record. Out: a linearization, a formula, estimated states.
+It calls simulation for steps; it knows nothing of training.
 """
 
 from acausal.analysis.distillation import Distilled as Distilled, distill as distill
+from acausal.analysis.estimate import estimate as estimate
+from acausal.analysis.estimation import Estimation as Estimation
 from acausal.analysis.formula import Formula as Formula
 from acausal.analysis.linearization import Linearization as Linearization, linearize as linearize
 from acausal.analysis.module_calls import (
@@ -15,6 +17,7 @@ from acausal.analysis.module_calls import (
     labels as labels,
     target as target,
 )
+from acausal.analysis.observer import Observer as Observer, observer as observer
 from acausal.analysis.operating_point import (
     OperatingPoint as OperatingPoint,
     operating_point as operating_point,

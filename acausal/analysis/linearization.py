@@ -11,10 +11,11 @@ import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Complex, Float, Inexact
-from scipy.linalg import expm
+from scipy.linalg import expm, solve_continuous_are
 
 from acausal._jax import check_time, is_real
 from acausal.analysis.operating_point import OperatingPoint
+from acausal.analysis.tracking import numbers_by_name
 from acausal.errors import DataError, need_compiled, shown
 from acausal.modeling import names_in
 
@@ -183,6 +184,56 @@ class Linearization:
         }
         return plot_steps(times, curves, axes=axes)
 
+    def lqr(
+        self, states: Mapping[str, float], inputs: Mapping[str, float]
+    ) -> Float[np.ndarray, "n_inputs n_states"]:
+        """The gain K of the feedback ``u - K (state - x)`` with the least ``∫ Σ w x² + Σ w u² dt`` of deviations.
+
+        Arguments:
+            states: their weights, by name; 0 for others.
+            inputs: the weights of all inputs, by name.
+
+        Raises:
+            DataError: for a name or weight that does not fit, or a mode that the inputs cannot stabilize.
+        """
+        w = _weights(states, self.states, "states")
+        r = _weights(inputs, self.inputs, "inputs", all_of_them=True)
+        B = np.asarray(self.B)
+        return (B.T @ self._riccati(np.asarray(self.A), B, w, r, "inputs")) / r[:, None]
+
+    def kalman(
+        self, noise: Mapping[str, float], sensors: Mapping[str, float]
+    ) -> Float[np.ndarray, "n_states n_outputs"]:
+        """The gain L of the steady filter ``d(dx)/dt = A dx + B du + L (dy - C dx - D du)``.
+
+        Arguments:
+            noise: of the process, by state: the standard deviation of a random walk after one second; 0 for others.
+            sensors: of all outputs, by name: the standard deviation of their noise times the root of the sample time.
+
+        Raises:
+            DataError: for a name or number that does not fit, or a mode that the outputs do not show.
+        """
+        q = _weights(noise, self.states, "noise") ** 2
+        r = _weights(sensors, self.outputs, "sensors", all_of_them=True) ** 2
+        C = np.asarray(self.C)
+        return self._riccati(np.asarray(self.A).T, C.T, q, r, "outputs") @ C.T / r
+
+    @staticmethod
+    def _riccati(
+        A: Float[np.ndarray, "n n"],
+        B: Float[np.ndarray, "n m"],
+        q: Float[np.ndarray, " n"],
+        r: Float[np.ndarray, " m"],
+        what: str,
+    ) -> Float[np.ndarray, "n n"]:
+        try:
+            return solve_continuous_are(A, B, np.diag(q), np.diag(r))
+        except np.linalg.LinAlgError:
+            raise DataError(
+                f"There is no gain: a mode that does not decay is not reached by the {what}, or has no weight; "
+                f"give more {what}, or more weights."
+            ) from None
+
     def to_control(self) -> StateSpace:
         """The same for the package python-control, with the names of states, inputs and outputs.
 
@@ -233,6 +284,22 @@ class Linearization:
         shape = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
         modes = ", ".join(f"{v if v.imag else v.real:.4g}" for v in self.eigenvalues()[:8])
         return f"Linearization({shape}; eigenvalues {modes})"
+
+
+def _weights(
+    given: Mapping[str, float], names: tuple[str, ...], argument: str, *, all_of_them: bool = False
+) -> Float[np.ndarray, " n"]:
+    """Numbers by name that are not negative; above zero where all are needed."""
+    known = numbers_by_name(given, names, argument, "in the linearization")
+    found = np.array([float(known.get(n, 0.0)) for n in names])
+    if all_of_them and not (len(names) and (found > 0).all()):
+        lacking = next((n for n, v in zip(names, found, strict=True) if not v > 0), None)
+        raise DataError(
+            f"{argument}: give a number above zero for '{lacking}'."
+            if lacking
+            else f"{argument}: the linearization has none; give linearize(..., outputs=[...])."
+        )
+    return found
 
 
 def frequencies(modes: Complex[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +43,19 @@ def add(parsers: Parsers) -> None:
     )
     add_model(parser)
     parser.add_argument("data", nargs="+", help="files of data: CSV, Parquet, MATLAB or MDF")
+    add_training(parser)
+    add_parameters(parser)
+    results = parser.add_argument_group("results")
+    results.add_argument(
+        "--out", metavar="FILE", help="the trained parameters; by default MODEL-trained.safetensors"
+    )
+    results.add_argument("--overwrite", action="store_true", help="replace the file if it exists")
+    results.add_argument("--report", metavar="FOLDER", help="write a page about the training")
+    add_reading(parser)
+
+
+def add_training(parser: ArgumentParser) -> None:
+    """How a model is trained: targets, and keywords of `acausal.fit`."""
     parser.add_argument(
         "--targets", nargs="+", required=True, metavar="NAME", help="the variables to fit"
     )
@@ -57,20 +70,17 @@ def add(parsers: Parsers) -> None:
         help="one of them, such as epochs=300 or strategy=whole_record; can be repeated",
     )
     parser.add_argument("--seed", type=int, default=0, help="of networks and sequences (0)")
-    add_parameters(parser)
-    results = parser.add_argument_group("results")
-    results.add_argument(
-        "--out", metavar="FILE", help="the trained parameters; by default MODEL-trained.safetensors"
-    )
-    results.add_argument("--overwrite", action="store_true", help="replace the file if it exists")
-    results.add_argument("--report", metavar="FOLDER", help="write a page about the training")
-    add_reading(parser)
+
+
+def keywords_of(args: Namespace) -> dict[str, Any]:
+    """The keywords of `acausal.fit` that a user gives."""
+    given = {} if args.options is None else read_options(args.options)
+    return as_keywords({**given, **dict(args.option)})
 
 
 def run(args: Namespace, out: Output) -> None:
     """Train, print what has changed, and write the parameters."""
-    given = {} if args.options is None else read_options(args.options)
-    keywords = as_keywords({**given, **dict(args.option)})
+    keywords = keywords_of(args)
     system = system_of(args)
     title = title_of(system)
     path = Path(_file_name(title) if args.out is None else args.out)

@@ -11,12 +11,12 @@ from contextlib import contextmanager
 from typing import TextIO
 
 import acausal as ac
-from acausal.command import check, export, fit, new, page, show, simulate
+from acausal.command import check, export, fit, new, page, predict, show, simulate
 from acausal.command.exit_codes import BROKEN_PIPE, EXIT_CODES, USAGE, UsageError
 from acausal.command.output import Output
 from acausal.command.verbosity import logging_to_stderr
 
-COMMANDS = (check, show, simulate, fit, export, page, new)
+COMMANDS = (check, show, simulate, fit, predict, export, page, new)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -14,6 +14,7 @@ from acausal.data.formats import (
     Formats as Formats,
     ReadOptions as ReadOptions,
 )
+from acausal.data.noise import noise_level as noise_level
 from acausal.data.params_file import (
     like_saved as like_saved,
     load_params as load_params,

@@ -19,7 +19,10 @@ from acausal.reporting.model_view import (
     equations_as_latex as equations_as_latex,
     system_view as system_view,
 )
-from acausal.reporting.over_time import plot_over_time as plot_over_time
+from acausal.reporting.over_time import (
+    plot_over_time as plot_over_time,
+    plot_predictions as plot_predictions,
+)
 from acausal.reporting.page import (
     Block as Block,
     Card as Card,

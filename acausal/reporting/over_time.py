@@ -6,10 +6,11 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from jaxtyping import Float
-from numpy import ndarray
+from numpy import isnan, ndarray
 
 from acausal.errors import DataError, listing
 from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.plot import TRUTH, UncertainCurve, plot_band
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -56,6 +57,28 @@ def plot_over_time(
             ax.legend()
     diagrams[-1].set_xlabel("time in s")
     return cast("Figure", diagrams[0].figure)
+
+
+def plot_predictions(
+    time: Float[ndarray, " n"],
+    measured: Float[ndarray, "n n_names"],
+    predicted: Mapping[str, UncertainCurve],
+    units: Mapping[str, str],
+) -> Figure:
+    """Plot signals as measured (NaN where they are not) and as predicted with bands, one below another.
+
+    Returns:
+        The figure.
+    """
+    axes = new_axes((7.0, 1.0 + 2.0 * len(predicted)), len(predicted))
+    for ax, (name, band), column in zip(axes, predicted.items(), measured.T, strict=True):
+        if not isnan(column).all():
+            ax.plot(time, column, ".", ms=3, color=TRUTH, label="measured")
+        plot_band(ax, band, label="predicted")
+        ax.set_ylabel(f"{name} in {units[name] or '1'}")
+        ax.legend()
+    axes[-1].set_xlabel("time in s")
+    return cast("Figure", axes[0].figure)
 
 
 def _as_many(axes: Any, units: list[str]) -> list[Axes]:

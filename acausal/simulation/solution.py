@@ -60,7 +60,8 @@ class Solution(ByName):
     return the solution and read it outside.
 
     Attributes:
-        values: times, states and inputs with a leading axis of n points, and parameters.
+        values: times, states and inputs with a leading axis of n points, and parameters; with that axis, too, where
+            they drift.
         system: the model.
         statistics: what the steps have cost; ``None`` for fixed ones.
         log: times of the events and what came first, as arrays; `events` has them in words.
@@ -297,4 +298,6 @@ def _read_all(system: System, names: tuple[str, ...], values: Values) -> list[Fl
     def at(values: Values) -> Float[Array, " n_names"]:
         return system.read(names, values)
 
-    return list(jax.vmap(at, (AXES,), 1)(values))
+    drift = values.packed.values.ndim == 2
+    axes = AXES._replace(packed=Packed(0, None)) if drift else AXES  # pyright: ignore[reportArgumentType]
+    return list(jax.vmap(at, (axes,), 1)(values))

@@ -29,6 +29,7 @@ from acausal.training.objective.regularizers import (
 from acausal.training.objective.timing import Delay as Delay, Lag as Lag
 from acausal.training.optimizers.lbfgs import lbfgs as lbfgs
 from acausal.training.options import FitOptions as FitOptions
+from acausal.training.prediction import Prediction as Prediction, Predictions as Predictions
 from acausal.training.profile import Profile as Profile
 from acausal.training.record_fit import RecordFit as RecordFit
 from acausal.training.result import Fit as Fit, Seen as Seen

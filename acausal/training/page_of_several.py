@@ -82,8 +82,18 @@ def prediction_blocks(
     records: Mapping[str, RecordFit],
     predicted: Mapping[str, Mapping[str, Band]],
     units: Mapping[str, str],
+    what: str = "mean of the members",
+    whose: str = "of the members ",
 ) -> Iterable[Block]:
-    """Targets as measured, and as the members of an ensemble predict them on average; by record."""
+    """Targets as measured, and as the members of an ensemble predict them on average; by record.
+
+    Arguments:
+        records: with what is measured.
+        predicted: by record and target.
+        units: of the targets.
+        what: is predicted.
+        whose: the standard deviations are.
+    """
     for record, bands in list(predicted.items())[:RECORDS_SHOWN]:
         where = "" if len(predicted) == 1 else f" of '{record}'"
         for i, (name, band) in enumerate(bands.items()):
@@ -91,11 +101,9 @@ def prediction_blocks(
             low, high = band.bounds
             rows = kept_rows([measured, low, high], POINTS)
             samples = broken_at_gaps(records[record].time[rows], measured[rows])
-            mean = Curve(
-                "mean of the members", band.x[rows], band.law[rows], "after", band.sigma[rows]
-            )
+            mean = Curve(what, band.x[rows], band.law[rows], "after", band.sigma[rows])
             yield Plot(
-                f"'{name}'{where}, two standard deviations of the members to either side.",
+                f"'{name}'{where}, two standard deviations {whose}to either side.",
                 "time [s]",
                 labelled(name, units[name]),
                 (Curve("measured", *samples, "measured"), mean),

@@ -48,6 +48,8 @@ class Trained(TrainedModel, Protocol):
     def problem(self) -> Problem: ...  # noqa: D102
     @property
     def trained(self) -> Trainable: ...  # noqa: D102
+    @property
+    def arguments(self) -> Mapping[str, Float[np.ndarray, "n_calls n_arguments"]]: ...  # noqa: D102
     def confidence(self) -> Confidence: ...  # noqa: D102
     def residuals(self) -> tuple[Residuals, ...]: ...  # noqa: D102
     def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]: ...  # noqa: D102

@@ -128,8 +128,9 @@ def out_of_range(record: RecordFit, fit: _Known) -> str:
 
 
 def _measured(record: RecordFit) -> dict[str, Float[np.ndarray, " m"]]:
-    """Inputs, targets and arguments of networks, by name, where some target is measured."""
+    """Inputs, targets and arguments of networks, by name, where some target is measured; everywhere if none is."""
     counts = np.atleast_1d(np.isfinite(record.measured).any(axis=1))
+    counts = counts if counts.any() else np.ones_like(counts)
     columns = {
         **record.inputs,
         **{n: record.measured[:, i] for i, n in enumerate(record.targets)},

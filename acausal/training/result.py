@@ -18,7 +18,7 @@ from acausal.errors import TrainingError, nearest
 from acausal.files import need_path
 from acausal.networks import remove_offset
 from acausal.pages import write_page
-from acausal.reporting import PageContent
+from acausal.reporting import PageContent, PlainTable
 from acausal.training.auto.verdict import (
     StageResult,
     Verdict,
@@ -39,6 +39,8 @@ from acausal.training.objective.start_sizes import found_starts
 from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.objective.trainable import Trainable, changes_of
 from acausal.training.page_subject import LearnedLaw
+from acausal.training.predict import OwnParameters, predict
+from acausal.training.prediction import Predictions
 from acausal.training.profile import Profile, profile
 from acausal.training.record_fit import RecordFit, of_records, residuals_of
 from acausal.training.starts import Starts
@@ -47,6 +49,8 @@ from acausal.training.uncertainty.conformal import Conformal, conformal
 from acausal.training.uncertainty.residuals import Residuals
 
 if TYPE_CHECKING:
+    from pandas import DataFrame
+
     from acausal.system import System
 
 
@@ -284,6 +288,52 @@ class Fit:
             DataError: if the record is too short for the level, or lacks what is needed.
         """
         return conformal(self.problem, self.trained, data, level, x0)
+
+    def predict(
+        self,
+        data: RecordsLike,
+        x0: InitialState = "auto",
+        *,
+        params: OwnParameters | None = None,
+        conformal: Conformal | None = None,
+    ) -> Predictions:
+        """Predict other records, each in one simulation, with bands of two standard deviations.
+
+        Delays, lags and laws are as trained. What a record has for itself is found from its targets by the likelihood
+        of the training: initial states within what is known of them, and parameters of ``per_record``. Of a record
+        without targets these are as expected: the state as measured or as the model starts, the parameters' mean.
+
+        Arguments:
+            data: one record or several, with the model's inputs; targets may be missing.
+            x0: the state at a record's start, as of `FitOptions`, or by record. ``"auto"`` finds it; values by name,
+                ``"data"``, ``"model"`` and ``"steady"`` are taken as they are.
+            params: values of parameters that differ between records, by name, or by record and name; the others are
+                found.
+            conformal: from `conformal`, whose bands are given in the place of those of two standard deviations.
+
+        Returns:
+            By record a `Prediction`: times, targets, bands, errors, `plot`; of all of them ``errors`` and `report`.
+
+        Raises:
+            DataError: if a record lacks an input, or for a name or value that does not fit.
+            TrainingError: if the model diverges over a record of the training.
+        """
+        return predict(self, data, x0, params, conformal)
+
+    def evaluate(
+        self,
+        data: RecordsLike,
+        x0: InitialState = "auto",
+        *,
+        params: OwnParameters | None = None,
+        conformal: Conformal | None = None,
+    ) -> DataFrame | PlainTable:
+        """The errors of other records in a table, with a row for each; arguments and errors as of `predict`.
+
+        Returns:
+            A pandas DataFrame; without pandas a `PlainTable`, which prints the same.
+        """
+        return self.predict(data, x0, params=params, conformal=conformal).errors
 
     def residuals(self, record: str | None = None) -> tuple[Residuals, ...]:
         """The residuals of every target: over one record, or over all of them.

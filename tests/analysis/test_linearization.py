@@ -200,3 +200,23 @@ def test_python_control_takes_it(linearized: ac.Linearization) -> None:
     assert model.output_labels == ["mass_s", "mass_a"]
     assert model.state_labels == ["mass_s", "mass_v"]
     np.testing.assert_allclose(model(10j)[:, 0], linearized.frequency_response(10.0)[0, :, 0])
+
+
+def test_gains_are_those_of_python_control(linearized: ac.Linearization) -> None:
+    control = pytest.importorskip("control")
+    gain = linearized.lqr({"mass.s": 50.0}, {"drive.f": 0.1})
+    wanted, _, _ = control.lqr(linearized.A, linearized.B, np.diag([50.0, 0.0]), [[0.1]])
+    np.testing.assert_allclose(gain, wanted, rtol=1e-8)
+    gain = linearized.kalman({"mass.v": 0.3}, {"mass.s": 0.01, "mass.a": 0.2})
+    noise = np.diag([1e-4, 0.04])
+    wanted, _, _ = control.lqe(linearized.A, np.eye(2), linearized.C, np.diag([0, 0.09]), noise)
+    np.testing.assert_allclose(gain, wanted, rtol=1e-8)
+
+
+def test_wrong_weights_are_refused(linearized: ac.Linearization) -> None:
+    with pytest.raises(ac.DataError, match="states: 'mass' is not in the linearization"):
+        linearized.lqr({"mass": 1.0}, {"drive.f": 1.0})
+    with pytest.raises(ac.DataError, match=r"inputs: give a number above zero for 'drive\.f'"):
+        linearized.lqr({"mass.s": 1.0}, {})
+    with pytest.raises(ac.DataError, match=r"sensors: 'mass\.s' is -1\.0"):
+        linearized.kalman({"mass.v": 1.0}, {"mass.s": -1.0})

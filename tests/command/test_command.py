@@ -113,7 +113,7 @@ def test_help_imports_neither_jax_nor_rich(folder: Path) -> None:
 def test_help_lists_commands_and_exit_codes(typed) -> None:
     code, out, _ = typed("--help")
     assert code == 0
-    for word in ("check", "show", "simulate", "fit", "export", "page", "new"):
+    for word in ("check", "show", "simulate", "fit", "predict", "export", "page", "new"):
         assert f"\n    {word} " in out
         code, own, _ = typed(word, "--help")
         assert code == 0
@@ -317,6 +317,18 @@ def test_fit(typed, folder: Path) -> None:
     again = ("show", "oscillator.json", "--only", "parameters", "--json")
     _, out, _ = typed(*again, "--params", "Oscillator-trained.safetensors")
     assert json.loads(out)["parameters"][0]["value"] == found["parameters"]["spring.c"]
+
+    predict = ("predict", *fit[1:3], "--training", "run.csv", *fit[3:], "--out", "predicted")
+    code, out, err = typed(*predict, "--params", "Oscillator-trained.safetensors", "--json")
+    assert (code, err) == (0, "")
+    assert json.loads(out)["records"]["record"]["mass.s"] < 1e-4
+    with (folder / "predicted" / "record.csv").open() as file:
+        assert next(csv.reader(file)) == [
+            "time [s]",
+            "mass.s [m]",
+            "mass.s low [m]",
+            "mass.s high [m]",
+        ]
 
     code, _, err = typed(*fit)
     assert code == 4

@@ -7,7 +7,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import translational as tl
-from acausal.training.objective.noise import noise_level
+from acausal.data import noise_level
 from tests.support.oscillator import force, plain, record
 
 QUIET = {"strategy": "gauss_newton", "solver": "rk4", "progress": False}

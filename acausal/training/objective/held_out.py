@@ -153,13 +153,16 @@ def of_others(x0: InitialState, records: Mapping[str, Data]) -> InitialState:
     return {n: chosen.get(n, "fit") for n in records}
 
 
-def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Problem:
+def over(
+    problem: Problem, data: Mapping[str, Data], x0: InitialState, *, measured: bool = True
+) -> Problem:
     """The same model over other records, with steps that are no longer.
 
     Arguments:
         problem: the training. Errors stay relative to the standard deviations of its data.
         data: the other records, in the model's units.
         x0: the states at their starts.
+        measured: whether the data need samples of every target.
     """
     system = problem.system
     starts = first_states(system, data, x0, trained=False)
@@ -172,6 +175,7 @@ def over(problem: Problem, data: Mapping[str, Data], x0: InitialState) -> Proble
         solver=problem.solver,
         timing=problem.timing,
         held=system.held_inputs,
+        measured=measured,
     )
     records = problem.weighting.apply(records)
     other = replace(

@@ -54,6 +54,7 @@ def lay_out(
     solver: Scheme | Adaptive | None = None,
     timing: Timing | None = None,
     held: Set[str] = frozenset(),
+    measured: bool = True,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
 
@@ -66,6 +67,7 @@ def lay_out(
         solver: of the steps, and
         timing: the delays, where inputs are delayed.
         held: inputs that keep each sample until the next, unless a record says otherwise.
+        measured: whether the data need samples of every target.
 
     Raises:
         DataError: for a signal that is missing.
@@ -75,7 +77,7 @@ def lay_out(
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     rows = [
-        _rows(d, g, inputs, targets, states, held)
+        _rows(d, g, inputs, targets, states, held, measured)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -89,13 +91,16 @@ def lay_out(
         _joined([r.inputs for r in rows]),
     )
     missing = np.isnan(y)
-    if empty := [n for n, column in zip(targets, missing.T, strict=True) if column.all()]:
+    empty = [n for n, column in zip(targets, missing.T, strict=True) if column.all()]
+    if empty and measured:
         raise DataError(f"Target '{empty[0]}' has no samples in the data.")
     records = Records(
         steps=steps,
         y=jnp.asarray(np.where(missing, 0.0, y)),
         weight=jnp.asarray(np.where(missing, 0.0, 1.0)),
-        sigma=jnp.asarray(np.nanstd(y, axis=0)),
+        sigma=jnp.asarray(np.std(y, axis=0, where=~missing))
+        if not empty
+        else jnp.ones(len(targets)),
         x=None if np.isnan(x).any(axis=1).all() else jnp.asarray(x),
         of=jnp.asarray(np.repeat(np.arange(len(rows)), counts)),
         first=jnp.asarray(ends - counts),
@@ -130,6 +135,7 @@ def _rows(
     targets: tuple[str, ...],
     states: tuple[str, ...] | None,
     held: Set[str],
+    measured: bool,
 ) -> _Rows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
@@ -142,7 +148,10 @@ def _rows(
     names = states or ()
     nothing = np.full(len(data), np.nan)
     x = [data.signals.get(n, nothing) for n in names] or [nothing]
-    y = data.columns(targets, "a target of the training")
+    if measured:
+        y = data.columns(targets, "a target of the training")
+    else:
+        y = np.stack([data.signals.get(n, nothing) for n in targets], axis=1)
     return _Rows(
         at_rows(y),
         at_rows(np.stack(x, axis=1)),

@@ -9,9 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.data import Data
+from acausal.data import Data, noise_level
 from acausal.training.objective.initial_state import InitialState, by_record
-from acausal.training.objective.noise import noise_level
 
 EXACT = 1e-5
 """A start is taken as it is measured where the noise is less than this part of the state's deviation."""

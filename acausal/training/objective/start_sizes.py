@@ -10,6 +10,7 @@ import numpy as np
 from acausal.errors import listing
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.start_prior import StartPrior
+from acausal.training.objective.trainable import Trainable
 
 FOLLOWS = 10.0
 """A model before training tells how large its states are as long as its targets are not so many deviations off."""
@@ -28,11 +29,11 @@ def found_starts(problem: Problem) -> str:
     return "; ".join(clauses)
 
 
-def with_sizes(problem: Problem) -> Problem:
+def with_sizes(problem: Problem, trainable: Trainable | None = None) -> Problem:
     """The same problem with sizes of the states that are not measured, in the place of NaN.
 
-    A size is half of the range that the state passes before training, as long as the model follows its records
-    somehow; its nominal value where it does not move.
+    A size is half of the range that the state passes before training (or with what was trained), as long as the model
+    follows its records somehow; its nominal value where it does not move.
     """
     prior = problem.start_prior
     if prior is None or not np.isnan(np.asarray(prior.scale)).any():
@@ -40,7 +41,8 @@ def with_sizes(problem: Problem) -> Problem:
     known = replace(
         problem, start_prior=StartPrior(jnp.where(jnp.isnan(prior.scale), 1.0, prior.scale))
     )
-    simulated, records = known.simulate(known.start()), problem.records
+    at = known.start() if trainable is None else trainable
+    simulated, records = known.simulate(at), problem.records
     x, y = np.asarray(simulated.x), np.asarray(simulated.y)
     with np.errstate(all="ignore"):
         far = np.abs(y - np.asarray(records.y)) > FOLLOWS * np.asarray(records.sigma)

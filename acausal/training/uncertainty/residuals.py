@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.signal import correlate
 
-from acausal.training.objective.noise import noise_level
+from acausal.data import noise_level
 
 LAGS = 50
 """The largest lag at which correlations are computed."""

@@ -1,0 +1,365 @@
+"""`estimate`: states and drifting parameters of a model from measured data, by Kalman filters and smoothers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, cast
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.typing import ArrayLike
+from jaxtyping import Array, Bool, Float, PRNGKeyArray
+from scipy.optimize import minimize
+
+from acausal._jax import as_key, need_double_precision, traced
+from acausal.analysis.estimation import Estimation
+from acausal.analysis.filtering import (
+    Belief,
+    Ensemble,
+    Filter,
+    Filtered,
+    Linearized,
+    Measured,
+    by_derivatives,
+    by_points,
+    run,
+)
+from acausal.analysis.tracking import (
+    AlongRecord,
+    check_model,
+    make_model,
+    numbers_by_name,
+    rows_of,
+)
+from acausal.codegen import Packed, Values
+from acausal.data import Data, Record, noise_level
+from acausal.errors import DataError, nearest, need_compiled, need_whole, shown
+from acausal.modeling import names_in
+from acausal.simulation import (
+    Steps,
+    announce_derivatives,
+    evaluate_all,
+    functions_of_time,
+    integrate,
+    polynomials_over_steps,
+)
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+METHODS = ("ekf", "ukf", "enkf")
+
+LEVELS = np.logspace(-4, 2, 9)
+"""Process noise that is tried where none is given: random walks over the record, in sizes of the states."""
+
+FAINT = 1e-3
+"""The noise of a sensor whose samples show none, relative to the standard deviation of its signal."""
+
+RUN_AWAY = 1e6
+"""A state that is larger than this, in nominal values, tells nothing of its size."""
+
+FAR = 7.0
+"""Noise is fitted within so many powers of e around where that begins."""
+
+
+def estimate(
+    system: System,
+    record: Record,
+    method: Literal["ekf", "ukf", "enkf"] = "ekf",
+    *,
+    sensors: str | Sequence[str] | Mapping[str, float] | None = None,
+    states: Mapping[str, float] | None = None,
+    parameters: Mapping[str, float] | None = None,
+    noise: Mapping[str, float] | Literal["fit"] | None = None,
+    x0: Mapping[str, ArrayLike] | Literal["steady"] | None = None,
+    params: Mapping[str, Any] | None = None,
+    dt: float | None = None,
+    solver: Any = "auto",
+    smooth: bool = False,
+    members: int = 200,
+    seed: int = 0,
+) -> Estimation:
+    """Estimate the states of a model, and parameters that drift, from what was measured.
+
+    Samples may be missing, and sensors may have different rates. The model is stepped by its own fixed steps, so that
+    algebraic loops hold at every estimate. With ``noise`` and ``sensors`` as numbers all of it can be traced and
+    differentiated in reverse mode: the log likelihood by parameters, for example.
+
+    Arguments:
+        system: a compiled model without events.
+        record: with the model's inputs, and measurements of any of its variables.
+        method: ``"ekf"``, the extended Kalman filter, whose derivatives are exact; ``"ukf"``, the unscented one; or
+            ``"enkf"``, an ensemble.
+        sensors: what of the record is measured, by default all that the model computes; or the standard deviations of
+            their noise, by name. Others are estimated from the record.
+        states: standard deviations of the states at the start, by name; by default the noise of the sensor where a
+            state is measured, and else the state's size.
+        parameters: those to estimate with the states, by name, and their standard deviations at the start. They are
+            constant, or random walks with ``noise``.
+        noise: of the process: by state or such a parameter, the standard deviation of its random walk after one second;
+            0 for others. By default one level for all states, relative to their sizes, is found by likelihood.
+            ``"fit"`` finds that of each state, and of each sensor that ``sensors`` does not give.
+        x0: the expected state at the start, by name, or ``"steady"``; by default as measured, else as the model starts.
+        params: what differs from the model's parameters.
+        dt: the longest step of the integration; by default as short as the model's modes ask for.
+        solver: of the steps; ``"auto"`` is classical Runge-Kutta, or implicit for stiff models.
+        smooth: whether estimates use later measurements, too, as `Estimation.smooth`.
+        members: of the ensemble. seed: of its random numbers.
+
+    Returns:
+        The estimates: any variable of the model by its name, with standard deviations, innovations and likelihood.
+
+    Raises:
+        DataError: if the record lacks inputs or measurements, or an argument does not fit.
+        ModelError: for a model that is not compiled, or that has events or no states.
+    """
+    need_compiled(system, "estimate")
+    need_double_precision()
+    check_model(system, "estimate")
+    how = filter_named(method)
+    members = need_whole(members, "members", DataError, 2)
+    data = Data.of(record).for_system(system)
+    if len(data) < 2:
+        raise DataError("The record has fewer than two samples.")
+    known = _sensors(system, data, sensors)
+    r = jnp.stack([jnp.asarray(v, float) for v in known.values()])
+    kind = "a parameter of the model"
+    drift = numbers_by_name(parameters, system.layout.names, "parameters", kind)
+    names = (*system.states, *drift)
+    path, measured, first = _lay_out(system, data, known, tuple(drift), x0, params, dt, solver)
+    size = _sizes(path, first.x)
+    spread = _spread(system, data, states, known, size)
+    start = belief_at(first.x, spread, path.model.params, drift)
+    key = as_key(seed)
+    walk = jnp.concatenate([size / jnp.sqrt(path.t[-1] - path.t[0]), jnp.zeros(len(drift))])
+
+    def filtered(q: Array, r: Array, how: Filter = EKF) -> Filtered:
+        begin = _with_members(start, members, key) if isinstance(how, Ensemble) else start
+        return _filtered(how, path, begin, measured._replace(sigma=r), q, key)
+
+    if isinstance(noise, Mapping):
+        of = "a state, nor a parameter to estimate"
+        chosen = numbers_by_name(noise, names, "noise", of)
+        q = jnp.stack([jnp.asarray(chosen.get(n, 0.0), float) for n in names])
+    elif noise is None or noise == "fit":
+        q = _best_level(lambda level: filtered(level * walk, r)) * walk
+        if noise == "fit":
+            given = sensors if isinstance(sensors, Mapping) else {}
+            free = np.array([n not in given for n in known])
+            q, r = _fitted(lambda q, r: _likelihood(filtered(q, r)), q, r, free)
+    else:
+        raise DataError(f"noise={shown(noise)}: give 'fit', or numbers by name of a state.")
+    found = filtered(q, r, how)
+    levels = dict(zip(names, q, strict=True))
+    result = Estimation.of(path, found, measured, levels, dict(zip(known, r, strict=True)))
+    return result.smooth() if smooth else result
+
+
+EKF = Linearized(by_derivatives)
+
+
+def filter_named(method: str) -> Filter:
+    """A filter by its name.
+
+    Raises:
+        DataError: for an unknown name.
+    """
+    if method == "mhe":
+        raise DataError(
+            "method='mhe': a moving horizon is not there yet; take method='ekf' with smooth=True, or 'ukf'."
+        )
+    if method not in METHODS:
+        raise DataError(f"No method {shown(method)}: {nearest(str(method), METHODS)}")
+    return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": Ensemble()}[method]
+
+
+def _sensors(system: System, data: Data, given: Any) -> dict[str, Any]:
+    """The standard deviation of the noise of every sensor, by name.
+
+    Raises:
+        DataError: for what the model does not compute, or is not in the record, or if nothing is measured.
+    """
+    computed = [n for n in system.variables if n not in system.inputs]
+    measured = tuple(
+        n for n in computed if n in data.signals and np.isfinite(data.signals[n]).any()
+    )
+    if isinstance(given, Mapping):
+        levels = numbers_by_name(
+            given, tuple(computed), "sensors", "a variable that the model computes"
+        )
+        for name, value in levels.items():
+            if not traced(value) and not value > 0:
+                raise DataError(
+                    f"sensors: the noise of '{name}' is {value:g}; give one above zero."
+                )
+    else:
+        levels = dict.fromkeys(measured if given is None else names_in(given, "sensors"))
+    for name in levels:
+        if name not in measured:
+            reason = nearest(name, measured)
+            raise DataError(f"sensors: '{name}' is not measured in the record: {reason}")
+    if not levels:
+        raise DataError(
+            f"The record measures nothing that the model computes: it has {', '.join(data.signals)}. Name its "
+            "columns after variables of the model, such as "
+            f"ac.Data(time, {{'{system.states[0]}': ...}})."
+        )
+    return {n: _noise(data.signals[n]) if v is None else v for n, v in levels.items()}
+
+
+def _noise(signal: Float[np.ndarray, " n"]) -> float:
+    """The noise of a signal; a little of its size where it shows none."""
+    deviation = float(np.nanstd(signal)) or float(np.nanmax(np.abs(signal))) or 1.0
+    return max(noise_level([signal]), FAINT * deviation)
+
+
+def _lay_out(
+    system: System,
+    data: Data,
+    known: Mapping[str, Any],
+    drifting: tuple[str, ...],
+    x0: Mapping[str, ArrayLike] | Literal["steady"] | None,
+    params: Mapping[str, Any] | None,
+    dt: float | None,
+    solver: Any,
+) -> tuple[AlongRecord, Measured, Values]:
+    """The model along the rows, what is measured there, and the values at the start."""
+    ts = rows_of(data.time)
+    span = float(ts[0]), float(ts[-1])
+    functions = functions_of_time(system.inputs, data, span, held=system.held_inputs)
+    announce_derivatives(system.inputs, data)
+    steps = Steps(
+        jnp.asarray(ts[:-1]), jnp.asarray(np.diff(ts)), polynomials_over_steps(functions, ts)
+    )
+    u = evaluate_all(functions, jnp.asarray(ts))
+    seen = np.full((len(ts), len(known)), np.nan)
+    seen[np.searchsorted(ts, data.time)] = data.columns(known, "a sensor")
+    exact = isinstance(x0, str)
+    begun = (
+        {} if exact else {n: v for n, v in zip(known, seen[0], strict=True) if n in system.states}
+    )
+    begun = {n: v for n, v in begun.items() if np.isfinite(v)} | ({} if exact else dict(x0 or {}))
+
+    def at(packed: Packed) -> Values:
+        chosen: Any = x0 if exact else begun or None
+        x = system.initial_state(packed, chosen, inputs=u[0], t0=span[0])
+        return system.values(span[0], x, u[0], packed)
+
+    model = make_model(
+        system, tuple(known), drifting, params, at, float(np.max(np.diff(ts))), dt, solver
+    )
+    path = AlongRecord(model, steps, jnp.asarray(ts), u)
+    exist = np.isfinite(seen)
+    measured = Measured(jnp.asarray(np.where(exist, seen, 0.0)), jnp.asarray(exist), jnp.zeros(0))
+    return path, measured, at(model.packed)
+
+
+def _sizes(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, " n_states"]:
+    """Half of the range that each state passes without corrections; its nominal value where that tells nothing."""
+    x, nominal = _open_loop(path, x0), jnp.asarray(path.model.system.nominal)
+    half = (jnp.max(x, axis=0) - jnp.min(x, axis=0)) / 2
+    good = jnp.isfinite(half) & (half > 0) & (half < RUN_AWAY * nominal)
+    return jax.lax.stop_gradient(jnp.where(good, half, nominal))
+
+
+@eqx.filter_jit
+def _open_loop(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, "n n_states"]:
+    model = path.model
+    start = Values(path.t[0], x0, path.u[0], model.packed)
+    return integrate(model.system, start, path.steps, model.solver, substeps=model.substeps).x
+
+
+def _spread(
+    system: System,
+    data: Data,
+    given: Mapping[str, float] | None,
+    known: Mapping[str, Any],
+    size: Float[Array, " n_states"],
+) -> Float[Array, " n_states"]:
+    """Standard deviations of the states at the start."""
+    chosen = numbers_by_name(given, system.states, "states", "a state of the model")
+    first = {n: v for n, v in known.items() if np.isfinite(data.signals[n][0])}
+    return jnp.stack(
+        [
+            jnp.asarray(chosen.get(n, first.get(n, s)), float)
+            for n, s in zip(system.states, size, strict=True)
+        ]
+    )
+
+
+def belief_at(
+    x0: Float[Array, " n_states"],
+    spread: Float[Array, " n_states"],
+    params: Mapping[str, Any],
+    drift: Mapping[str, Any],
+) -> Belief:
+    """The states at the start, and the parameters that drift."""
+    own = jnp.asarray([params[n] for n in drift], float)
+    deviations = jnp.concatenate([spread, jnp.asarray(list(drift.values()), float)])
+    return Belief(jnp.concatenate([x0, own]), jnp.diag(deviations**2))
+
+
+def _with_members(start: Belief, count: int, key: PRNGKeyArray) -> Belief:
+    apart = jax.random.normal(jax.random.split(key)[0], (count, len(start.mean)))
+    members = start.mean + apart * jnp.sqrt(jnp.diag(start.covariance))
+    return start._replace(members=members)
+
+
+@eqx.filter_jit
+def _filtered(
+    how: Filter,
+    path: AlongRecord,
+    start: Belief,
+    measured: Measured,
+    q: Float[Array, " m"],
+    key: PRNGKeyArray,
+) -> Filtered:
+    return run(how, path, start, measured, q * jnp.sqrt(path.steps.h)[:, None], key)
+
+
+def _likelihood(filtered: Filtered) -> Float[Array, ""]:
+    return jnp.sum(filtered.innovation.log_likelihood)
+
+
+def _best_level(filtered: Callable[[Array], Filtered]) -> Float[Array, ""]:
+    """The level of process noise with the highest likelihood, of those that are tried.
+
+    Raises:
+        DataError: if the model diverges over the record with all of them.
+    """
+    levels = jnp.asarray(LEVELS)
+    tried = jax.lax.stop_gradient(jax.lax.map(lambda a: _likelihood(filtered(a)), levels))
+    if not traced(tried) and not np.isfinite(tried).any():
+        raise DataError(
+            "The estimates diverge over the record: give x0= near the true state, a smaller dt, or noise= by state."
+        )
+    return levels[jnp.argmax(jnp.where(jnp.isfinite(tried), tried, -jnp.inf))]
+
+
+def _fitted(
+    likelihood: Callable[[Array, Array], Array],
+    q: Float[Array, " m"],
+    r: Float[Array, " p"],
+    free: Bool[np.ndarray, " p"],
+) -> tuple[Float[Array, " m"], Float[Array, " p"]]:
+    """The most likely process noise, where there is some, and noise of the free sensors; by L-BFGS on logarithms."""
+    moving = np.concatenate([np.asarray(q) > 0, free])
+
+    def at(theta: Float[Array, " k"]) -> tuple[Array, Array]:
+        factors = jnp.exp(jnp.zeros(len(moving)).at[np.flatnonzero(moving)].set(theta))
+        return q * factors[: len(q)], r * factors[len(q) :]
+
+    cost = jax.jit(jax.value_and_grad(lambda theta: -likelihood(*at(theta))))
+
+    def both(theta: Any) -> tuple[float, np.ndarray]:
+        value, slope = cost(jnp.asarray(theta))
+        finite = bool(np.isfinite(value)) and bool(np.isfinite(slope).all())
+        return (float(value), np.asarray(slope)) if finite else (1e30, np.zeros(len(theta)))
+
+    count = int(moving.sum())
+    found = minimize(
+        both, np.zeros(count), jac=True, method="L-BFGS-B", bounds=[(-FAR, FAR)] * count
+    )
+    return at(jnp.asarray(cast(Any, found).x))

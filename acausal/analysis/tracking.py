@@ -1,0 +1,195 @@
+"""A model along a record, in its own fixed steps, as filters see it: states, and parameters that drift."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from acausal._jax import is_number, known, traced
+from acausal.analysis.filtering import Function
+from acausal.codegen import Packed, Values
+from acausal.errors import DataError, ModelError, nearest, shown
+from acausal.modeling import names_in
+from acausal.simulation import Scheme, Steps, for_fixed_steps, integrate, solver_named
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+RESOLVED = 0.5
+"""Steps times the rate of the fastest mode, so that classical Runge-Kutta steps follow it to about 1e-4."""
+
+MOST_PARTS = 20
+"""Where more parts of a step were needed for that, steps are implicit."""
+
+LONGER = 1e-6
+"""Rows are added where samples are further apart than is usual, by more than this part of it."""
+
+
+class Model(eqx.Module):
+    """A model whose states and drifting parameters are estimated from sensors.
+
+    Attributes:
+        system: the model.
+        sensors: names of what is measured.
+        drifting: names of the parameters that are estimated, too.
+        params: all parameters; those that drift are replaced.
+        solver, substeps: the scheme, and its steps from row to row.
+    """
+
+    system: System = eqx.field(static=True)
+    sensors: tuple[str, ...] = eqx.field(static=True)
+    drifting: tuple[str, ...] = eqx.field(static=True)
+    params: dict[str, Any]
+    packed: Packed
+    solver: Scheme = eqx.field(static=True)
+    substeps: int = eqx.field(static=True)
+
+    def values(self, t: Array, z: Float[Array, " m"], u: Float[Array, " n_inputs"]) -> Values:
+        """The values of the model at an estimate."""
+        return Values(t, z[: len(self.system.states)], u, self.packed_at(z))
+
+    def packed_at(self, z: Float[Array, " m"]) -> Packed:
+        """The parameters at an estimate."""
+        own = zip(self.drifting, z[len(self.system.states) :], strict=True)
+        return self.system.pack({**self.params, **dict(own)}) if self.drifting else self.packed
+
+    def after(self, z: Float[Array, " m"], step: Steps) -> Float[Array, " m"]:
+        """The estimate after a step, without noise."""
+        n = len(self.system.states)
+        start = self.values(step.t, z, step.inputs.start)
+        one = jax.tree.map(lambda a: a[None], step)
+        found = integrate(self.system, start, one, self.solver, substeps=self.substeps, direct=True)
+        return jnp.concatenate([found.end, z[n:]])
+
+    def read(self, z: Float[Array, " m"], t: Array, u: Float[Array, " n_inputs"]) -> Array:
+        """What the sensors show."""
+        return self.system.read(self.sensors, self.values(t, z, u))
+
+
+class AlongRecord(eqx.Module):
+    """A model along the n rows of a record, a `Path`.
+
+    Attributes:
+        model: the model.
+        steps: from row to row.
+        t, u: times and inputs at the rows.
+    """
+
+    model: Model
+    steps: Steps
+    t: Float[Array, " n"]
+    u: Float[Array, "n n_inputs"]
+
+    def step(self, row: Array) -> Function:
+        """From a row to the next one."""
+        one = jax.tree.map(lambda a: a[row], self.steps)
+        return lambda z: self.model.after(z, one)
+
+    def observe(self, row: Array) -> Function:
+        """What is measured at a row."""
+        return lambda z: self.model.read(z, self.t[row], self.u[row])
+
+
+def rows_of(time: Float[np.ndarray, " n_samples"]) -> Float[np.ndarray, " n"]:
+    """The times of samples, and further ones where these are further apart than usual."""
+    lengths = np.diff(time)
+    counts = np.maximum(1, np.ceil(lengths / np.median(lengths) - LONGER)).astype(int)
+    within = [t + h * np.arange(c) / c for t, h, c in zip(time, lengths, counts, strict=False)]
+    return np.append(np.concatenate(within), time[-1])
+
+
+def make_model(
+    system: System,
+    sensors: tuple[str, ...],
+    drifting: tuple[str, ...],
+    params: Mapping[str, Any] | None,
+    at: Callable[[Packed], Values],
+    longest: float,
+    dt: float | None,
+    solver: Any,
+) -> Model:
+    """A model with steps that follow it.
+
+    Arguments:
+        system, sensors, drifting: as of `Model`.
+        params: what differs from the model's own parameters.
+        at: the values at the start, by parameters.
+        longest: the longest way from row to row.
+        dt, solver: as of `acausal.estimate`.
+
+    Raises:
+        DataError: for what is not a step.
+    """
+    every = {**system.parameters(), **(params or {})}
+    packed = system.pack(every)
+    if dt is not None and not (is_number(dt) and dt > 0):
+        raise DataError(f"dt={shown(dt)} is not a step; give a positive time in seconds.")
+    parts = None if dt is None else max(1, int(np.ceil(longest / dt - LONGER)))
+    if isinstance(solver, str) and solver == "auto":
+        found = parts_of_steps(system, at(packed), longest if dt is None else min(dt, longest))
+        solver = "kvaerno3" if found is None else "rk4"
+        parts = (parts or 1) * (found or 1) if dt is None else parts
+    scheme = for_fixed_steps(solver_named(solver, fixed=True), direct=True)
+    return Model(system, sensors, drifting, every, packed, scheme, parts or 1)
+
+
+def check_model(system: System, what: str) -> None:
+    """Refuse a model that filters cannot follow.
+
+    Raises:
+        ModelError: for a model with events, or without states.
+    """
+    if system.events is not None:
+        raise ModelError(
+            f"{what}: '{system.flat.name}' has events, at which a covariance jumps with the states, which filters do "
+            "not follow: take smooth laws, or ac.compile(model, inputs=[...]) with measured modes."
+        )
+    if not system.states:
+        raise ModelError(f"{what}: '{system.flat.name}' has no states to estimate.")
+
+
+def numbers_by_name(
+    given: Any, known_names: tuple[str, ...], argument: str, kind: str
+) -> dict[str, Any]:
+    """Numbers by name that are not negative, such as standard deviations; they may be traced.
+
+    Raises:
+        DataError: for an unknown name, or what is not such a number.
+    """
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        first = known_names[0] if known_names else "name"
+        raise DataError(
+            f"{argument}={shown(given)} has no names; give {argument}={{'{first}': ...}}."
+        )
+    for name, value in given.items():
+        if name not in known_names:
+            raise DataError(f"{argument}: '{name}' is not {kind}: {nearest(name, known_names)}")
+        if not traced(value) and not (is_number(value) and value >= 0):
+            raise DataError(
+                f"{argument}: '{name}' is {shown(value)}; give a finite number that is not negative."
+            )
+    return {n: given[n] for n in names_in(given, argument)}
+
+
+def parts_of_steps(system: System, at: Values, h: float) -> int | None:
+    """Into how many parts a step of length h is divided so that it is accurate; ``None`` for implicit steps."""
+    point = known(at)
+    if point is None:
+        return 1
+    modes = np.linalg.eigvals(np.asarray(_jacobian(system, point)))
+    fastest = float(np.max(np.abs(modes), initial=0.0))
+    count = int(np.ceil(h * fastest / RESOLVED)) if np.isfinite(fastest) else 1
+    return max(count, 1) if count <= MOST_PARTS else None
+
+
+@eqx.filter_jit
+def _jacobian(system: System, at: Values) -> Float[Array, "n_states n_states"]:
+    return jax.jacfwd(lambda x: system.rates(at._replace(x=x)))(at.x)

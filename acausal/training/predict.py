@@ -1,0 +1,268 @@
+"""Predict other records: what each has for itself is found as in the training, all else is as it was learned."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any, cast
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from acausal._jax import is_number, value_and_jacobian
+from acausal.data import Data, RecordsLike, records_of
+from acausal.errors import DataError, listing, nearest, shown
+from acausal.training.objective.held_out import over
+from acausal.training.objective.initial_state import InitialState, check_records
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.start_prior import StartPrior, start_prior
+from acausal.training.objective.start_sizes import found_starts, with_sizes
+from acausal.training.objective.trainable import Trainable
+from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
+from acausal.training.page_subject import Trained
+from acausal.training.prediction import Prediction, Predictions
+from acausal.training.record_fit import RecordFit, of_records, out_of_range
+from acausal.training.uncertainty.bumps import BUMPS, bumped_law
+from acausal.training.uncertainty.confidence import Band, Confidence
+from acausal.training.uncertainty.conformal import Conformal
+
+UPDATES = 50
+"""At most so many steps find what a record has for itself."""
+
+OwnParameters = Mapping[str, float] | Mapping[str, Mapping[str, float]]
+"""Values of parameters that differ between records, by name: the same for all records, or by record."""
+
+
+@dataclass(frozen=True, eq=False)
+class Own:
+    """What R records have for themselves: m numbers, parameters first, then the moves of their initial states.
+
+    Attributes:
+        problem: the records, and what is known of their starts.
+        trainable: what was trained.
+        values: where the numbers begin, in the units of `Trainable`.
+        free: those that the records' targets may move.
+        information: the inverse of their prior variances.
+    """
+
+    problem: Problem
+    trainable: Trainable
+    values: Float[np.ndarray, "R m"]
+    free: Bool[np.ndarray, "R m"]
+    information: Float[np.ndarray, "R m"]
+
+    def moved(self, values: Float[Array | np.ndarray, "R m"]) -> Trainable:
+        """The training's result with other values of these numbers."""
+        names, values = self.problem.per_record.names, jnp.asarray(values)
+        own = {n: values[:, i] for i, n in enumerate(names)}
+        starts = None if self.problem.start_prior is None else values[:, len(names) :]
+        return replace(self.trainable, per_record=own, starts=starts)
+
+
+def predict(
+    fit: Trained,
+    data: RecordsLike,
+    x0: InitialState,
+    params: OwnParameters | None,
+    conformal: Conformal | None,
+) -> Predictions:
+    """Predict records; arguments and errors as those of `Fit.predict`."""
+    system, targets = fit.system, fit.problem.targets
+    records = {n: d.for_system(system) for n, d in records_of(data).items()}
+    check_records(x0, records)
+    own = _own(fit, records, x0, params)
+    problem, confidence = own.problem, fit.confidence()
+    least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
+    certainty = np.sqrt(np.asarray(problem.records.weight)) / np.maximum(least, 1e-300)
+    values = _found(own, certainty)
+    trainable = own.moved(values)
+    if conformal is None:
+        sigma = _deviations(own, values, certainty, fit, confidence)
+    else:
+        sigma = np.tile([conformal.width[n] / 2 for n in targets], (len(problem.records), 1))
+    made = of_records(problem, trainable, problem.simulate(trainable))
+    units = {n: system.unit(n) for n in targets}
+
+    def one(k: int, record: RecordFit) -> Prediction:
+        rows = problem.records.rows_of(k)
+        bands = {
+            n: Band(record.time, record.predicted[:, i], sigma[rows, i])
+            for i, n in enumerate(targets)
+        }
+        every = {f.name: getattr(record, f.name) for f in fields(RecordFit)}
+        return Prediction(
+            **every, bands=bands, outside=out_of_range(record, fit), found=_told(problem, k), units=units
+        )  # fmt: skip
+
+    return Predictions({n: one(k, r) for k, (n, r) in enumerate(made.items())}, system)
+
+
+def _own(
+    fit: Trained, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
+) -> Own:
+    """What the records have for themselves, before their targets have told of it."""
+    problem = over(fit.problem, records, x0, measured=False)
+    trainable = problem.over_other_records(fit.trained)
+    laid, names = problem.records, problem.per_record.names
+    measured = np.isfinite(laid.measured)
+    has = np.array([measured[laid.rows_of(k)].any() for k in range(laid.count)])
+    prior = start_prior(problem.system.states, records, x0)
+    if prior is not None:
+        known = StartPrior(jnp.where(has[:, None], prior.scale, 0.0))
+        problem = with_sizes(replace(problem, start_prior=known), trainable)
+    moves = np.zeros((laid.count, 0 if prior is None else len(problem.system.states)))
+    own = np.zeros((laid.count, len(names)))
+    for i, name in enumerate(names):
+        own[:, i] = trainable.per_record[name]
+    own, given = _given(fit, own, records, params)
+    spread = [float(np.std(np.asarray(fit.trained.per_record[n]))) or 1.0 for n in names]
+    tied = np.asarray(problem.per_record.tied) > 0
+    free = np.concatenate([has[:, None] & ~given, np.broadcast_to(has[:, None], moves.shape)], 1)
+    loose = np.where(has[:, None], 0.0, np.asarray(spread) ** -2.0)
+    information = np.concatenate([np.where(tied, 1.0, loose), np.ones_like(moves)], 1)
+    information[:, : len(names)][given] = np.inf
+    return Own(problem, trainable, np.concatenate([own, moves], 1), free, information)
+
+
+def _given(
+    fit: Trained,
+    own: Float[np.ndarray, "R n_own"],
+    records: Mapping[str, Data],
+    params: OwnParameters | None,
+) -> tuple[Float[np.ndarray, "R n_own"], Bool[np.ndarray, "R n_own"]]:
+    """Parameters of records with those that a user gives, and which these are.
+
+    Raises:
+        DataError: for a name that is neither a record nor such a parameter, or what is not a number.
+    """
+    known, given = fit.problem.per_record, np.zeros(own.shape, bool)
+    common = fit.problem.assemble(fit.trained)
+    by_record = any(isinstance(v, Mapping) for v in (params or {}).values())
+    chosen = params if by_record else dict.fromkeys(records, params or {})
+    for record, values in cast("Mapping[str, Mapping[str, float]]", chosen or {}).items():
+        if record not in records:
+            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+        for name, value in values.items():
+            if name not in known.names:
+                only = f", but {listing(known.names)}" if known.names else ""
+                raise DataError(
+                    f"params: '{name}' does not differ between records{only}: train with "
+                    f"per_record={{'{name}': None}}."
+                )
+            if not is_number(value):
+                raise DataError(f"params: '{name}' is {shown(value)}; give a finite number.")
+            place = list(records).index(record), known.names.index(name)
+            own[place] = (value - float(common[name])) / float(known.scale[place[1]])
+            given[place] = True
+    return own, given
+
+
+def _found(own: Own, certainty: Float[np.ndarray, "N n_targets"]) -> Float[np.ndarray, "R m"]:
+    """The most likely numbers of every record, by damped Gauss-Newton steps of all records side by side."""
+    problem, first, (count, m) = own.problem, jnp.asarray(own.values), own.values.shape
+    if not own.free.any():
+        return own.values
+    method, params = levenberg_marquardt(), problem.assemble(own.trainable)
+    free = jnp.asarray(own.free, float)
+    information = jnp.where(free > 0, jnp.asarray(own.information), 1.0)
+
+    def each(a: Float[Array, "N n_targets ..."]) -> Float[Array, "R ..."]:
+        return jax.ops.segment_sum(jnp.sum(a, axis=1), problem.records.of, count)
+
+    def advance(
+        state: Any, z: Array, gradient: Array, value: Array, hessian: Array
+    ) -> tuple[Array, Any]:
+        step: Any
+        step, state = method.update(gradient, state, z, value=value, hessian=hessian)
+        return z + step, state
+
+    @eqx.filter_jit
+    def update(
+        problem: Problem, z: Float[Array, "R m"], state: Any
+    ) -> tuple[Float[Array, "R m"], Any]:
+        def predicted(w: Float[Array, " m"]) -> Float[Array, "N n_targets"]:
+            return problem.predict(own.moved(z + w * free), params)
+
+        y, jacobian = value_and_jacobian(predicted, jnp.zeros(m), axis=-1)
+        left = problem.residuals(y) * certainty
+        jacobian, off = jacobian * certainty[..., None], z - first
+        value = 0.5 * (each(left**2) + jnp.sum(information * off**2, axis=1))
+        gradient = information * off - each(jacobian * left[..., None])
+        hessian = each(jacobian[..., None] * jacobian[..., None, :])
+        hessian += information[:, :, None] * jnp.eye(m)
+        return jax.vmap(advance)(state, z, gradient, value, hessian)
+
+    z = first
+    state: Any = jax.vmap(method.init)(first)
+    for _ in range(UPDATES):
+        z, state = update(problem, z, state)
+        if bool(state.converged.all()):
+            break
+    return np.asarray(state.point)
+
+
+def _deviations(
+    own: Own,
+    values: Float[np.ndarray, "R m"],
+    certainty: Float[np.ndarray, "N n_targets"],
+    fit: Trained,
+    confidence: Confidence,
+) -> Float[np.ndarray, "N n_targets"]:
+    """The standard deviation of every target at every row.
+
+    Laws and parameters have the covariance of the training. Where they were different, what is found for a record
+    would be, too; so their effects are less what the record's own numbers take over.
+    """
+    problem, prior, m = own.problem, confidence.prior, values.shape[1]
+    params = problem.assemble(own.trainable)
+    bumped = {n: bumped_law(params[n], fit.arguments[n]) for n in problem.networks}
+    root = jnp.linalg.inv(prior.root)
+    scale = jnp.where(own.free | np.isfinite(own.information), 1.0, 0.0)
+
+    @eqx.filter_jit
+    def run(problem: Problem) -> tuple[Array, Array]:
+        def predicted(w: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
+            moves = root @ w[: len(root)]
+            nets = {
+                n: replace(law, heights=moves[k * BUMPS : (k + 1) * BUMPS])
+                for k, (n, law) in enumerate(bumped.items())
+            }
+            changes = moves[len(nets) * BUMPS :]
+            moved = problem.modifiers.changed(
+                {**params, **nets}, dict(zip(prior.names, changes, strict=True))
+            )
+            return problem.predict(own.moved(values + w[len(root) :] * scale), moved)
+
+        return value_and_jacobian(predicted, jnp.zeros(len(root) + m), axis=-1)
+
+    _, jacobian = run(problem)
+    jacobian, noise = np.asarray(jacobian), [confidence.noise[n] for n in problem.targets]
+    variance = np.full(certainty.shape, np.nan)
+    for k in range(problem.records.count):
+        rows = np.asarray(problem.records.of) == k
+        common, alone = np.split(jacobian[rows], [len(root)], axis=-1)
+        if not np.isfinite(common).all() or not np.isfinite(alone).all():
+            continue
+        weighted = certainty[rows][..., None] * alone
+        counted = np.where(np.isfinite(own.information[k]), own.information[k], 1.0)
+        covariance = np.linalg.pinv(
+            np.einsum("rti,rtj->ij", weighted, weighted) + np.diag(counted), hermitian=True
+        )
+        taken = np.einsum("rti,rtj->ij", weighted, certainty[rows][..., None] * common)
+        effect = common - alone @ (covariance @ taken)
+        variance[rows] = np.sum(effect**2, axis=-1) + np.einsum(
+            "rti,ij,rtj->rt", alone, covariance, alone
+        )
+    return np.sqrt(variance + np.square(noise))
+
+
+def _told(problem: Problem, k: int) -> str:
+    """A clause on the initial states of a record that were found."""
+    if problem.start_prior is None:
+        return ""
+    first, scale, rows = problem.first_states, problem.start_prior.scale, slice(k, k + 1)
+    alone = replace(first, kind=first.kind[rows], given=first.given[rows])
+    return found_starts(replace(problem, first_states=alone, start_prior=StartPrior(scale[rows])))

@@ -1,0 +1,254 @@
+"""Kalman filters and smoothers against closed formulas, differences, and the truth."""
+
+from __future__ import annotations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.linalg import expm
+from scipy.stats import chi2
+
+import acausal as ac
+from acausal.analysis.filtering import (
+    Belief,
+    Linearized,
+    Measured,
+    by_derivatives,
+    by_points,
+    run,
+)
+from tests.support.hybrid import Ball
+from tests.support.oscillator import C, D, M, force, plain
+
+H, N, R, Q = 0.05, 60, 0.02, 0.3
+GIVEN = {
+    "states": {"mass.s": 0.2, "mass.v": 0.5}, "x0": {"mass.s": 0.1, "mass.v": -0.2}, "dt": H / 20,
+    "solver": "rk4", "noise": {"mass.v": Q}, "sensors": {"mass.s": R, "mass.a": 0.5},
+}  # fmt: skip
+
+
+def record(seed: int = 0) -> ac.Data:
+    """Position and acceleration with gaps: the one is missing at every third sample, both at some."""
+    rng, t = np.random.default_rng(seed), H * np.arange(N)
+    run = ac.simulate(plain(), t[-1], dt=H, inputs={"push.f": force(t)}, solver="dopri8")
+    s = np.asarray(run["mass.s"]) + R * rng.standard_normal(N)
+    a = np.asarray(run["mass.a"]) + 0.5 * rng.standard_normal(N)
+    s[::3], s[10:14], a[12:20] = np.nan, np.nan, np.nan
+    return ac.Data(t, {"push.f": force(t), "mass.s": s, "mass.a": a}, missing="nan")
+
+
+def by_hand(data: ac.Data) -> tuple[np.ndarray, ...]:
+    """A Kalman filter and smoother in matrices, without the library; the input is linear in each step."""
+    A, B = np.array([[0, 1], [-C / M, -D / M]]), np.array([[0], [1 / M]])
+    zero = np.zeros((1, 2))
+    whole = np.block([[A, B, 0 * B], [zero, 0, 1], [zero, 0, 0]])
+    power = expm(whole * H)
+    F, held, ramp = power[:2, :2], power[:2, 2], power[:2, 3]
+    rows = np.array([[1, 0], [-C / M, -D / M]])
+    u, y = data["push.f"], np.stack([data["mass.s"], data["mass.a"]], axis=1)
+    m, P, likelihood = np.array([0.1, -0.2]), np.diag([0.04, 0.25]), 0.0
+    means, covariances, ahead = [], [], []
+    for k in range(N):
+        if k:
+            m = F @ m + held * u[k - 1] + ramp * (u[k] - u[k - 1]) / H
+            P = F @ P @ F.T + np.diag([0, Q**2 * H])
+        ahead.append((m, P))
+        known = np.isfinite(y[k])
+        if known.any():
+            G, W = rows[known], np.diag(np.array([R**2, 0.25])[known])
+            v = y[k, known] - G @ m - np.array([0, u[k] / M])[known]
+            S = G @ P @ G.T + W
+            K = P @ G.T @ np.linalg.inv(S)
+            m, P = m + K @ v, P - K @ S @ K.T
+            size = np.linalg.slogdet(2 * np.pi * S)[1]
+            likelihood -= 0.5 * (v @ np.linalg.solve(S, v) + size)
+        means.append(m)
+        covariances.append(P)
+    smooth = [(means[-1], covariances[-1])]
+    for k in reversed(range(N - 1)):
+        G = covariances[k] @ F.T @ np.linalg.inv(ahead[k + 1][1])
+        late, spread = smooth[0]
+        m = means[k] + G @ (late - ahead[k + 1][0])
+        smooth.insert(0, (m, covariances[k] + G @ (spread - ahead[k + 1][1]) @ G.T))
+    later, spread = (np.array(part) for part in zip(*smooth, strict=True))
+    return np.array(means), np.array(covariances), np.array(likelihood), later, spread
+
+
+@pytest.mark.parametrize("method", ["ekf", "ukf"])
+def test_linear_models_have_the_estimates_of_the_kalman_filter_and_smoother(method):
+    data = record()
+    found = ac.estimate(plain(), data, method, **GIVEN)
+    m, P, likelihood, late, spread = by_hand(data)
+    assert plain().states == ("mass.s", "mass.v")
+    np.testing.assert_allclose(found.x, m, atol=1e-8)
+    np.testing.assert_allclose(found.covariance, P, atol=1e-8)
+    assert float(found.log_likelihood) == pytest.approx(float(likelihood), abs=1e-6)
+    later = found.smooth()
+    np.testing.assert_allclose(later.x, late, atol=1e-8)
+    np.testing.assert_allclose(later.covariance, spread, atol=1e-8)
+    np.testing.assert_allclose(found.deviation("mass.v"), np.sqrt(P[:, 1, 1]), atol=1e-8)
+    row = np.array([-C / M, -D / M])
+    wanted = np.sqrt(np.einsum("i,kij,j->k", row, P, row))
+    np.testing.assert_allclose(found.deviation(["mass.s", "mass.a"])[:, 1], wanted, atol=1e-7)
+    assert np.isnan(found.innovations["mass.s"][:2]).tolist() == [True, False]
+
+
+def test_the_order_of_sensors_changes_nothing_and_an_ensemble_is_near():
+    data = record()
+    found = ac.estimate(plain(), data, **GIVEN)
+    turned = dict(reversed(GIVEN["sensors"].items()))
+    other = ac.estimate(plain(), data, **{**GIVEN, "sensors": turned})
+    np.testing.assert_allclose(found.x, other.x, atol=1e-13)
+    assert list(other.innovations) == ["mass.a", "mass.s"]
+    many = ac.estimate(plain(), data, "enkf", members=2000, **GIVEN)
+    off = (many.x - found.x) / np.sqrt(np.diagonal(found.covariance, 0, 1, 2))
+    assert np.sqrt(np.mean(off**2)) < 0.15
+
+
+def test_the_gradient_of_the_likelihood_is_that_of_differences():
+    data = record()
+
+    @jax.jit
+    def likelihood(c: jax.Array) -> jax.Array:
+        return ac.estimate(plain(), data, params={"spring.c": c}, **GIVEN).log_likelihood
+
+    slope = float(jax.grad(likelihood)(jnp.asarray(C)))
+    wanted = float(likelihood(jnp.asarray(C + 1e-3)) - likelihood(jnp.asarray(C - 1e-3))) / 2e-3
+    assert slope == pytest.approx(wanted, rel=1e-6)
+
+
+def test_an_observer_steps_as_the_estimate_does():
+    data = record()
+    found = ac.estimate(plain(), data, **GIVEN)
+    given = {k: v for k, v in GIVEN.items() if k not in ("sensors", "noise")}
+    seen = ac.observer(plain(), GIVEN["sensors"], GIVEN["noise"], H, **given)
+    for k, t in enumerate(data.time):
+        y = {n: data[n][k] for n in GIVEN["sensors"]}
+        told = seen.step(t, {"push.f": data["push.f"][k]}, y)
+    np.testing.assert_allclose(list(told.values()), found.x[-1], atol=1e-12)
+    np.testing.assert_allclose(seen.covariance, found.covariance[-1], atol=1e-12)
+    assert seen["mass.a"] == pytest.approx(float(found["mass.a"][-1]), abs=1e-10)
+    with pytest.raises(ac.DataError, match="is not later than the last step"):
+        seen.step(0.0)
+    with pytest.raises(
+        ac.DataError, match=r"'mass.v' is not a sensor; the observer has mass.s, mass.a"
+    ):
+        seen.step(100.0, y={"mass.v": 0.0})
+
+
+class Swing:
+    """The oscillator without a force along rows, in matrices."""
+
+    F = jnp.asarray(expm(np.array([[0, 1], [-C / M, -D / M]]) * H))
+
+    def step(self, row: jax.Array):
+        return lambda z: self.F @ z
+
+    def observe(self, row: jax.Array):
+        return lambda z: z[:1]
+
+
+@pytest.mark.parametrize("line", [by_derivatives, by_points])
+def test_filters_are_consistent_over_many_runs(line):
+    """Normalized errors of states (NEES) and innovations (NIS) of 200 runs are within their chi-square bounds."""
+    runs, rng, path = 200, np.random.default_rng(1), Swing()
+    x = rng.standard_normal((runs, 2)) * [0.2, 0.5]
+    states = [x]
+    for _ in range(N - 1):
+        x = x @ path.F.T + rng.standard_normal((runs, 1)) * [0, Q * np.sqrt(H)]
+        states.append(x)
+    truth = np.stack(states, axis=1)
+    y = jnp.asarray(truth[:, :, :1] + R * rng.standard_normal((runs, N, 1)))
+    start = Belief(jnp.zeros(2), jnp.diag(jnp.array([0.04, 0.25])))
+    walk = jnp.full((N - 1, 2), Q * np.sqrt(H)) * jnp.array([0.0, 1.0])
+
+    @jax.jit
+    @jax.vmap
+    def filtered(y: jax.Array):
+        measured = Measured(y, jnp.ones((N, 1), bool), jnp.array([R]))
+        return run(Linearized(line), path, start, measured, walk, jax.random.key(0))
+
+    found = filtered(y)
+    off = np.asarray(found.mean - truth)[..., None]
+    nees = np.sum(off * np.linalg.solve(found.covariance, off), axis=(2, 3))
+    nis = np.asarray(found.innovation.value**2 / found.innovation.covariance[..., 0])
+    for row in (0, 5, N - 1):
+        low, high = chi2.ppf([0.001, 0.999], 2 * runs)
+        assert low < nees[:, row].sum() < high
+    low, high = chi2.ppf([0.001, 0.999], nis.size)
+    assert low < nis.sum() < high
+
+
+class Pendulum(ac.Component):
+    """A pendulum with friction; its rate is not measured."""
+
+    phi = ac.Variable(unit="rad", start=0.5)
+    w = ac.Variable(unit="rad/s", start=0.0)
+    x = ac.Variable(unit="m")
+    length = ac.Parameter(1.0, unit="m")
+    rub = ac.Parameter(0.2, unit="1/s")
+
+    def equations(self):
+        yield ac.Eq(ac.der(self.phi), self.w)
+        yield ac.Eq(ac.der(self.w), -9.81 / self.length * ac.sin(self.phi) - self.rub * self.w)
+        yield ac.Eq(self.x, self.length * ac.sin(self.phi))
+
+
+@pytest.mark.parametrize("method", ["ekf", "ukf"])
+def test_states_and_a_parameter_of_a_pendulum_are_found_with_default_arguments(method):
+    system = ac.compile(Pendulum(), check_units=False)
+    truth = ac.simulate(system, 10, dt=0.02, x0={"phi": 0.8, "w": -1.0}, params={"length": 1.3})
+    rng = np.random.default_rng(0)
+    data = ac.Data(truth.t, {"x": truth["x"] + 0.01 * rng.standard_normal(len(truth.t))})
+    found = ac.estimate(
+        system, data, method, parameters={"length": 0.3}, states={"phi": 0.5, "w": 1.0},
+        x0={"phi": 0.5}, noise={"w": 1e-3},
+    )  # fmt: skip
+    assert float(found["length"][-1]) == pytest.approx(
+        1.3, abs=5 * float(found.deviation("length")[-1])
+    )
+    assert float(found.deviation("length")[-1]) < 0.01
+    assert np.max(np.abs(found["w"][-100:] - truth["w"][-100:])) < 0.05
+    assert found["w"].shape == (501,)
+
+
+def test_fitted_noise_is_more_likely_than_the_default():
+    given = {"dt": H, "states": GIVEN["states"], "sensors": ["mass.s"]}
+    fitted, default = (ac.estimate(plain(), record(), noise=n, **given) for n in ("fit", None))
+    assert float(fitted.log_likelihood) > float(default.log_likelihood)
+    assert float(fitted.sensors["mass.s"]) == pytest.approx(R, rel=0.5)
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"sensors": {"mass.z": 1.0}}, "sensors: 'mass.z' is not a variable that the model computes"),
+        ({"sensors": "mass.v"}, "sensors: 'mass.v' is not measured in the record"),
+        ({"sensors": {"mass.s": -1.0}}, "sensors: 'mass.s' is -1.0; give a finite number that is not"),
+        ({"noise": {"mass.x": 1.0}}, "noise: 'mass.x' is not a state, nor a parameter"),
+        ({"noise": {"mass.v": -1.0}}, "noise: 'mass.v' is -1.0"),
+        ({"noise": "auto"}, "noise='auto': give 'fit', or numbers"),
+        ({"states": {"mass.a": 1.0}}, "states: 'mass.a' is not a state of the model"),
+        ({"parameters": {"spring.k": 1.0}}, "parameters: 'spring.k' is not a parameter of the model"),
+        ({"method": "kf"}, "No method 'kf'"),
+        ({"method": "mhe"}, "a moving horizon is not there yet"),
+        ({"dt": 0.0}, "dt=0.0 is not a step"),
+    ],
+)  # fmt: skip
+def test_what_does_not_fit_is_refused(change, sentence):
+    with pytest.raises(ac.DataError) as raised:
+        ac.estimate(plain(), record(), **{**GIVEN, **change})
+    assert sentence in str(raised.value)
+
+
+def test_records_and_models_that_do_not_fit_are_refused():
+    t = H * np.arange(N)
+    with pytest.raises(
+        ac.DataError, match=r"measures nothing that the model computes: it has push\.f"
+    ):
+        ac.estimate(plain(), ac.Data(t, {"push.f": t}))
+    with pytest.raises(ac.DataError, match=r"lack 'push\.f', an input"):
+        ac.estimate(plain(), ac.Data(t, {"mass.s": t}))
+    with pytest.raises(ac.ModelError, match="has events, at which a covariance jumps"):
+        ac.estimate(ac.compile(Ball()), ac.Data(t, {"h": t}))

@@ -1,0 +1,129 @@
+"""Predictions of other records: what is their own is found, bands hold, and errors stand in a table."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from tests.support.oscillator import Oscillator, plain, record
+
+QUIET = {"strategy": "gauss_newton", "solver": "rk4", "progress": False}
+NOISE = 0.01
+
+
+def noisy(data: ac.Data, seed: int, *names: str) -> ac.Data:
+    """Some signals with white noise, and the force as it is."""
+    rng = np.random.default_rng(seed)
+    shaken = {n: data[n] + NOISE * rng.standard_normal(len(data)) for n in names}
+    return ac.Data(data.time, {"push.f": data["push.f"], **shaken})
+
+
+@cache
+def clean() -> ac.Data:
+    return record(cubic=0.0, dt=0.02)
+
+
+@cache
+def trained() -> ac.Fit:
+    data = noisy(clean().between(0, 8), 0, "mass.s", "mass.v")
+    return ac.fit(plain(), data, "mass.s", modifiers=["mass.m"], **QUIET)
+
+
+def test_a_start_that_is_not_measured_is_found_and_the_band_holds():
+    part = clean().between(10, 18)
+    found = trained().predict({"a": noisy(part, 1, "mass.s")})["a"]
+    assert found.x0["mass.v"] == pytest.approx(part["mass.v"][0], abs=0.03)
+    assert found.rms["mass.s"] == pytest.approx(NOISE, rel=0.1)
+    assert found.normalized["mass.s"] == pytest.approx(found.rms["mass.s"] / float(found.sigma[0]))
+    assert found.inside["mass.s"] == pytest.approx(0.954, abs=0.03)
+    assert "'mass.v' near the model's start" in found.found
+    given = trained().predict(noisy(part, 1, "mass.s"), x0={"mass.v": 0.0})["record"]
+    assert given.rms["mass.s"] > 3 * NOISE
+    assert given.x0["mass.v"] == 0.0
+    assert not given.found
+
+
+def test_the_band_is_that_of_the_parameters_and_the_noise():
+    fit, part = trained(), clean().between(0, 8)
+    inputs = ac.Data(part.time, {"push.f": part["push.f"]})
+    found = fit.predict(inputs, x0="model")["record"]
+    assert np.isnan(found.rms["mass.s"])
+    assert "no target is measured" in repr(found)
+    know, mass = fit.confidence(), float(fit.params["mass.m"])
+    sigma, step = know.parameters["mass.m"] * mass, 1e-4
+
+    def at(m: float) -> np.ndarray:
+        run = ac.simulate(
+            plain(), (0, 8), dt=0.02, solver="rk4", inputs=inputs, params={**fit.params, "mass.m": m}
+        )  # fmt: skip
+        return np.asarray(run["mass.s"])
+
+    slope = (at(mass + step) - at(mass - step)) / (2 * step)
+    wanted = np.sqrt((slope * sigma) ** 2 + know.noise["mass.s"] ** 2)
+    np.testing.assert_allclose(found.bands["mass.s"].sigma, wanted, rtol=1e-5)
+    np.testing.assert_allclose(found.predicted[:, 0], at(mass), atol=1e-9)
+
+
+def test_parameters_of_a_record_are_found_or_given():
+    def run(d: float, seed: int, *names: str) -> ac.Data:
+        t = clean().time[:301]
+        system = ac.compile(Oscillator(d=d))
+        done = ac.simulate(system, (0, 6), dt=0.02, solver="rk4", inputs=clean().between(0, 6))
+        data = ac.Data(t, {n: done[n] for n in ("mass.s", "push.f")})
+        return noisy(data, seed, *names)
+
+    fit = ac.fit(
+        plain(), [run(0.8, 1, "mass.s"), run(1.4, 2, "mass.s")], "mass.s", modifiers=["mass.m"],
+        per_record={"spring.d": None}, x0="model", **QUIET,
+    )  # fmt: skip
+    new = {"measured": run(2.0, 3, "mass.s"), "not": run(2.0, 3)}
+    found = fit.predict(new, x0="model")
+    assert found["measured"].parameters["spring.d"] == pytest.approx(2.0, abs=0.05)
+    assert found["not"].parameters["spring.d"] == pytest.approx(1.1, abs=0.05)
+    known, unknown = (found[n].bands["mass.s"].sigma.max() for n in ("measured", "not"))
+    assert unknown > 5 * known
+    given = fit.predict(new, x0="model", params={"spring.d": 2.0})
+    assert given["not"].parameters["spring.d"] == pytest.approx(2.0)
+    assert given["measured"].rms["mass.s"] == pytest.approx(NOISE, rel=0.1)
+    with pytest.raises(
+        ac.DataError, match=r"'mass\.m' does not differ between records, but 'spring\.d':"
+    ):
+        fit.predict(new, params={"mass.m": 2.0})
+    with pytest.raises(ac.DataError, match="no record 'other'"):
+        fit.predict(new, params={"other": {"spring.d": 2.0}})
+
+
+def test_errors_stand_in_a_table_and_what_leaves_the_range_is_told(tmp_path: Path):
+    parts = {"a": clean().between(10, 14), "b": clean().between(14, 18)}
+    large = ac.Data(parts["b"].time, {n: 3 * v for n, v in parts["b"].signals.items()})
+    found = trained().predict({**parts, "large": large})
+    assert not found["a"].outside
+    silent = ac.Data(large.time, {"push.f": large["push.f"]})
+    assert trained().predict(silent, x0="model")["record"].outside
+    assert "'large' is outside of the training's range: 'push.f'" in repr(found)
+    page = found.report(tmp_path).read_text()
+    assert "outside of the training" in page
+    assert "a: mass.s" in page
+    table = trained().evaluate({**parts, "large": large})
+    assert list(getattr(table, "rows", None) or table.index) == [
+        "a: mass.s",
+        "b: mass.s",
+        "large: mass.s",
+    ]
+    assert len(found["a"].plot().axes) == 1
+    with pytest.raises(ac.DataError, match="There is no record 'c'"):
+        found["c"]
+    with pytest.raises(ac.DataError, match=r"lack 'push\.f'"):
+        trained().predict(ac.Data(parts["a"].time, {"mass.s": parts["a"]["mass.s"]}))
+
+
+def test_conformal_bands_take_the_place_of_two_standard_deviations():
+    fit = trained()
+    band = fit.conformal(noisy(clean().between(8, 14), 4, "mass.s", "mass.v"), 0.8)
+    new = noisy(clean().between(14, 20), 5, "mass.s", "mass.v")
+    low, high = fit.predict(new, conformal=band)["record"].bands["mass.s"].bounds
+    np.testing.assert_allclose(high - low, 2 * band.width["mass.s"])
