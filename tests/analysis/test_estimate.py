@@ -196,7 +196,7 @@ class Pendulum(ac.Component):
 
 
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
-def test_states_and_a_parameter_of_a_pendulum_are_found_with_default_arguments(method):
+def test_states_and_a_parameter_of_a_pendulum_are_found(method):
     system = ac.compile(Pendulum(), check_units=False)
     truth = ac.simulate(system, 10, dt=0.02, x0={"phi": 0.8, "w": -1.0}, params={"length": 1.3})
     rng = np.random.default_rng(0)
