@@ -111,13 +111,15 @@ def look(
     begun = _begin(hunt, off, later, scale, h)
     gone_on = _go_on(hunt._replace(later=later), off[-1], h)
     width = 4 * jnp.finfo(h.dtype).eps * jnp.maximum(jnp.abs(t), h)
+    narrow = (gone_on.high - gone_on.low <= width) | (gone_on.tries >= TRIES)
     there = (
         (
             (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & hunt.away
         )  # a number may be zero long before it changes
-        | (gone_on.high - gone_on.low <= width)
-        | (gone_on.tries >= TRIES)
+        | (narrow & (off[-1] > 0))  # a number may jump: before it does, nothing has changed
+        | (gone_on.tries >= TRIES + 2)
     )
+    gone_on = gone_on._replace(h=jnp.where(narrow, gone_on.high, gone_on.h))
     is_event = hunt.active & there
     which = jnp.argmax(share[-1])
     is_near = later & (last >= -BAND * scale)
