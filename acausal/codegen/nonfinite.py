@@ -48,6 +48,8 @@ def explain_nonfinite(
         together = instruction.found_with(place)
         names = [name(int(program.nodes[first + array][row])) for array, row in together]
         if isinstance(instruction, Evaluate | Accumulate):
+            if reason := _said(instruction, values):
+                return f"'{names[0]}' cannot be computed. {reason}"
             value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
             return _formula(names[0], instruction.formula, value)
         if instruction.is_linear:
@@ -63,6 +65,14 @@ def _nonfinite(results: Sequence[Array]) -> list[Place]:
         for array, result in enumerate(results)
         for row in np.flatnonzero(~np.isfinite(np.atleast_1d(np.asarray(result))))
     ]
+
+
+def _said(instruction: Evaluate | Accumulate, values: Values) -> str | None:
+    """What a module that a formula calls says of it: one that computes outside of JAX may know why it fails."""
+    slots = instruction.arguments.modules if isinstance(instruction, Evaluate) else ()
+    called = (values.packed.modules[m] for _, modules in slots for m in modules)
+    asked = (getattr(module, "why_nonfinite", None) for module in called)
+    return next((reason for why in asked if why and (reason := why())), None)
 
 
 def _formula(name: str, formula: str, value: float) -> str:

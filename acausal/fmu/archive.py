@@ -8,6 +8,7 @@ from __future__ import annotations
 import atexit
 import platform
 import shutil
+import struct
 import sys
 import tempfile
 import zipfile
@@ -162,8 +163,28 @@ def binary(folder: Path, identifier: str, name: object) -> Path:
         raise DeclarationError(f"FMU: '{name}': '{shortened(identifier)}' is not a name of a library.")
     for place in PLATFORMS:
         if (found := folder / "binaries" / place / f"{identifier}{ENDING}").is_file():
+            if _is_cut_off(found.read_bytes()):
+                raise DeclarationError(
+                    f"FMU: the binary of '{name}' is cut off or no library; export it again."
+                )
             return found
     raise DeclarationError(
         f"FMU: '{name}' has no binary for this platform (binaries/{PLATFORMS[-1]}/{identifier}{ENDING}); "
         "export it for this platform, or compile its sources into it: fmpy compile."
     )
+
+
+def _is_cut_off(content: bytes) -> bool:
+    """Whether a library of Linux ends before its segments do: the system's loader would end the process."""
+    if ENDING != ".so":
+        return False
+    try:
+        start, size, count = (
+            *struct.unpack_from("<Q", content, 32), *struct.unpack_from("<HH", content, 54),
+        )  # fmt: skip
+        ends = [
+            sum(struct.unpack_from("<Q16xQ", content, start + i * size + 8)) for i in range(count)
+        ]
+    except struct.error:
+        return True
+    return not content.startswith(b"\x7fELF") or max(ends, default=0) > len(content)

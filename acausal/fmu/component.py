@@ -12,6 +12,7 @@ from acausal.errors import DeclarationError, nearest, shown
 from acausal.fmu.archive import read
 from acausal.fmu.description import NUMBERS, REAL, Description, FMUVariable, read_description
 from acausal.fmu.function import FMUFunction
+from acausal.fmu.fmu_view import as_html, as_text
 from acausal.fmu.part import NEVER, Part
 from acausal.modeling import (
     HALF,
@@ -99,7 +100,11 @@ class FMU(Component):
         return vars(self)[self._names[name]]
 
     def __repr__(self) -> str:
-        return shown_fmu(self._part)
+        return as_text(self._part)
+
+    def _repr_html_(self) -> str:
+        """For notebooks."""
+        return as_html(self._part)
 
     # -- declarations ------------------------------------------------------------------------------
 
@@ -231,7 +236,7 @@ class _Chosen:
             )
         self.values = values
         self.settings = {n: v for n, v in values.items() if _is_setting(known[n])}
-        starts = [known[n] for n in values if known[n] not in self._of(description)]
+        starts = [known[n] for n in values if known[n] not in description.parameters]
         starts = [v for v in starts if v.name not in self.settings and v.causality != "input"]
         for v in starts:
             if v.initial != "exact" or v.type not in REAL[:2] or v.variability == "constant":
@@ -242,10 +247,6 @@ class _Chosen:
         self.inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
         results = [known[n] for n in dict.fromkeys((*description.outputs, *observe))]
         self.results = [v for v in results if v.type in NUMBERS]
-
-    @staticmethod
-    def _of(description: Description) -> list[FMUVariable]:
-        return description.parameters
 
 
 def _is_setting(variable: FMUVariable) -> bool:
@@ -259,8 +260,3 @@ def _name(variable: FMUVariable) -> str:
     """The name of a value that a model gives: a start value is not the variable itself."""
     own = variable.causality in ("parameter", "input")
     return variable.name if own else f"{variable.name}.start"
-
-
-def shown_fmu(part: Part) -> str:
-    """What an FMU is, as lines of text."""
-    return f"<FMU {part.description.model}>"

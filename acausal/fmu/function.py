@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from acausal.fmu.handlers import called
+from acausal.fmu.handlers import FAILURES, called
 from acausal.fmu.part import Part
 
 
@@ -33,6 +33,11 @@ class FMUFunction(eqx.Module):
         number = getattr(part.computed, self.kind)
         found = _found(number, rows, jnp.stack([jnp.asarray(v, float) for v in values]))
         return jnp.take(found, jnp.asarray(which).astype(int))
+
+    def why_nonfinite(self) -> str | None:
+        """Why the FMU last gave no finite numbers, if it said so."""
+        first = getattr(self.part.computed, self.kind)
+        return next((FAILURES.pop(n) for n in (first, first + 1, first + 2) if n in FAILURES), None)
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))

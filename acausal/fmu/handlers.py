@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.fmu.instance import BYTES, Discarded
+from acausal.fmu.instance import BYTES
 
 Call = Callable[[int, int], object]
 """A function of two addresses: of the numbers that it takes, and of those that it gives."""
@@ -79,6 +79,9 @@ class _Frame(C.Structure):
 
 _CALLS: list[Call] = []
 
+FAILURES: dict[int, str] = {}
+"""By the number of a function, why it last gave no numbers."""
+
 
 def register(call: Call) -> int:
     """A number by which compiled programs call a function; it holds for this process."""
@@ -88,7 +91,7 @@ def register(call: Call) -> int:
 
 
 def called(number: int, given: Float[Array, " n"], shape: tuple[int, ...]) -> Array:
-    """The numbers that a registered function gives, in that shape; NaN where it discards what it is given.
+    """The numbers that a registered function gives, in that shape; NaN where it fails.
 
     Arguments:
         number: of the function. given: what it takes. shape: of what it gives.
@@ -124,8 +127,8 @@ def _handle(address: C._Pointer[_Frame]) -> int | None:  # pyright: ignore[repor
         else:
             _call_single(given.data, found.data, rows, width, height)
         return None
-    except BaseException as error:  # none may pass through C
-        message = f"{type(error).__name__}: {error}" if not str(error) else str(error)
+    except BaseException as error:  # Ctrl-C, for example: none may pass through C
+        message = f"{type(error).__name__} {error}"
         described = _Error(C.sizeof(_Error), None, message.encode(), INTERNAL)
         return frame.api[0].error(C.addressof(described))
 
@@ -133,9 +136,12 @@ def _handle(address: C._Pointer[_Frame]) -> int | None:  # pyright: ignore[repor
 def _call(given: int, found: int, rows: int, width: int, height: int) -> None:
     number = C.c_double.from_address
     for _ in range(rows):
+        which = int(number(given).value)
         try:
-            _CALLS[int(number(given).value)](given + BYTES, found)
-        except Discarded:
+            _CALLS[which](given + BYTES, found)
+        except Exception as error:
+            if str(error):
+                FAILURES[which] = str(error)
             C.memset(found, 0xFF, BYTES * height)  # NaN
         given += BYTES * width
         found += BYTES * height

@@ -262,6 +262,8 @@ class Instance:
             return
         if status == DISCARD:
             raise Discarded
+        if status >= FATAL:
+            self.address = 0  # nothing may be done with it any more
         raise FMUError(
             f"FMU: '{self.library.description.model}' fails in {what}{self.library.said()}."
         )

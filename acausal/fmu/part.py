@@ -51,8 +51,8 @@ Numbers = np.ndarray[Any, np.dtype[np.float64]]
 Function = Callable[[int, int], int]
 """A function of two addresses, which returns how far an event had to be shifted."""
 
-Fast = Callable[[Numbers, Numbers], set[int]]
-"""Fills columns of a Jacobian that need no difference quotients, and returns which."""
+Fast = Callable[[Numbers, Numbers], dict[int, int]]
+"""Fills the first rows of those columns of a Jacobian that need no difference quotients, and returns how many of each."""
 
 
 class Event(NamedTuple):
@@ -181,6 +181,7 @@ class Computed:
         )
         self.begin = self._with_derivatives(self._begin, width, 1 + n, self._no_columns)
         finalize(self, _free_all, self._instances)
+        self._instance(self._defaults(), 0)
 
     def _variables(self, names: tuple[str, ...]) -> Variables:
         known = self.description.variables
@@ -191,6 +192,12 @@ class Computed:
         names = (*self.description.states, *part.inputs, *part.parameters)
         each = [[v.nominal] * v.size for v in (known[n] for n in names)]
         return np.asarray([1.0, 0.0, *(s for sizes in each for s in sizes)])
+
+    def _defaults(self) -> bytes:
+        """The parameters as the FMU has them: with them an FMU that cannot be used says so before it is needed."""
+        known = self.description.variables
+        starts = [s for name in self.part.parameters for s in known[name].starts]
+        return np.asarray(starts, float).tobytes()
 
     # -- instances -----------------------------------------------------------------------------------
 
@@ -355,8 +362,10 @@ class Computed:
                 nudges = function(given.ctypes.data, first.ctypes.data)
                 done = fast(given, matrix)
                 for column in columns:
-                    if column not in done:
-                        matrix[:, column] = self._quotient(function, given, first, column, nudges)
+                    rows = slice(done.get(column, 0), height)
+                    if rows.start < height:
+                        found = self._quotient(function, given, first, column, nudges)
+                        matrix[rows, column] = found[rows]
 
         def second(at: int, into: int) -> None:
             given, found = _array(at, width).copy(), _array(into, height, width, width)
@@ -405,14 +414,14 @@ class Computed:
     def _is_central(self, function: Function) -> bool:
         return function == self._evaluate and self.description.indicators > 0
 
-    def _no_columns(self, given: Numbers, matrix: Numbers) -> set[int]:
-        return set()
+    def _no_columns(self, given: Numbers, matrix: Numbers) -> dict[int, int]:
+        return {}
 
-    def _fast_columns(self, given: Numbers, matrix: Numbers) -> set[int]:
-        """The columns of states and inputs by the FMU's directional derivatives, where it has them."""
+    def _fast_columns(self, given: Numbers, matrix: Numbers) -> dict[int, int]:
+        """Rates and results by states and inputs, by the FMU's directional derivatives, where it has them."""
         known = self.description.variables
-        if not self.description.directional or self.description.indicators:
-            return set()
+        if not self.description.directional:
+            return {}
         part, at = self.part, given.ctypes.data
         instance = self._instance(
             C.string_at(at + self._at_parameters, self._at_signs - self._at_parameters), int(given[1])
@@ -420,19 +429,20 @@ class Computed:
         instance.move(given[0], at + self._at_states, at + self._at_inputs)
         rows = [known[n] for n in (*self.description.rates, *part.results)]
         if not all(r.type in REAL[:2] for r in rows):
-            return set()
+            return {}
+        size = sum(r.size for r in rows)
         unknowns = (C.c_uint32 * len(rows))(*[r.reference for r in rows])
-        column, done = 2, set[int]()
+        column, done = 2, dict[int, int]()
         for name in (*self.description.states, *part.inputs):
             variable = known[name]
             if variable.type not in REAL[:2]:
                 column += variable.size
                 continue
             for seed in np.eye(variable.size):
-                found = np.zeros(len(matrix))
+                found = np.zeros(size)
                 instance.derivative(unknowns, variable.reference, seed, found)
-                matrix[:, column] = found
-                done.add(column)
+                matrix[:size, column] = found
+                done[column] = size
                 column += 1
         return done
 
