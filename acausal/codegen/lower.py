@@ -56,7 +56,12 @@ class ModuleValue:
 
 
 def collect(modules: Sequence[Any]) -> ModuleValue:
-    """The modules of several instances: stacked if they differ only in the values of their arrays."""
+    """The modules of several instances: stacked if they differ only in the values of their arrays.
+
+    Those that are no parameters are one if they are equal.
+    """
+    if all(getattr(m, "is_fixed", False) and m == modules[0] for m in modules):
+        return ModuleValue(modules[0])
     parts = [eqx.partition(m, eqx.is_array) for m in modules]
     (first, rest), *others = parts
     alike = bool(jax.tree.leaves(first)) and all(

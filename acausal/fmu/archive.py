@@ -160,7 +160,9 @@ def binary(folder: Path, identifier: str, name: object) -> Path:
         DeclarationError: where there is none, with those that there are.
     """
     if "/" in identifier or "\\" in identifier or identifier.startswith("."):
-        raise DeclarationError(f"FMU: '{name}': '{shortened(identifier)}' is not a name of a library.")
+        raise DeclarationError(
+            f"FMU: '{name}': '{shortened(identifier)}' is not a name of a library."
+        )
     for place in PLATFORMS:
         if (found := folder / "binaries" / place / f"{identifier}{ENDING}").is_file():
             if _is_cut_off(found.read_bytes()):

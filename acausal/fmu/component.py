@@ -11,8 +11,8 @@ import numpy as np
 from acausal.errors import DeclarationError, nearest, shown
 from acausal.fmu.archive import read
 from acausal.fmu.description import NUMBERS, REAL, Description, FMUVariable, read_description
-from acausal.fmu.function import FMUFunction
 from acausal.fmu.fmu_view import as_html, as_text
+from acausal.fmu.function import FMUFunction
 from acausal.fmu.part import NEVER, Part
 from acausal.modeling import (
     HALF,
@@ -59,7 +59,11 @@ class FMU(Component):
     event = Module(doc="what the FMU computes at an event")
 
     def __init__(
-        self, path: str | Path, values: Mapping[str, Any] | None = None, *, observe: Sequence[str] = ()
+        self,
+        path: str | Path,
+        values: Mapping[str, Any] | None = None,
+        *,
+        observe: Sequence[str] = (),
     ) -> None:
         digest, folder = read(path)
         description = read_description(folder, path)
@@ -78,7 +82,9 @@ class FMU(Component):
             beginning=FMUFunction(part, "begin"),
             event=FMUFunction(part, "event"),
         )
+        self._node.title = description.model
         self._part = part
+        self._has_events = part.has_events()
         self._names: dict[str, str] = {}
         self._declare(chosen)
 
@@ -120,7 +126,9 @@ class FMU(Component):
         for v in chosen.inputs:
             if v.name not in chosen.values:
                 kind = "bool" if v.type == "Boolean" else "real" if v.type in REAL else "int"
-                self._add_declaration(v.name, Input(kind=kind, unit=v.unit, shape=v.shape, doc=v.text))
+                self._add_declaration(
+                    v.name, Input(kind=kind, unit=v.unit, shape=v.shape, doc=v.text)
+                )
         known = self.description.variables
         for v in (known[n] for n in self.description.states):
             self._add_declaration(
@@ -131,24 +139,20 @@ class FMU(Component):
             if v.name not in self._names:
                 self._add_declaration(v.name, Output(unit=v.unit, shape=v.shape, doc=v.text))
         if self._has_events:
-            self._add_declaration(HISTORY, Discrete(0, kind="int", doc="number of the FMU's history"))
+            self._add_declaration(
+                HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
+            )
             self._add_declaration(NEXT, Discrete(NEVER, unit="s", doc="the FMU's next time event"))
             n = self.description.indicators
-            self._add_declaration(INDICATORS, Variable(shape=(n,), doc="the FMU's event indicators"))
+            self._add_declaration(
+                INDICATORS, Variable(shape=(n,), doc="the FMU's event indicators")
+            )
 
     def _add_declaration(self, name: str, declared: Declaration) -> None:
         taken = hasattr(Component, name) or hasattr(FMU, name) or name == "time"
         own = f"{name}_" if taken else name
         self._names[name] = own
         self._node.declare(own, declared)
-
-    @property
-    def _has_events(self) -> bool:
-        changes = (
-            v.variability == "discrete" and v.causality in ("local", "output")
-            for v in self.description.variables.values()
-        )
-        return self.description.indicators > 0 or any(changes)
 
     # -- equations ---------------------------------------------------------------------------------
 
@@ -158,9 +162,15 @@ class FMU(Component):
     def _arguments(self, history: Any, inputs: list[Any]) -> list[Any]:
         known, part = self.description.variables, self._part
         names = [_name(known[n]) for n in part.parameters]
-        return [time, history, *self._elements(self.description.states), *inputs, *self._elements(names)]
+        return [
+            time,
+            history,
+            *self._elements(self.description.states),
+            *inputs,
+            *self._elements(names),
+        ]
 
-    def equations(self) -> Iterable[Eq | When]:
+    def equations(self) -> Iterable[Any]:
         """Rates of states, outputs, and what happens at events."""
         part, known = self._part, self.description.variables
         inputs = self._elements(part.inputs)
@@ -252,7 +262,9 @@ class _Chosen:
 def _is_setting(variable: FMUVariable) -> bool:
     """Whether a value is fixed when the FMU is made."""
     if variable.causality == "structuralParameter":
-        raise DeclarationError(f"FMU: '{variable.name}' is a structural parameter, which is not supported yet.")
+        raise DeclarationError(
+            f"FMU: '{variable.name}' is a structural parameter, which is not supported yet."
+        )
     return variable.causality == "parameter" and variable.type not in REAL[:2]
 
 

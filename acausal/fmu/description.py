@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,8 +17,13 @@ from acausal.modeling import element_names
 Interface = Literal["model exchange", "co-simulation"]
 
 REAL = ("Real", "Float64", "Float32")
-WHOLE = ("Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")  # fmt: skip
+WHOLE = (
+    "Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64",
+)  # fmt: skip
 NUMBERS = (*REAL, *WHOLE, "Boolean")
+
+DIRECTIONAL = re.compile(rb"<ModelExchange[^>]*providesDirectionalDerivatives\s*=\s*.(?:true|1)")
+"""What fmpy does not read of FMI 3."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +132,7 @@ def read_description(folder: Path, file: object) -> Description:
             "FMU needs the package 'fmpy'; install it: pip install 'acausal[fmu]'"
         ) from None
     try:
-        return _described(read_model_description(folder))
+        return _described(read_model_description(folder), bool(DIRECTIONAL.search(content)))
     except DeclarationError:
         raise
     except Exception as error:  # the reader of another, on a file of a third
@@ -136,16 +142,20 @@ def read_description(folder: Path, file: object) -> Description:
         ) from None
 
 
-def _described(read: Any) -> Description:
+def _described(read: Any, directional: bool) -> Description:
     if not read.fmiVersion.startswith(("2.", "3.")):
-        raise DeclarationError(f"FMU: FMI {read.fmiVersion} is not supported; export it by FMI 2.0 or 3.0.")
+        raise DeclarationError(
+            f"FMU: FMI {read.fmiVersion} is not supported; export it by FMI 2.0 or 3.0."
+        )
     variables = {v.name: _variable(v) for v in read.modelVariables}
     if len(variables) != len(read.modelVariables):
         raise ValueError("two variables have one name")
     exchange, cosimulation = read.modelExchange, read.coSimulation
     can = exchange or cosimulation
     if can is None:
-        raise DeclarationError("FMU: it has neither model exchange nor co-simulation, and so is not supported.")
+        raise DeclarationError(
+            "FMU: it has neither model exchange nor co-simulation, and so is not supported."
+        )
     derived = {v.name: v.derivative.name for v in read.modelVariables if v.derivative is not None}
     rates = tuple(u.variable.name for u in read.derivatives)
     if missing := [r for r in rates if r not in derived]:
@@ -178,7 +188,7 @@ def _described(read: Any) -> Description:
         },
         indicators=indicators,
         once=bool(can.canBeInstantiatedOnlyOncePerProcess),
-        directional=bool(exchange and exchange.providesDirectionalDerivative),
+        directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
         step=float((experiment and experiment.stepSize) or 0.0),
     )
 
@@ -217,4 +227,4 @@ def _variable(read: Any) -> FMUVariable:
 
 def _number(text: Any) -> float:
     """A number, or a truth value as 1 or 0."""
-    return {"true": 1.0, "false": 0.0}.get(text, None) if text in ("true", "false") else float(text)  # pyright: ignore[reportReturnType]
+    return {"true": 1.0, "false": 0.0}.get(text) if text in ("true", "false") else float(text)  # pyright: ignore[reportReturnType]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
-from acausal.fmu.description import Description, FMUVariable
+from acausal.fmu.description import WHOLE, Description, FMUVariable
 from acausal.fmu.part import Part
 
 MOST = 12
@@ -26,7 +26,9 @@ def as_html(part: Part) -> str:
 
 def _lines(part: Part) -> Iterator[tuple[str, str]]:
     d = part.description
-    kinds = [n for n, has in (("model exchange", d.exchange), ("co-simulation", d.cosimulation)) if has]
+    kinds = [
+        n for n, has in (("model exchange", d.exchange), ("co-simulation", d.cosimulation)) if has
+    ]
     yield "FMU", f"{d.model}, FMI {d.version}, {' and '.join(kinds)}"
     if d.text:
         yield "about", " ".join(d.text.split())
@@ -35,15 +37,12 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
     for what, names in (("states", d.states), ("inputs", part.inputs), ("outputs", part.results)):
         yield what, _listed([known[n] for n in names], with_values=what == "inputs")
     yield "parameters", _listed([known[n] for n in part.parameters], with_values=True)
-    others = [v for v in d.of("parameter", ("String", *_OTHERS)) if v.type not in ("Real", "Float64")]
-    if others:
-        yield "settings", _listed(others, with_values=True)
+    settings = d.of("parameter", ("String", "Boolean", "Float32", *WHOLE))
+    if settings:
+        yield "settings", _listed(settings, with_values=True)
     if d.indicators:
         yield "events", f"{d.indicators} event indicators"
     yield "derivatives", _derivatives(d)
-
-
-_OTHERS = ("Boolean", "Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64", "Float32")  # fmt: skip
 
 
 def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:

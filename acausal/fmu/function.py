@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from acausal.fmu.handlers import FAILURES, called
@@ -26,12 +27,16 @@ class FMUFunction(eqx.Module):
     part: Part = eqx.field(static=True)
     kind: Literal["evaluate", "event", "begin"] = eqx.field(static=True)
 
+    is_fixed: ClassVar[bool] = True
+    """It is a part of the model and no parameter."""
+
     def __call__(self, which: Any, *values: Any) -> Float[Array, ""]:
         """The number at a place, counted from 0."""
         part = self.part
         rows = {"evaluate": part.n_values, "event": 2 + part.n, "begin": 1 + part.n}[self.kind]
         number = getattr(part.computed, self.kind)
-        found = _found(number, rows, jnp.stack([jnp.asarray(v, float) for v in values]))
+        kind = jnp.result_type(*values, np.float32)
+        found = _found(number, rows, jnp.stack([jnp.asarray(v, kind) for v in values]))
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:

@@ -48,7 +48,7 @@ class FMUError(SimulationError):
     """An FMU has refused a call."""
 
 
-class Discarded(Exception):
+class DiscardError(Exception):
     """An FMU cannot compute anything at these values; a shorter step may do."""
 
 
@@ -97,8 +97,10 @@ class Library:
     """The loaded library of an FMU.
 
     Attributes:
-        messages: the last ones that its instances have logged.
+        messages: the last ones that its instances have logged. instances: how many there are.
     """
+
+    instances = 0
 
     def __init__(self, description: Description, folder: Path) -> None:
         self.description, self.folder = description, folder
@@ -186,7 +188,6 @@ class Library:
     def said(self) -> str:
         """The last messages, as a clause."""
         found = "; ".join(dict.fromkeys(self.messages))
-        self.messages.clear()
         return f": it says '{shortened(' '.join(found.split()), 300)}'" if found else ""
 
     @cached_property
@@ -199,7 +200,12 @@ class Library:
         for name in names:
             found[name] = self.function(name, p, p, size)
         found["rates"] = found[rates]
-        for name in ("EnterEventMode", "EnterContinuousTimeMode", "ExitInitializationMode", "Reset"):
+        for name in (
+            "EnterEventMode",
+            "EnterContinuousTimeMode",
+            "ExitInitializationMode",
+            "Reset",
+        ):
             found[name] = self.function(name, p)
         return found
 
@@ -243,25 +249,32 @@ class Instance:
         self._sets = [
             (library.accessor("Set", w), k, r, s, n, m) for w, k, r, s, n, m in parameters.blocks
         ]
+        if library.description.once and library.instances:
+            raise FMUError(
+                f"FMU: '{library.description.model}' can be in a process only once; a model may have one of it, with one "
+                "choice of values."
+            )
         self.address = library.instantiate()
+        library.instances += 1
 
     def free(self) -> None:
         """Give it back."""
         if self.address:
             free = self.library.function("FreeInstance", C.c_void_p, result=None)
             address, self.address = self.address, 0
+            self.library.instances -= 1
             free(address)
 
     def check(self, status: int, what: str) -> None:
         """Refuse a status.
 
         Raises:
-            Discarded: where the FMU cannot compute anything here. FMUError: for an error.
+            DiscardError: where the FMU cannot compute anything here. FMUError: for an error.
         """
         if status <= WARNING:
             return
         if status == DISCARD:
-            raise Discarded
+            raise DiscardError
         if status >= FATAL:
             self.address = 0  # nothing may be done with it any more
         raise FMUError(
@@ -321,7 +334,9 @@ class Instance:
             raise FMUError(
                 f"FMU: '{library.description.model}' finds no discrete states that agree: they change for ever."
             )
-        self.check(library.calls["EnterContinuousTimeMode"](self.address), "EnterContinuousTimeMode")
+        self.check(
+            library.calls["EnterContinuousTimeMode"](self.address), "EnterContinuousTimeMode"
+        )
         return Info(after if defined else np.inf, jumped)
 
     def _update(self) -> tuple[list[bool], float]:

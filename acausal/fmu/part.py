@@ -22,11 +22,11 @@ from weakref import finalize
 
 import numpy as np
 
-from acausal.errors import DeclarationError
+from acausal.errors import AcausalError, DeclarationError
 from acausal.fmu.archive import read
 from acausal.fmu.description import REAL, Description
 from acausal.fmu.handlers import register
-from acausal.fmu.instance import BYTES, Discarded, Instance, Library, Variables
+from acausal.fmu.instance import BYTES, DiscardError, Instance, Library, Variables
 
 NEVER = 1e30
 """The time of an event that never comes [s]."""
@@ -52,7 +52,7 @@ Function = Callable[[int, int], int]
 """A function of two addresses, which returns how far an event had to be shifted."""
 
 Fast = Callable[[Numbers, Numbers], dict[int, int]]
-"""Fills the first rows of those columns of a Jacobian that need no difference quotients, and returns how many of each."""
+"""Fills rows of a Jacobian that need no difference quotients; by column, how many, from the first."""
 
 
 class Event(NamedTuple):
@@ -72,7 +72,7 @@ class Event(NamedTuple):
 
 
 class After(NamedTuple):
-    """What is behind an event: the number of the history, the next time event, the states, and how far it was shifted."""
+    """What is behind an event: number of the history, next time event, states; and how often it was shifted."""
 
     history: int
     next: float
@@ -87,7 +87,7 @@ class Part:
     Attributes:
         path: of the archive, as the user gave it. digest: of its content. description: of the FMU.
         settings: values that are fixed and no real parameters, by name.
-        parameters, inputs, results: names of what a model gives and reads. Behind an evaluation's rates come the results.
+        parameters, inputs, results: names of what a model gives, and of what it reads.
     """
 
     path: str
@@ -124,6 +124,17 @@ class Part:
         """How many numbers an evaluation gives: rates, results, indicators."""
         return self.n + len(self.elements(self.results)) + self.description.indicators
 
+    def has_events(self) -> bool:
+        """Whether there are events: nobody but the FMU itself knows of its time events."""
+        known = self.description.variables.values()
+        changes = any(
+            v.variability == "discrete" and v.causality in ("local", "output") for v in known
+        )
+        try:
+            return changes or self.description.indicators > 0 or self.computed.first_event < NEVER
+        except AcausalError:
+            return False  # it cannot be used here, but it can be looked at
+
     @property
     def computed(self) -> Computed:
         """What computes it in this process."""
@@ -150,13 +161,16 @@ class Computed:
     The arguments of all are: time, history, states, inputs, parameters; of `event` also what the indicators' signs are.
 
     Attributes:
+        first_event: the first time event, infinite-like `NEVER` without.
         evaluate, event, begin: numbers of the functions; the next two are those of its first and second derivatives.
     """
 
     def __init__(self, part: Part) -> None:
         digest, folder = read(part.path)
         if digest != part.digest:
-            raise DeclarationError(f"FMU: '{part.path}' is no longer the file that the model was made of.")
+            raise DeclarationError(
+                f"FMU: '{part.path}' is no longer the file that the model was made of."
+            )
         self.part, self.description = part, part.description
         known = self.description.variables
         self._parameters = self._variables(part.parameters)
@@ -175,13 +189,16 @@ class Computed:
         self._at_parameters, self._at_signs = (2 + n + k) * BYTES, (2 + n + k + m) * BYTES
         self._scales = self._nominal()
         width = 2 + n + k + m
-        self.evaluate = self._with_derivatives(self._evaluate, width, part.n_values, self._fast_columns)
+        self.evaluate = self._with_derivatives(
+            self._evaluate, width, part.n_values, self._fast_columns
+        )
         self.event = self._with_derivatives(
             self._event, width + self.description.indicators + 1, 2 + n, self._no_columns
         )
         self.begin = self._with_derivatives(self._begin, width, 1 + n, self._no_columns)
         finalize(self, _free_all, self._instances)
         self._instance(self._defaults(), 0)
+        self.first_event = self._firsts[self._defaults()][0]
 
     def _variables(self, names: tuple[str, ...]) -> Variables:
         known = self.description.variables
@@ -212,7 +229,7 @@ class Computed:
         return found
 
     def _again(self, parameters: bytes, history: int) -> Instance:
-        """An instance that has gone through a history: the last one that has gone through a part of it, or a new one."""
+        """An instance that goes through a history, from where one has come already if possible."""
         chain: list[Event] = []
         while history > 0 and (parameters, history) not in self._instances:
             chain.append(self._events[history])
@@ -257,14 +274,13 @@ class Computed:
         states, inputs = (np.frombuffer(b).copy() for b in (event.states, event.inputs))
         wanted = np.frombuffer(event.signs) > 0.5
         values = np.zeros(self.part.n_values)
-        shift, start, nudges = NUDGE * max(1.0, abs(time)), time, 0
+        shift, start, nudges, rates = NUDGE * max(1.0, abs(time)), time, 0, states
         instance.move(time, states.ctypes.data, inputs.ctypes.data)
         while len(wanted) and nudges < NUDGES:
             instance.read(values.ctypes.data)
             if ((values[-len(wanted) :] > 0) == wanted).all():
                 break
-            if nudges == 0:
-                rates = values[: len(states)].copy()
+            rates = values[: len(states)].copy() if nudges == 0 else rates
             shifted = states + shift * rates
             instance.move(start + shift, shifted.ctypes.data, inputs.ctypes.data)
             shift, nudges = 2 * shift, nudges + 1
@@ -396,7 +412,7 @@ class Computed:
         found: list[tuple[int, float, Numbers]] = []
         for h in (step, -step):
             given[column] = value + h
-            with suppress(Discarded):
+            with suppress(DiscardError):
                 there = np.zeros(len(first))
                 shifted = function(given.ctypes.data, there.ctypes.data)
                 found.append((shifted, given[column], there))
@@ -424,7 +440,8 @@ class Computed:
             return {}
         part, at = self.part, given.ctypes.data
         instance = self._instance(
-            C.string_at(at + self._at_parameters, self._at_signs - self._at_parameters), int(given[1])
+            C.string_at(at + self._at_parameters, self._at_signs - self._at_parameters),
+            int(given[1]),
         )
         instance.move(given[0], at + self._at_states, at + self._at_inputs)
         rows = [known[n] for n in (*self.description.rates, *part.results)]
@@ -449,7 +466,9 @@ class Computed:
 
 def _array(address: int, *shape: int) -> Numbers:
     """The numbers at an address."""
-    return np.ctypeslib.as_array((C.c_double * math.prod(shape)).from_address(address)).reshape(shape)
+    return np.ctypeslib.as_array((C.c_double * math.prod(shape)).from_address(address)).reshape(
+        shape
+    )
 
 
 def _free_all(instances: OrderedDict[Any, Instance]) -> None:

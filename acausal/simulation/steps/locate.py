@@ -15,6 +15,9 @@ POINTS = (0.0, 0.25, 0.5, 0.75, 1.0)
 TRIES = 80
 """Steps, at most, until an instant is found."""
 
+HALVES = 12
+"""After so many steps the interval is halved each time: the number may jump, so that no line through two of it helps."""
+
 CLOSE = 1e-13
 """Of a condition's change over the step: a number so small is zero."""
 
@@ -181,6 +184,7 @@ def _next(low: Array, high: Array, off_low: Array, off_high: Array, tries: Array
     """Where the next step ends; sometimes in the middle, as conditions may jump."""
     share = off_low / (off_low - off_high)
     usable = jnp.isfinite(share) & (tries % jnp.where(off_low >= -CLOSE, 2, 6) != 1)
+    usable = usable & (tries < HALVES)
     share = jnp.where(usable, jnp.clip(share, 1e-9, 1 - 1e-9), 0.5)
     return low + share * (high - low)
 
