@@ -251,8 +251,8 @@ class Instance:
         ]
         if library.description.once and library.instances:
             raise FMUError(
-                f"FMU: '{library.description.model}' can be in a process only once; a model may have one of it, with one "
-                "choice of values."
+                f"FMU: '{library.description.model}' can be in a process only once; a model may have one of it, with "
+                "one choice of values."
             )
         self.address = library.instantiate()
         library.instances += 1

@@ -16,7 +16,7 @@ TRIES = 80
 """Steps, at most, until an instant is found."""
 
 HALVES = 12
-"""After so many steps the interval is halved each time: the number may jump, so that no line through two of it helps."""
+"""After so many steps the interval is halved each time: where the number jumps, no line through two of it helps."""
 
 CLOSE = 1e-13
 """Of a condition's change over the step: a number so small is zero."""
