@@ -20,7 +20,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import ModelError
-from acausal.modeling import ModuleCall, Prescribed
+from acausal.modeling import GivenModule, ModuleCall, Prescribed
 
 
 @dataclass(frozen=True)
@@ -306,6 +306,7 @@ RULES: dict[type, LoweringRule] = {
     sp.ITE: _call(jnp.where),
     sp.logic.boolalg.BooleanTrue: lambda node, visit: True,
     sp.logic.boolalg.BooleanFalse: lambda node, visit: False,
+    GivenModule: lambda node, visit: ModuleValue(node.value),
     ModuleCall: _module,
     Prescribed: lambda node, visit: visit(node.args[2 + int(node.args[0])]),
 }

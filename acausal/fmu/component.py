@@ -20,6 +20,7 @@ from acausal.modeling import (
     Declaration,
     Discrete,
     Eq,
+    GivenModule,
     Input,
     Module,
     Output,
@@ -55,7 +56,6 @@ class FMU(Component):
     """
 
     values = Module(doc="what the FMU computes between events")
-    beginning = Module(doc="what the FMU computes at the start")
     event = Module(doc="what the FMU computes at an event")
 
     def __init__(
@@ -77,11 +77,7 @@ class FMU(Component):
             tuple(v.name for v in chosen.inputs),
             tuple(v.name for v in chosen.results),
         )
-        super().__init__(
-            values=FMUFunction(part, "evaluate"),
-            beginning=FMUFunction(part, "begin"),
-            event=FMUFunction(part, "event"),
-        )
+        super().__init__(values=FMUFunction(part, "evaluate"), event=FMUFunction(part, "event"))
         self._node.title = description.model
         self._part = part
         self._has_events = part.has_events()
@@ -130,11 +126,20 @@ class FMU(Component):
                     v.name, Input(kind=kind, unit=v.unit, shape=v.shape, doc=v.text)
                 )
         known = self.description.variables
+        first = 0
         for v in (known[n] for n in self.description.states):
-            self._add_declaration(
-                v.name,
-                Variable(unit=v.unit, nominal=v.nominal, state="always", shape=v.shape, doc=v.text),
+            start = f"fmu_start_{first}"
+            vars(self)[start] = self._starts(first, v)
+            declared = Variable(
+                start=start,
+                unit=v.unit,
+                nominal=v.nominal,
+                state="always",
+                shape=v.shape,
+                doc=v.text,
             )
+            self._add_declaration(v.name, declared)
+            first += v.size
         for v in chosen.results:
             if v.name not in self._names:
                 self._add_declaration(v.name, Output(unit=v.unit, shape=v.shape, doc=v.text))
@@ -212,15 +217,24 @@ class FMU(Component):
             jumps = [Reinit(x, self.event(2 + i, *given)) for i, x in enumerate(states)]
             yield When(abs(self[HISTORY] - pre(self[HISTORY])) > HALF, *jumps)
 
-    def initial_equations(self) -> Iterable[Eq]:
-        """The states that the FMU's own initialization finds."""
-        states = self._elements(self.description.states)
-        zeros = [0.0] * self._part.n_inputs
-        arguments = self._arguments(0, zeros)
-        arguments[2 : 2 + len(states)] = [0.0] * len(states)
-        arguments[0] = 0.0
-        for i, state in enumerate(states):
-            yield Eq(state, self.beginning(1 + i, *arguments))
+    def _starts(self, first: int, variable: FMUVariable) -> Any:
+        """The start values of a state, which the FMU's own initialization finds, by expressions of parameters."""
+        part, known = self._part, self.description.variables
+        zeros = [0.0] * (2 + part.n + part.n_inputs)
+        parameters = self._elements(_name(known[n]) for n in part.parameters)
+        function = GivenModule(f"start#{part.key}", FMUFunction(part, "begin"))
+        places = range(1 + first, 1 + first + variable.size)
+        each = [function(place, *zeros, *parameters) for place in places]
+        if not parameters:  # they are numbers
+            each = part.first_states()[first : first + variable.size]
+        return _nested(each, variable.shape or ())
+
+
+def _nested(values: list[Any], shape: tuple[int, ...]) -> Any:
+    """The values of an array as tuples of tuples."""
+    size = len(values) // shape[0] if shape else 1
+    parts = (values[i : i + size] for i in range(0, len(values), size))
+    return tuple(_nested(part, shape[1:]) for part in parts) if shape else values[0]
 
 
 class _Chosen:

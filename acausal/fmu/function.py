@@ -41,8 +41,8 @@ class FMUFunction(eqx.Module):
 
     def why_nonfinite(self) -> str | None:
         """Why the FMU last gave no finite numbers, if it said so."""
-        first = getattr(self.part.computed, self.kind)
-        return next((FAILURES.pop(n) for n in (first, first + 1, first + 2) if n in FAILURES), None)
+        found = [FAILURES.pop(n) for n in self.part.computed.numbers if n in FAILURES]
+        return found[0] if found else None
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))

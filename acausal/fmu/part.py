@@ -15,6 +15,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
+from hashlib import sha256
 from pathlib import Path
 from threading import RLock
 from typing import Any, NamedTuple
@@ -135,24 +136,33 @@ class Part:
         except AcausalError:
             return False  # it cannot be used here, but it can be looked at
 
+    def first_states(self) -> list[float]:
+        """The states at the start of an FMU without parameters; zeros where it cannot be used here."""
+        try:
+            return self.computed.first_states
+        except AcausalError:
+            return [0.0] * self.n
+
     @property
     def computed(self) -> Computed:
         """What computes it in this process."""
-        found = _COMPUTED.get(self._key)
+        found = _COMPUTED.get(self.key)
         if found is None:
-            found = _COMPUTED[self._key] = Computed(self)
+            found = _COMPUTED[self.key] = Computed(self)
         return found
 
     @cached_property
-    def _key(self) -> tuple[Any, ...]:
-        return self.digest, self.settings, self.parameters, self.inputs, self.results
+    def key(self) -> str:
+        """It stands for all that the part is."""
+        of = self.digest, self.settings, self.parameters, self.inputs, self.results
+        return sha256(repr(of).encode()).hexdigest()
 
     def __getstate__(self) -> dict[str, Any]:
         """Without what was computed."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
 
-_COMPUTED: dict[tuple[Any, ...], Computed] = {}
+_COMPUTED: dict[str, Computed] = {}
 
 
 class Computed:
@@ -161,8 +171,9 @@ class Computed:
     The arguments of all are: time, history, states, inputs, parameters; of `event` also what the indicators' signs are.
 
     Attributes:
-        first_event: the first time event, infinite-like `NEVER` without.
+        first_event, first_states: the first time event and the states at the start, with the FMU's own parameters.
         evaluate, event, begin: numbers of the functions; the next two are those of its first and second derivatives.
+        numbers: all of them.
     """
 
     def __init__(self, part: Part) -> None:
@@ -196,9 +207,11 @@ class Computed:
             self._event, width + self.description.indicators + 1, 2 + n, self._no_columns
         )
         self.begin = self._with_derivatives(self._begin, width, 1 + n, self._no_columns)
+        self.numbers = tuple(range(self.evaluate, self.begin + 3))
         finalize(self, _free_all, self._instances)
         self._instance(self._defaults(), 0)
-        self.first_event = self._firsts[self._defaults()][0]
+        self.first_event, states = self._firsts[self._defaults()]
+        self.first_states: list[float] = np.frombuffer(states).tolist()
 
     def _variables(self, names: tuple[str, ...]) -> Variables:
         known = self.description.variables

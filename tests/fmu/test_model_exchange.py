@@ -115,6 +115,14 @@ def test_start_values_are_parameters(exported: Exported) -> None:
         np.testing.assert_allclose(run["h"][-1], h - 9.81 * 0.005, rtol=1e-12)
 
 
+def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exported) -> None:
+    system = ac.compile(ac.FMU(exported(Mass), {"f": 3.2, "s": 0.3}))
+    assert system.initial_state()[0] == 0.3
+    assert system.initial_state(x0={"v": 1.0}).tolist() == [0.3, 1.0]
+    at_rest = system.initial_state(steady=True)
+    np.testing.assert_allclose(at_rest, [(3.2 / 400) ** (1 / 3), 0.0], atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("model", "end", "name"), [(Ball, 1.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None)]
 )
