@@ -19,8 +19,8 @@ def need_exportable(system: System, function: str) -> None:
     if fixed := system.layout.fixed_modules:
         path = system.layout.model.layout.module(next(iter(fixed))).rpartition(".")[0]
         raise ExportError(
-            f"export.{function}: '{path}' is an FMU, whose equations nobody knows; export the rest of the model, with "
-            "inputs and outputs in its place, and connect both in a tool that imports FMUs."
+            f"export.{function}: '{path or system.flat.name}' is an FMU, whose equations nobody knows; export the rest "
+            "of the model, with inputs and outputs in its place, and connect both in a tool that imports FMUs."
         )
 
 

@@ -93,6 +93,10 @@ def _kind(version: str, name: str) -> tuple[str, Any]:
     return KINDS[name]
 
 
+_MESSAGES: dict[bytes, deque[str]] = {}
+"""What instances have logged, by their name: fmpy's proxy calls the logger that was registered last."""
+
+
 class Library:
     """The loaded library of an FMU.
 
@@ -104,7 +108,8 @@ class Library:
 
     def __init__(self, description: Description, folder: Path) -> None:
         self.description, self.folder = description, folder
-        self.messages: deque[str] = deque(maxlen=MESSAGES)
+        self.name = description.model.encode()
+        self.messages = _MESSAGES.setdefault(self.name, deque(maxlen=MESSAGES))
         path = binary(folder, description.exchange, description.model)
         try:
             self._library = C.PyDLL(str(path))
@@ -138,17 +143,19 @@ class Library:
         return found
 
     def _logger(self) -> Any:
-        def keep(status: int, message: bytes | None) -> None:
-            if status > OK and message:
-                self.messages.append(message.decode(errors="replace").strip())
+        def keep(name: bytes, status: int, message: bytes | None) -> None:
+            if status > OK and message and name in _MESSAGES:
+                _MESSAGES[name].append(message.decode(errors="replace").strip())
 
         if not self.is_2:
             kind = C.CFUNCTYPE(None, C.c_void_p, C.c_int, C.c_char_p, C.c_char_p)
-            return kind(lambda _, status, __, message: keep(status, message))
+            return kind(lambda _, status, __, message: keep(self.name, status, message))
         from fmpy import fmi2
 
         callbacks = fmi2.fmi2CallbackFunctions()
-        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(lambda _, __, s, ___, text: keep(s, text))
+        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(
+            lambda _, name, s, __, text: keep(name, s, text)
+        )
         callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
         callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
         try:
@@ -166,7 +173,7 @@ class Library:
             FMUError: if the FMU refuses, as it does for a wrong GUID.
         """
         d, resources = self.description, self.folder / "resources"
-        name, token = d.model.encode(), d.token.encode()
+        name, token = self.name, d.token.encode()
         text, boolean = C.c_char_p, C.c_int if self.is_2 else C.c_bool
         if self.is_2:
             make = self.function(
@@ -209,6 +216,14 @@ class Library:
             found[name] = self.function(name, p)
         return found
 
+    @cached_property
+    def directional(self) -> Any:
+        """``fmi2GetDirectionalDerivative`` and its like."""
+        p, size = C.c_void_p, C.c_size_t
+        count = () if self.is_2 else (size,)
+        kinds = (p, p, size, p, size, p, *count, p, *count)
+        return self.function("GetDirectionalDerivative", *kinds)
+
     def accessor(self, verb: str, word: str) -> Any:
         """``fmi2GetReal`` and its like."""
         p, size = C.c_void_p, C.c_size_t
@@ -240,15 +255,9 @@ class Instance:
         call = library.calls
         self._set_time, self._set_states = call["SetTime"], call["SetContinuousStates"]
         self._rates, self._indicators = call["rates"], call["GetEventIndicators"]
-        self._reads = [
-            (library.accessor("Get", w), k, r, s, n, m) for w, k, r, s, n, m in results.blocks
-        ]
-        self._writes = [
-            (library.accessor("Set", w), k, r, s, n, m) for w, k, r, s, n, m in inputs.blocks
-        ]
-        self._sets = [
-            (library.accessor("Set", w), k, r, s, n, m) for w, k, r, s, n, m in parameters.blocks
-        ]
+        self._reads = self._calls("Get", results)
+        self._writes = self._calls("Set", inputs)
+        self._sets = self._calls("Set", parameters)
         if library.description.once and library.instances:
             raise FMUError(
                 f"FMU: '{library.description.model}' can be in a process only once; a model may have one of it, with "
@@ -256,6 +265,14 @@ class Instance:
             )
         self.address = library.instantiate()
         library.instances += 1
+
+    def _calls(self, verb: str, variables: Variables) -> list[tuple[Any, ...]]:
+        """For each type, the function, and what it is called with."""
+        return [
+            (self.library.accessor(verb, word), kind, references, start, size, count,
+             () if self.library.is_2 else (size,))
+            for word, kind, references, start, size, count in variables.blocks
+        ]  # fmt: skip
 
     def free(self) -> None:
         """Give it back."""
@@ -371,19 +388,21 @@ class Instance:
 
     def move(self, time: float, states: int, inputs: int) -> None:
         """Set time, states and inputs, these by address."""
-        self.check(self._set_time(self.address, time), "SetTime")
-        if self.n:
-            self.check(self._set_states(self.address, states, self.n), "SetContinuousStates")
+        if (status := self._set_time(self.address, time)) > WARNING:
+            self.check(status, "SetTime")
+        if self.n and (status := self._set_states(self.address, states, self.n)) > WARNING:
+            self.check(status, "SetContinuousStates")
         self._write(self._writes, inputs, "an input")
 
     def _write(self, blocks: Any, at: int, what: str) -> None:
-        for write, kind, references, start, size, count in blocks:
-            place, sizes = at + BYTES * start, () if self.library.is_2 else (size,)
+        for write, kind, references, start, size, count, sizes in blocks:
+            place = at + BYTES * start
             if kind is not C.c_double:
                 numbers = (C.c_double * size).from_address(place)
                 values = (kind * size)(*[v if kind is C.c_float else round(v) for v in numbers])
                 place = C.addressof(values)
-            self.check(write(self.address, references, count, place, *sizes), f"setting {what}")
+            if (status := write(self.address, references, count, place, *sizes)) > WARNING:
+                self.check(status, f"setting {what}")
 
     def read(self, into: int) -> None:
         """Rates, results and event indicators, in this order, to an address.
@@ -391,17 +410,18 @@ class Instance:
         Results are asked for first: OpenModelica's FMUs compute them only where nothing was computed before.
         """
         rates, into = into, into + BYTES * self.n
-        for get, kind, references, start, size, count in self._reads:
-            place, sizes = into + BYTES * start, () if self.library.is_2 else (size,)
+        for get, kind, references, start, size, count, sizes in self._reads:
+            place = into + BYTES * start
             if kind is C.c_double:
                 status = get(self.address, references, count, place, *sizes)
             else:
                 values = (kind * size)()
                 status = get(self.address, references, count, C.addressof(values), *sizes)
                 (C.c_double * size).from_address(place)[:] = list(values)
-            self.check(status, "computing outputs")
-        if self.n:
-            self.check(self._rates(self.address, rates, self.n), "computing derivatives")
+            if status > WARNING:
+                self.check(status, "computing outputs")
+        if self.n and (status := self._rates(self.address, rates, self.n)) > WARNING:
+            self.check(status, "computing derivatives")
         if self.n_indicators:
             into += BYTES * self.results.size
             status = self._indicators(self.address, into, self.n_indicators)
@@ -415,13 +435,9 @@ class Instance:
 
     def derivative(self, unknowns: Any, known: int, seed: np.ndarray, into: np.ndarray) -> None:
         """The directional derivative of some unknowns, references in an array of C, by one known."""
-        p, size = C.c_void_p, C.c_size_t
-        reference, counts = C.c_uint32(known), () if self.library.is_2 else (size,)
-        get = self.library.function(
-            "GetDirectionalDerivative", p, p, size, p, size, p, *counts, p, *counts
-        )
+        reference = C.c_uint32(known)
         seeds, rows = (() if self.library.is_2 else (len(a),) for a in (seed, into))
-        status = get(
+        status = self.library.directional(
             self.address, unknowns, len(unknowns), C.addressof(reference), 1,
             seed.ctypes.data, *seeds, into.ctypes.data, *rows,
         )  # fmt: skip

@@ -27,7 +27,7 @@ from acausal.errors import AcausalError, DeclarationError
 from acausal.fmu.archive import read
 from acausal.fmu.description import REAL, Description
 from acausal.fmu.handlers import register
-from acausal.fmu.instance import BYTES, DiscardError, Instance, Library, Variables
+from acausal.fmu.instance import BYTES, DiscardError, FMUError, Instance, Library, Variables
 
 NEVER = 1e30
 """The time of an event that never comes [s]."""
@@ -209,9 +209,17 @@ class Computed:
         self.begin = self._with_derivatives(self._begin, width, 1 + n, self._no_columns)
         self.numbers = tuple(range(self.evaluate, self.begin + 3))
         finalize(self, _free_all, self._instances)
-        self._instance(self._defaults(), 0)
-        self.first_event, states = self._firsts[self._defaults()]
-        self.first_states: list[float] = np.frombuffer(states).tolist()
+        self._make().free()  # an FMU that cannot be used says so before it is needed
+        self.first_event, self.first_states = self._first(self._defaults())
+
+    def _first(self, parameters: bytes) -> tuple[float, list[float]]:
+        """The first time event and the states at the start, where they can be found with these parameters."""
+        try:
+            self._instance(parameters, 0)
+        except (FMUError, DiscardError):
+            return NEVER, [0.0] * self.part.n
+        due, states = self._firsts[parameters]
+        return due, np.frombuffer(states).tolist()
 
     def _variables(self, names: tuple[str, ...]) -> Variables:
         known = self.description.variables
@@ -224,7 +232,7 @@ class Computed:
         return np.asarray([1.0, 0.0, *(s for sizes in each for s in sizes)])
 
     def _defaults(self) -> bytes:
-        """The parameters as the FMU has them: with them an FMU that cannot be used says so before it is needed."""
+        """The parameters as the FMU has them."""
         known = self.description.variables
         starts = [s for name in self.part.parameters for s in known[name].starts]
         return np.asarray(starts, float).tobytes()
@@ -261,6 +269,11 @@ class Computed:
             self._dues[parameters, self._numbers[chain[0]]] = due
         return instance
 
+    def _make(self) -> Instance:
+        return Instance(
+            self._library, self._settings, self._parameters, self._inputs, self._results
+        )
+
     def _new(self, parameters: bytes) -> Instance:
         """An instance with its initial values; if there are many, the one that was not used for longest."""
         most = 1 if self.description.once else max(KEPT, 4 * (self.part.n_parameters + 1))
@@ -268,9 +281,7 @@ class Computed:
         if again:
             _, instance = self._instances.popitem(last=False)
         else:
-            instance = Instance(
-                self._library, self._settings, self._parameters, self._inputs, self._results
-            )
+            instance = self._make()
         try:
             held, states = np.frombuffer(parameters).copy(), np.zeros(self.part.n)
             first = instance.initialize(0.0, held.ctypes.data, 0, again=again)
