@@ -33,6 +33,7 @@ from .errors import (
     TrainingError as TrainingError,
     UnitError as UnitError,
 )
+from .fmu import FMU as FMU
 from .initialization import Initialization as Initialization
 from .modeling import (
     Abs as Abs,

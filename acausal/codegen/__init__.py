@@ -31,7 +31,10 @@ from acausal.codegen.iteration_matrix import (
 )
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
-from acausal.codegen.nonfinite import explain_nonfinite as explain_nonfinite
+from acausal.codegen.nonfinite import (
+    explain_nonfinite as explain_nonfinite,
+    said_by_modules as said_by_modules,
+)
 from acausal.codegen.packing import (
     bind as bind,
     default_parameters as default_parameters,

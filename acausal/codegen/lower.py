@@ -20,7 +20,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import ModelError
-from acausal.modeling import ModuleCall, Prescribed
+from acausal.modeling import GivenModule, ModuleCall, Prescribed
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,12 @@ class ModuleValue:
 
 
 def collect(modules: Sequence[Any]) -> ModuleValue:
-    """The modules of several instances: stacked if they differ only in the values of their arrays."""
+    """The modules of several instances: stacked if they differ only in the values of their arrays.
+
+    Those that are no parameters are one if they are equal.
+    """
+    if all(getattr(m, "is_fixed", False) and m == modules[0] for m in modules):
+        return ModuleValue(modules[0])
     parts = [eqx.partition(m, eqx.is_array) for m in modules]
     (first, rest), *others = parts
     alike = bool(jax.tree.leaves(first)) and all(
@@ -301,6 +306,7 @@ RULES: dict[type, LoweringRule] = {
     sp.ITE: _call(jnp.where),
     sp.logic.boolalg.BooleanTrue: lambda node, visit: True,
     sp.logic.boolalg.BooleanFalse: lambda node, visit: False,
+    GivenModule: lambda node, visit: ModuleValue(node.value),
     ModuleCall: _module,
     Prescribed: lambda node, visit: visit(node.args[2 + int(node.args[0])]),
 }

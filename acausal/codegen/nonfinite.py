@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,8 @@ def explain_nonfinite(
         together = instruction.found_with(place)
         names = [name(int(program.nodes[first + array][row])) for array, row in together]
         if isinstance(instruction, Evaluate | Accumulate):
+            if reason := said_by_modules(_called(instruction, values)):
+                return f"'{names[0]}' cannot be computed. {reason}"
             value = np.atleast_1d(np.asarray(results[place[0]]))[place[1]]
             return _formula(names[0], instruction.formula, value)
         if instruction.is_linear:
@@ -63,6 +65,18 @@ def _nonfinite(results: Sequence[Array]) -> list[Place]:
         for array, result in enumerate(results)
         for row in np.flatnonzero(~np.isfinite(np.atleast_1d(np.asarray(result))))
     ]
+
+
+def said_by_modules(modules: Iterable[Any]) -> str | None:
+    """What modules say of numbers that are not finite: one that computes outside of JAX may know why it fails."""
+    asked = (getattr(module, "why_nonfinite", None) for module in modules)
+    return next((reason for why in asked if why and (reason := why())), None)
+
+
+def _called(instruction: Evaluate | Accumulate, values: Values) -> list[Any]:
+    """The modules that a formula calls."""
+    slots = instruction.arguments.modules if isinstance(instruction, Evaluate) else ()
+    return [values.packed.modules[m] for _, modules in slots for m in modules]
 
 
 def _formula(name: str, formula: str, value: float) -> str:

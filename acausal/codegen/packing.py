@@ -78,7 +78,7 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
     laws = [n for n in layout.module_names if not callable(params[n])]
     if laws:
         raise DataError(f"params: {listing(laws)} must be networks, got {shown(params[laws[0]])}")
-    modules = {
+    modules = layout.fixed_modules | {
         i: params[name] for i, name in zip(layout.own_modules, layout.module_names, strict=True)
     }
     # one that many components share stands once, at its own place

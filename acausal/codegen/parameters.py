@@ -57,13 +57,20 @@ class ParameterLayout(LeavesCaches):
 
     @cached_property
     def module_names(self) -> tuple[str, ...]:
-        """Names of the modules that are not references to others."""
+        """Names of the modules that are not references to others, and that are parameters."""
         return tuple(self.model.layout.module(int(i)) for i in self.own_modules)
 
     @cached_property
     def own_modules(self) -> list[int]:
-        """The modules that are not references to others."""
-        return [i for i, m in enumerate(self.module_of) if m == i]
+        """The modules that are not references to others, and that are parameters."""
+        fixed = self.fixed_modules
+        return [i for i, m in enumerate(self.module_of) if m == i and i not in fixed]
+
+    @cached_property
+    def fixed_modules(self) -> dict[int, Any]:
+        """Modules that are a part of the model and no parameters, as they say by ``is_fixed``: those of FMUs."""
+        values = enumerate(self.model.module_values)
+        return {i: value for i, value in values if getattr(value, "is_fixed", False)}
 
     def check_names(self, params: Mapping[str, Any]) -> None:
         """Refuse unknown names and missing modules.

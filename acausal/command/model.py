@@ -1,4 +1,4 @@
-"""The model that a command is about: from a file, or from a Python module."""
+"""The model that a command is about: from a file, such as an FMU, or from a Python module."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def title_of(system: ac.System) -> str:
 
 
 def model_of(text: str, libraries: list[str]) -> ac.Component | ac.System:
-    """A model by its file, or by ``module:Class``.
+    """A model by its file, or by ``module:Class``; an FMU runs native code that it brings along.
 
     Raises:
         ac.ModelError: where there is none.
@@ -41,6 +41,8 @@ def model_of(text: str, libraries: list[str]) -> ac.Component | ac.System:
         return _made(text, _module(module), name)
     if Path(text).suffix == ".py":
         raise ac.ModelError(f"'{text}' is a Python file; name the class in it, too: {text}:Class")
+    if Path(text).suffix == ".fmu":
+        return ac.FMU(text)
     return ac.load(text, [_module(library) for library in libraries])
 
 

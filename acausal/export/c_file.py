@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 
 from acausal._jax import need_known, precision
-from acausal.errors import DataError, need_compiled, shown
+from acausal.errors import DataError, shown
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
 from acausal.export.c_text.reserved import RESERVED
 from acausal.export.c_text.source import source
 from acausal.export.c_text.steps import scheme_named
 from acausal.export.c_text.text import Text
+from acausal.export.given import need_exportable
 from acausal.export.names import Run, runs
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.vector import ParameterVector
@@ -69,7 +70,7 @@ def c(
         DataError: for an unknown name, a file that exists, or an argument that does not fit.
         ExportError: for an operation without C, or a solver that has no fixed steps in C.
     """
-    need_compiled(system, "export.c")
+    need_exportable(system, "c")
     path = need_path(folder, "export.c")
     text = model_text(
         system, params, name, outputs, solver, derivatives, dtype, watched(system, ranges, "c")

@@ -9,7 +9,7 @@ from typing import Any
 from acausal._jax import need_known
 from acausal.errors import DataError, need_compiled, shown
 from acausal.export.called_with import called_with
-from acausal.export.given import all_parameters
+from acausal.export.given import all_parameters, need_exportable
 from acausal.export.subject import Subject, network_of, of_network, of_system
 from acausal.modeling import Component, names_in
 from acausal.networks import law_of
@@ -43,6 +43,7 @@ def chosen(
     if isinstance(model, System):
         given = all_parameters(model, params)
         if network is None:
+            need_exportable(model, function)
             if inputs is not None:
                 raise DataError(
                     "export: inputs=... names the arguments of a network; give network=..., too"

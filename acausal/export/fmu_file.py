@@ -21,7 +21,6 @@ from acausal.errors import (
     ExportError,
     listing,
     nearest,
-    need_compiled,
     shown,
     user_level,
 )
@@ -42,6 +41,7 @@ from acausal.export.fmu_text.dependencies import dependencies
 from acausal.export.fmu_text.description import KINDS, Description, build_description, documentation
 from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
+from acausal.export.given import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.files import new_file, write_files
 from acausal.modeling import names_in
@@ -104,7 +104,7 @@ def fmu(
         ExportError: for an operation without C, a solver that has no fixed steps in C, or a platform without a
             compiler.
     """
-    need_compiled(system, "export.fmu")
+    need_exportable(system, "fmu")
     target = new_file(path, "export.fmu", overwrite)
     chosen = _checked_kinds(fmi, kinds, STEP if step is None else step)
     places = _checked_platforms(platforms, fmi) if binary else ()

@@ -1,12 +1,27 @@
-"""The parameters that are exported."""
+"""What is exported: a model that can be, and its parameters."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
 
-from acausal.errors import DataError, shown
+from acausal.errors import DataError, ExportError, need_compiled, shown
 from acausal.system import System
+
+
+def need_exportable(system: System, function: str) -> None:
+    """Refuse what is no compiled model, and a model that calls code of others.
+
+    Raises:
+        ModelError: for a model that is not compiled. ExportError: for one with an FMU in it.
+    """
+    need_compiled(system, f"export.{function}")
+    if fixed := system.layout.fixed_modules:
+        path = system.layout.model.layout.module(next(iter(fixed))).rpartition(".")[0]
+        raise ExportError(
+            f"export.{function}: '{path or system.flat.name}' is an FMU, whose equations nobody knows; export the rest "
+            "of the model, with inputs and outputs in its place, and connect both in a tool that imports FMUs."
+        )
 
 
 def all_parameters(system: System, params: Mapping[str, Any] | None) -> dict[str, Any]:

@@ -97,6 +97,7 @@ from acausal.modeling.names import (
 )
 from acausal.modeling.symbols import (
     Eq as Eq,
+    GivenModule as GivenModule,
     ModuleCall as ModuleCall,
     ModuleReference as ModuleReference,
     Reference as Reference,

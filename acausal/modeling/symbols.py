@@ -208,6 +208,32 @@ def primes(orders: Iterable[Any]) -> str:
     return "".join(mark * int(n) for mark, n in zip(marks, orders, strict=False))
 
 
+class GivenModule(sp.Symbol):
+    """A module as a part of an expression: one that is no parameter.
+
+    Attributes:
+        value: the module.
+    """
+
+    value: Any
+
+    def __new__(cls, name: str, value: Any) -> GivenModule:
+        """The same symbol for the same name, which belongs to one module."""
+        symbol = super().__new__(cls, name, real=True)
+        symbol.value = value
+        return symbol
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return GivenModule, (self.name, self.value)
+
+    def __call__(self, *args: Any) -> Any:
+        """The module applied to expressions."""
+        return ModuleCall(self, sp.Tuple(*[0] * len(args)), *map(sp.sympify, args))
+
+    def _sympystr(self, printer: Any) -> str:
+        return self.name.partition("#")[0]
+
+
 @dataclass(frozen=True)
 class ModuleReference:
     """A `Module` read on an instance: callable with expressions."""

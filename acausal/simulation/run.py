@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
 from acausal._jax import traced
-from acausal.codegen import Events, Values, guards
+from acausal.codegen import Events, Values, guards, said_by_modules
 from acausal.errors import SimulationError
 from acausal.initialization import COINCIDE
 from acausal.simulation.finite import explain_ahead
@@ -67,7 +67,11 @@ class Run(NamedTuple):
                 continue
             bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
             if len(bad):
-                raise SimulationError(f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.")
+                said = said_by_modules(self.start.packed.modules)
+                reason = f" {said}" if said else ""
+                raise SimulationError(
+                    f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.{reason}"
+                )
 
         d = self.start.d
         if d is not None and not traced(d) and not np.isfinite(np.asarray(d)).all():

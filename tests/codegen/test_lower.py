@@ -9,7 +9,7 @@ import sympy as sp
 
 import acausal as ac
 from acausal.codegen.lower import RULES, ModuleValue, collect, evaluate
-from acausal.modeling import COMPUTABLE, ModuleCall, Prescribed, functions, time
+from acausal.modeling import COMPUTABLE, GivenModule, ModuleCall, Prescribed, functions, time
 
 x, y = sp.symbols("x y", real=True)
 
@@ -103,7 +103,7 @@ def test_all_rules_are_tested():
         type(n) for e in {**SMOOTH, **KINKED, **STEPPED}.values() for n in sp.preorder_traversal(e)
     }
     used = {cls for t in tested for cls in t.__mro__}
-    elsewhere = {ModuleCall, Prescribed, sp.DiracDelta, type(sp.false)}
+    elsewhere = {GivenModule, ModuleCall, Prescribed, sp.DiracDelta, type(sp.false)}
     assert set(RULES) - used == elsewhere
 
 

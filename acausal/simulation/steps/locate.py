@@ -15,6 +15,9 @@ POINTS = (0.0, 0.25, 0.5, 0.75, 1.0)
 TRIES = 80
 """Steps, at most, until an instant is found."""
 
+HALVES = 12
+"""After so many steps the interval is halved each time: where the number jumps, no line through two of it helps."""
+
 CLOSE = 1e-13
 """Of a condition's change over the step: a number so small is zero."""
 
@@ -111,13 +114,15 @@ def look(
     begun = _begin(hunt, off, later, scale, h)
     gone_on = _go_on(hunt._replace(later=later), off[-1], h)
     width = 4 * jnp.finfo(h.dtype).eps * jnp.maximum(jnp.abs(t), h)
+    narrow = (gone_on.high - gone_on.low <= width) | (gone_on.tries >= TRIES)
     there = (
         (
             (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & hunt.away
         )  # a number may be zero long before it changes
-        | (gone_on.high - gone_on.low <= width)
-        | (gone_on.tries >= TRIES)
+        | (narrow & (off[-1] > 0))  # a number may jump: before it does, nothing has changed
+        | (gone_on.tries >= TRIES + 2)
     )
+    gone_on = gone_on._replace(h=jnp.where(narrow, gone_on.high, gone_on.h))
     is_event = hunt.active & there
     which = jnp.argmax(share[-1])
     is_near = later & (last >= -BAND * scale)
@@ -179,6 +184,7 @@ def _next(low: Array, high: Array, off_low: Array, off_high: Array, tries: Array
     """Where the next step ends; sometimes in the middle, as conditions may jump."""
     share = off_low / (off_low - off_high)
     usable = jnp.isfinite(share) & (tries % jnp.where(off_low >= -CLOSE, 2, 6) != 1)
+    usable = usable & (tries < HALVES)
     share = jnp.where(usable, jnp.clip(share, 1e-9, 1 - 1e-9), 0.5)
     return low + share * (high - low)
 

@@ -1,0 +1,230 @@
+"""What an FMU says of itself: its variables, its structure, and what it can do."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Literal
+
+from acausal.errors import DeclarationError, shortened
+from acausal.fmu.archive import DESCRIPTION
+from acausal.modeling import element_names
+
+Interface = Literal["model exchange", "co-simulation"]
+
+REAL = ("Real", "Float64", "Float32")
+WHOLE = (
+    "Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64",
+)  # fmt: skip
+NUMBERS = (*REAL, *WHOLE, "Boolean")
+
+DIRECTIONAL = re.compile(rb"<ModelExchange[^>]*providesDirectionalDerivatives\s*=\s*.(?:true|1)")
+"""What fmpy does not read of FMI 3."""
+
+
+@dataclass(frozen=True)
+class FMUVariable:
+    """A variable of an FMU.
+
+    Attributes:
+        type: as FMI calls it. causality, variability, initial: as FMI has them; ``initial`` may be empty.
+        start: as a text, or None. shape: of an array. minimum, maximum: infinite where none is given.
+    """
+
+    name: str
+    type: str
+    reference: int
+    causality: str
+    variability: str
+    initial: str
+    start: str | None
+    unit: str
+    shape: tuple[int, ...] | None
+    minimum: float
+    maximum: float
+    nominal: float
+    text: str
+
+    @property
+    def names(self) -> list[str]:
+        """Of its elements, as Modelica has them."""
+        return element_names(self.name, self.shape)
+
+    @property
+    def size(self) -> int:
+        """How many elements there are."""
+        return math.prod(self.shape or ())
+
+    @property
+    def starts(self) -> list[float]:
+        """The start values of the elements, 0 where none is given."""
+        if self.start is None:
+            return [0.0] * self.size
+        values = [_number(v) for v in self.start.split()]
+        return values * self.size if len(values) == 1 else values
+
+
+@dataclass(frozen=True)
+class Description:
+    """What an FMU says of itself.
+
+    Attributes:
+        version: of FMI, "2.0" or "3.0". token: its GUID. tool: that made it.
+        exchange, cosimulation: the name of its library for either, empty where it has none.
+        variables: all of them, by name. states, rates, outputs: names of variables, in the FMU's order.
+        depends: for outputs and rates the variables that each depends on; None: all.
+        indicators: how many event indicators there are.
+        once: whether it can be instantiated only once in a process. directional: whether it has derivatives.
+        step: the size of steps that it suggests for co-simulation, or 0.
+    """
+
+    version: str
+    model: str
+    token: str
+    tool: str
+    text: str
+    exchange: str
+    cosimulation: str
+    variables: dict[str, FMUVariable]
+    states: tuple[str, ...]
+    rates: tuple[str, ...]
+    outputs: tuple[str, ...]
+    depends: dict[str, tuple[str, ...] | None]
+    indicators: int
+    once: bool
+    directional: bool
+    step: float
+
+    def __hash__(self) -> int:
+        return hash((self.token, self.model, self.version))
+
+    def of(self, causality: str, types: Sequence[str] = NUMBERS) -> list[FMUVariable]:
+        """The variables of a causality and of some types."""
+        found = self.variables.values()
+        return [v for v in found if v.causality == causality and v.type in types]
+
+    @cached_property
+    def parameters(self) -> list[FMUVariable]:
+        """The real parameters, which a model may change and train."""
+        return [v for v in self.of("parameter", REAL[:2]) if v.variability in ("fixed", "tunable")]
+
+
+def read_description(folder: Path, file: object) -> Description:
+    """The description in the folder of an FMU.
+
+    Raises:
+        DeclarationError: for one that is not sound, or that this package cannot use.
+    """
+    path = folder / DESCRIPTION
+    content = path.read_bytes()
+    if b"\0" in content or b"<!DOCTYPE" in content or b"<!ENTITY" in content:
+        raise DeclarationError(
+            f"FMU: the {DESCRIPTION} of '{file}' has entities or is not in UTF-8; it is not read."
+        )
+    try:
+        from fmpy.model_description import read_model_description
+    except ImportError:
+        raise DeclarationError(
+            "FMU needs the package 'fmpy'; install it: pip install 'acausal[fmu]'"
+        ) from None
+    try:
+        return _described(read_model_description(folder), bool(DIRECTIONAL.search(content)))
+    except DeclarationError:
+        raise
+    except Exception as error:  # the reader of another, on a file of a third
+        why = getattr(error, "problems", [error])[0]
+        raise DeclarationError(
+            f"FMU: the {DESCRIPTION} of '{file}' is not sound: {shortened(' '.join(str(why).split()), 160)}"
+        ) from None
+
+
+def _described(read: Any, directional: bool) -> Description:
+    if not read.fmiVersion.startswith(("2.", "3.")):
+        raise DeclarationError(
+            f"FMU: FMI {read.fmiVersion} is not supported; export it by FMI 2.0 or 3.0."
+        )
+    variables = {v.name: _variable(v) for v in read.modelVariables}
+    if len(variables) != len(read.modelVariables):
+        raise ValueError("two variables have one name")
+    exchange, cosimulation = read.modelExchange, read.coSimulation
+    can = exchange or cosimulation
+    if can is None:
+        raise DeclarationError(
+            "FMU: it has neither model exchange nor co-simulation, and so is not supported."
+        )
+    derived = {v.name: v.derivative.name for v in read.modelVariables if v.derivative is not None}
+    rates = tuple(u.variable.name for u in read.derivatives)
+    if missing := [r for r in rates if r not in derived]:
+        raise ValueError(f"'{missing[0]}' is a derivative of no variable")
+    states = tuple(derived[r] for r in rates)
+    for rate, state in zip(rates, states, strict=True):
+        if variables[rate].type not in REAL[:2] or variables[state].shape != variables[rate].shape:
+            raise ValueError(f"'{state}' and its derivative '{rate}' do not fit each other")
+    indicators = read.numberOfEventIndicators
+    if read.fmiVersion.startswith("3."):
+        indicators = sum(variables[u.variable.name].size for u in read.eventIndicators)
+    experiment = read.defaultExperiment
+    return Description(
+        version=read.fmiVersion[:1] + ".0",
+        model=read.modelName or "",
+        token=read.guid or "",
+        tool=read.generationTool or "",
+        text=read.description or "",
+        exchange=exchange.modelIdentifier if exchange else "",
+        cosimulation=cosimulation.modelIdentifier if cosimulation else "",
+        variables=variables,
+        states=states,
+        rates=rates,
+        outputs=tuple(u.variable.name for u in read.outputs),
+        depends={
+            u.variable.name: None
+            if u.dependencies is None
+            else tuple(d.name for d in u.dependencies)
+            for u in (*read.outputs, *read.derivatives)
+        },
+        indicators=indicators,
+        once=bool(can.canBeInstantiatedOnlyOncePerProcess),
+        directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
+        step=float((experiment and experiment.stepSize) or 0.0),
+    )
+
+
+def _variable(read: Any) -> FMUVariable:
+    declared = read.declaredType
+    unit = read.unit or (declared.unit if declared is not None else None) or ""
+    limits = [read.min, read.max, read.nominal]
+    if declared is not None:
+        of_type = (declared.min, declared.max, declared.nominal)
+        limits = [b if a is None else a for a, b in zip(limits, of_type, strict=True)]
+    is_real = read.type in REAL
+    low, high, nominal = (_number(v) if v is not None and is_real else None for v in limits)
+    shape = tuple(int(n) for n in read.shape) if read.dimensions else None
+    if not isinstance(read.name, str) or read.valueReference is None:
+        raise ValueError("a variable has no name or no reference")
+    found = FMUVariable(
+        name=read.name,
+        type=read.type,
+        reference=int(read.valueReference),
+        causality=read.causality or "local",
+        variability=read.variability or ("continuous" if is_real else "discrete"),
+        initial=read.initial or "",
+        start=read.start,
+        unit=unit,
+        shape=shape,
+        minimum=-math.inf if low is None else low,
+        maximum=math.inf if high is None else high,
+        nominal=abs(nominal) if nominal else 1.0,
+        text=read.description or "",
+    )
+    if found.type in NUMBERS and len(found.starts) != found.size:
+        raise ValueError(f"'{found.name}' has {len(found.starts)} start values, not {found.size}")
+    return found
+
+
+def _number(text: Any) -> float:
+    """A number, or a truth value as 1 or 0."""
+    return {"true": 1.0, "false": 0.0}.get(text) if text in ("true", "false") else float(text)  # pyright: ignore[reportReturnType]

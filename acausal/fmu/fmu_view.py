@@ -1,0 +1,60 @@
+"""What an FMU is, for the prompt and for notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape
+
+from acausal.fmu.description import WHOLE, Description, FMUVariable
+from acausal.fmu.part import Part
+
+MOST = 12
+"""Variables of a kind that are listed."""
+
+
+def as_text(part: Part) -> str:
+    """What an FMU is, a line for each kind of variables."""
+    width = max(len(name) for name, _ in _lines(part))
+    return "\n".join(f"{name:<{width}}  {text}" for name, text in _lines(part))
+
+
+def as_html(part: Part) -> str:
+    """The same as a table."""
+    rows = (f"<tr><th>{escape(n)}</th><td>{escape(t)}</td></tr>" for n, t in _lines(part))
+    return f"<table>{''.join(rows)}</table>"
+
+
+def _lines(part: Part) -> Iterator[tuple[str, str]]:
+    d = part.description
+    kinds = [
+        n for n, has in (("model exchange", d.exchange), ("co-simulation", d.cosimulation)) if has
+    ]
+    yield "FMU", f"{d.model}, FMI {d.version}, {' and '.join(kinds)}"
+    if d.text:
+        yield "about", " ".join(d.text.split())
+    yield "tool", d.tool or "unknown"
+    known = d.variables
+    for what, names in (("states", d.states), ("inputs", part.inputs), ("outputs", part.results)):
+        yield what, _listed([known[n] for n in names], with_values=what == "inputs")
+    yield "parameters", _listed([known[n] for n in part.parameters], with_values=True)
+    settings = d.of("parameter", ("String", "Boolean", "Float32", *WHOLE))
+    if settings:
+        yield "settings", _listed(settings, with_values=True)
+    if d.indicators:
+        yield "events", f"{d.indicators} event indicators"
+    yield "derivatives", _derivatives(d)
+
+
+def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:
+    def one(v: FMUVariable) -> str:
+        sizes = f"[{','.join(map(str, v.shape))}]" if v.shape is not None else ""
+        value = f" = {' '.join(v.start.split()[:4])}" if with_values and v.start else ""
+        return f"{v.name}{sizes}{value}{' ' * bool(v.unit)}{v.unit}"
+
+    more = f", and {len(variables) - MOST} more" if len(variables) > MOST else ""
+    return ", ".join(map(one, variables[:MOST])) + more or "none"
+
+
+def _derivatives(d: Description) -> str:
+    own = "the FMU's directional derivatives" if d.directional else "difference quotients"
+    return f"with respect to states and inputs by {own}, to parameters by difference quotients of instances"

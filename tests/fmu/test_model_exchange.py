@@ -1,0 +1,202 @@
+"""Our own models out as FMUs and in again: trajectories and gradients are those of the models themselves."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import acausal as ac
+from tests.export.test_c import Chain
+from tests.support.fmus import need_fmpy
+from tests.support.hybrid import Ball, Sampled, Thermostat
+
+
+class Mass(ac.Component):
+    """A mass on a spring with a damper, pushed by a force."""
+
+    m, c, d = ac.Parameter(1.0), ac.Parameter(400.0), ac.Parameter(2.0)
+    f = ac.Input(unit="N")
+    s = ac.Variable(start=0.1, fixed=True, unit="m")
+    v = ac.Variable(fixed=True, unit="m/s")
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(ac.der(self.s), self.v)
+        yield ac.Eq(self.m * ac.der(self.v), self.f - self.d * self.v - self.c * self.s**3)
+
+
+class Driven(ac.Component):
+    """A source, an FMU, and a state that integrates its output."""
+
+    def __init__(self, path: Path, **values: Any) -> None:
+        super().__init__()
+        self.plant = ac.FMU(path, values)
+        self.push, self.area = ac.Output(unit="N"), ac.Variable(fixed=True)
+        self.connect(self.push, self.plant.f)
+
+    def equations(self) -> Iterator[Any]:
+        yield ac.Eq(self.push, 3 * ac.sin(20 * ac.time))
+        yield ac.Eq(ac.der(self.area), self.plant.s)
+
+
+class Several(ac.Component):
+    """One FMU in three places, with values of their own."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.part = [ac.FMU(path, {"f": 1.0, "d": d}) for d in (1.0, 2.0, 3.0)]
+
+
+Exported = Callable[..., Path]
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> Exported:
+    """A model as an FMU; of each one a file."""
+    need_fmpy()
+    folder, known = tmp_path_factory.mktemp("fmus"), dict[Any, Path]()
+
+    def export(model: type[ac.Component] | Any, fmi: str = "2.0", *arguments: Any) -> Path:
+        key = model, fmi, arguments
+        if key not in known:
+            system = ac.compile(model(*arguments))
+            outputs = [s for s in system.states if s in ("s", "h", "T")] or None
+            path = folder / f"{model.__name__}{fmi[0]}.fmu"
+            known[key] = ac.export.fmu(system, path, fmi=fmi, outputs=outputs)
+        return known[key]
+
+    return export
+
+
+def push(t: Any) -> Any:
+    return 3 * jnp.sin(20 * t)
+
+
+@pytest.mark.parametrize("fmi", ["2.0", "3.0"])
+def test_steps_are_those_of_the_model(exported: Exported, fmi: str) -> None:
+    system = ac.compile(Driven(exported(Mass, fmi)))
+    found = ac.simulate(system, 0.5, dt=1e-3)
+    expected = ac.simulate(ac.compile(Mass()), 0.5, dt=1e-3, inputs={"f": push})
+    np.testing.assert_allclose(found["plant.s"], expected["s"], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"dt": 5e-3}, pytest.param({"rtol": 1e-8}, marks=pytest.mark.slow)],
+    ids=["fixed", "adaptive"],
+)
+def test_gradients_are_those_of_the_model(exported: Exported, options: dict[str, Any]) -> None:
+    native = ac.compile(Mass())
+    system = ac.compile(Driven(exported(Mass), s=0.1))
+
+    def loss(system: ac.System, params: dict[str, Any], name: str, **inputs: Any) -> Any:
+        run = ac.simulate(system, 0.2, saveat=[0.1, 0.2], params=params, **inputs, **options)
+        return jnp.sum(run[name] ** 2)
+
+    at = {"m": 1.1, "c": 390.0, "d": 1.9}
+    expected = jax.grad(lambda p: loss(native, p, "s", inputs={"f": push}))(at)
+    given = {f"plant.{n}": v for n, v in at.items()}
+    found = jax.grad(lambda p: loss(system, p, "plant.s"))(given | {"plant.s.start": 0.1})
+    for name, value in expected.items():
+        np.testing.assert_allclose(found[f"plant.{name}"], value, rtol=2e-6)
+    assert abs(found["plant.s.start"]) > 1e-3
+
+
+def test_start_values_are_parameters(exported: Exported) -> None:
+    system = ac.compile(ac.FMU(exported(Ball), {"h": 2.0}))
+    for h in (2.0, 1.5):
+        run = ac.simulate(system, 0.1, dt=0.05, params={"h.start": h})
+        np.testing.assert_allclose(run["h"][-1], h - 9.81 * 0.005, rtol=1e-12)
+
+
+def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exported) -> None:
+    system = ac.compile(ac.FMU(exported(Mass), {"f": 3.2, "s": 0.3}))
+    assert system.initial_state()[0] == 0.3
+    assert system.initial_state(x0={"v": 1.0}).tolist() == [0.3, 1.0]
+    at_rest = system.initial_state(steady=True)
+    np.testing.assert_allclose(at_rest, [(3.2 / 400) ** (1 / 3), 0.0], atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("model", "end", "name"), [(Ball, 1.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None)]
+)
+def test_events_are_those_of_the_model(
+    exported: Exported, model: type[ac.Component], end: float, name: str | None
+) -> None:
+    native, system = ac.compile(model()), ac.compile(ac.FMU(exported(model)))
+    name = name or native.states[0]
+    inputs = dict.fromkeys(native.inputs, 0.5)
+    options: dict[str, Any] = {"rtol": 1e-9, "atol": 1e-11, "saveat": np.linspace(0, end, 8)}
+    expected = ac.simulate(native, end, inputs=inputs, **options)
+    found = ac.simulate(system, end, inputs=inputs, **options)
+    np.testing.assert_allclose(found[name], expected[name], atol=1e-9)
+    assert len(found.events) >= 2
+
+
+@pytest.mark.slow
+def test_gradients_go_through_events(exported: Exported) -> None:
+    native, system = ac.compile(Ball()), ac.compile(ac.FMU(exported(Ball)))
+
+    def loss(system: ac.System, e: Any) -> Any:
+        run = ac.simulate(system, 1.4, saveat=[0.7, 1.4], params={"e": e}, rtol=1e-10, atol=1e-12)
+        return jnp.sum(run["h"] ** 2)
+
+    found, expected = (jax.grad(lambda e, s=s: loss(s, e))(0.8) for s in (system, native))
+    np.testing.assert_allclose(found, expected, rtol=1e-6)
+
+
+def test_arrays_of_fmi_3_are_arrays(exported: Exported) -> None:
+    start = [0.02, -0.01, 0.03, 0.01]
+    arrays = ac.FMU(exported(Chain, "3.0", 4), {"mass.s": start, "leg.c": [90.0, 95, 100, 105]})
+    assert len(arrays["leg.c"]) == 4
+    model = Chain(4)
+    for leg, c in zip(model.leg, (90.0, 95, 100, 105), strict=True):
+        leg.modify(c=c)
+    native, system = ac.compile(model), ac.compile(arrays)
+    x0 = {f"mass[{i}].s": s for i, s in enumerate(start, 1)}
+    expected = ac.simulate(native, 0.1, dt=1e-2, x0=x0)
+    found = ac.simulate(system, 0.1, dt=1e-2)
+    for i in range(1, 5):
+        np.testing.assert_allclose(found[f"mass.s[{i}]"], expected[f"mass[{i}].s"], atol=1e-12)
+
+
+def test_equal_fmus_share_calls_and_a_pickled_system_loads_its_own(exported: Exported) -> None:
+    system = ac.compile(Several(exported(Mass)))
+    run = ac.simulate(system, 0.1, dt=1e-2)
+    again = ac.simulate(pickle.loads(pickle.dumps(system)), 0.1, dt=1e-2)
+    alone = ac.compile(ac.FMU(exported(Mass), {"f": 1.0}))
+    for i, d in enumerate((1.0, 2.0, 3.0), 1):
+        expected = ac.simulate(alone, 0.1, dt=1e-2, params={"d": d})["s"]
+        np.testing.assert_allclose(run[f"part[{i}].s"], expected, atol=1e-13)
+        np.testing.assert_array_equal(run[f"part[{i}].s"], again[f"part[{i}].s"])
+
+
+def test_lanes_have_instances_of_their_own(exported: Exported) -> None:
+    system = ac.compile(ac.FMU(exported(Mass), {"f": 1.0}))
+    last = lambda d: ac.simulate(system, 0.1, dt=1e-2, params={"d": d})["s"][-1]  # noqa: E731
+    each = jnp.asarray([1.0, 2.0, 3.0])
+    np.testing.assert_allclose(jax.vmap(last)(each), [last(d) for d in each.tolist()], rtol=1e-13)
+    single = ac.simulate(system, 0.1, dt=1e-2, dtype=np.float32)["s"][-1]
+    np.testing.assert_allclose(single, last(2.0), rtol=1e-5)
+
+
+def test_a_model_with_an_fmu_is_not_exported(exported: Exported, tmp_path: Path) -> None:
+    system = ac.compile(Driven(exported(Mass)))
+    for write in (ac.export.fmu, ac.export.c, ac.export.onnx):
+        with pytest.raises(ac.ExportError, match="'plant' is an FMU, whose equations nobody knows"):
+            write(system, tmp_path / "model.fmu")
+
+
+def test_the_command_line_takes_an_fmu(
+    exported: Exported, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from acausal.command import main
+
+    assert main(["show", str(exported(Mass)), "--only", "parameters"]) == 0
+    assert "400" in capsys.readouterr().out
