@@ -12,6 +12,7 @@ REASONS = (
     # what lies beside the repository
     r"the (reference trajectories|published examples) lie .*in \.\./shared/oracles",
     r"the measured data.* are (not here|absent)",
+    r"there is no .*\.fmu: unpack those of gemseo-fmu .* there, or set ACAUSAL_FMUS",
     # programs that are no Python packages
     r"There is no chromium: pages are not tried in a browser\.",
     r"no chromium is installed",
