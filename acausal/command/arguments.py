@@ -57,6 +57,14 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
         metavar="MODULE",
         help="a library of components that the model's file names; can be repeated",
     )
+    parser.add_argument(
+        "--replace",
+        action="append",
+        default=[],
+        type=value_by_name,
+        metavar="PART=CLASS",
+        help="another part in the place of one, such as suspension.damper=neural.Resistance; can be repeated",
+    )
 
 
 def add_parameters(parser: ArgumentParser) -> None:

@@ -13,15 +13,19 @@ from typing import Any
 
 import acausal as ac
 from acausal.errors import LIBRARY, nearest, shown
+from acausal.netlist import Library, installed
 
 
 def system_of(args: Namespace, text: str | None = None) -> ac.System:
-    """The compiled model of a command's arguments ``model`` (or another text) and ``library``.
+    """The compiled model of a command's arguments ``model`` (or another text), ``library`` and ``replace``.
 
     Raises:
         ac.ModelError: where there is no such model, or it is wrong.
     """
     model = model_of(args.model if text is None else text, args.library)
+    for path, name in args.replace:
+        whole = model.model if isinstance(model, ac.System) else model
+        model = whole.replace(path, _part(str(name), args.library))
     return model if isinstance(model, ac.System) else ac.compile(model)
 
 
@@ -56,6 +60,23 @@ def parameters_of(args: Namespace, system: ac.System) -> dict[str, Any]:
     params |= dict(args.set)
     system.pack(params)
     return params
+
+
+def _part(name: str, libraries: list[str]) -> ac.Component:
+    """A part by its class: ``neural.Resistance``, a name of Modelica's, or ``module:Class``."""
+    module, colon, word = name.rpartition(":")
+    if colon:
+        made = _made(name, _module(module), word)
+        return made.model if isinstance(made, ac.System) else made
+    known = [*(Library(_module(library)) for library in libraries), *installed()]
+    paths = [(library, f"{library.module.__name__}.{name}") for library in known]
+    for library, path in [*((library, name) for library in known), *paths]:
+        found = library.find(path)
+        if isinstance(found, type) and issubclass(found, ac.Component):
+            return _run(name, f"{name}()", found)
+    raise ac.ModelError(
+        f"--replace: there is no class '{name}'; name one of the library, such as neural.Resistance, or module:Class"
+    )
 
 
 def _made(text: str, module: ModuleType, name: str) -> ac.Component | ac.System:

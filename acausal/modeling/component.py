@@ -16,6 +16,7 @@ from acausal.modeling.endpoints import Endpoint, check_lengths, check_pair, is_v
 from acausal.modeling.icon import Icon
 from acausal.modeling.modifiers import record_modifier
 from acausal.modeling.node import Node
+from acausal.modeling.replacing import replace_part
 from acausal.modeling.symbols import Eq
 
 
@@ -130,6 +131,24 @@ class Component:
             else:
                 known = [*self._declared, *node.children]
                 raise DeclarationError(f"{node.label} has no '{name}': {nearest(name, known)}")
+
+    def replace(self, path: str, part: Component) -> Self:
+        """A copy of the model with another part in the place of one, and the same connections.
+
+        A trained law for a damper of a finished model: ``model.replace("suspension.damper", neural.Resistance())``.
+
+        Arguments:
+            path: of the part that goes, such as ``"suspension.damper"`` or ``"wheel[2].tyre"``.
+            part: in its place; it has the connectors and signals that are connected. Its values are its own.
+
+        Raises:
+            DeclarationError: if there is no such part, the new one is in a model already, or a value elsewhere depends
+                on the one that goes.
+            ConnectionError: if the new part lacks what is connected, or it is of another kind.
+        """
+        model = copy.deepcopy(self)
+        replace_part(model, path, part)
+        return model
 
     # -- attributes ------------------------------------------------------------------------------
 

@@ -230,6 +230,28 @@ def test_show(typed) -> None:
     ]
 
 
+def test_show_with_another_part(typed) -> None:
+    code, out, _ = typed("show", "oscillator.json", "--replace", "spring=neural.Compliance")
+    assert code == 0
+    assert "spring.net" in out
+    assert "spring.c " not in out
+
+
+@pytest.mark.parametrize(
+    ("other", "sentence"),
+    [
+        ("spring=neural.Complianse", "there is no class 'neural.Complianse'"),
+        ("sprung=neural.Compliance", "no part 'sprung' to replace: did you mean 'spring'?"),
+        ("spring=own_models:number", "own_models:number is 3, not a model"),
+    ],
+)
+def test_parts_that_cannot_be_replaced(typed, other: str, sentence: str) -> None:
+    code, _, err = typed("show", "oscillator.json", "--replace", other)
+    assert code == 3
+    assert sentence in err
+    assert err.count("\n") == 1
+
+
 # -- simulation ---------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,117 @@
+"""Another part in the place of one, with the same connections."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, cast
+
+import sympy as sp
+
+from acausal.errors import ConnectionError, DeclarationError, nearest
+from acausal.modeling.endpoints import check_pair, endpoint_label, owner_and_name
+from acausal.modeling.node import Endpoint, Node
+from acausal.modeling.symbols import Reference
+
+if TYPE_CHECKING:
+    from acausal.modeling.component import Component
+
+
+def replace_part(model: Component, path: str, part: Component) -> None:
+    """Put a part into a model in the place of another.
+
+    Arguments:
+        path: of the part that goes, such as ``"suspension.damper"`` or ``"wheel[2].tyre"``.
+        part: in its place; it has the connectors and signals that are connected.
+
+    Raises:
+        DeclarationError: if there is no such part, the new one is in a model already, or a value elsewhere depends on
+            the one that goes.
+        ConnectionError: if the new part lacks what is connected, or it is of another kind.
+    """
+    above, name = _place(model, path)
+    old, new = above.children[name], part._node
+    if new.parent is not None or new is model._node:
+        raise DeclarationError(
+            f"'{path}': this {new.label} is in a model already; make a second one"
+        )
+    connections = [
+        (node, [tuple(_moved(end, old._node, part) for end in pair) for pair in node.connections])
+        for node in (above, *above.ancestors())
+    ]
+    for node, pairs in connections:
+        for before, after in zip(node.connections, pairs, strict=True):
+            if before != after:
+                check_pair(*after)
+    _refuse_dependents(model._node, old._node)
+    for node, pairs in connections:
+        node.connections = cast(list[tuple[Endpoint, Endpoint]], pairs)
+    above.children = {n: part if n == name else child for n, child in above.children.items()}
+    new.parent, new.name, old._node.parent = above, name, None
+    attribute, held = name.partition("[")[0], vars(above.component)
+    held[attribute] = _with(held[attribute], old, part)
+
+
+def _place(model: Component, path: str) -> tuple[Node[Component], str]:
+    """The node that has a part, and the part's name there."""
+    node, words = model._node, path.split(".")
+    for word in words:
+        if word not in node.children:
+            raise DeclarationError(
+                f"{node.label} has no part '{word}' to replace: {nearest(word, list(node.children))}"
+            )
+        node = node.children[word]._node
+    return cast("Node[Component]", node.parent), words[-1]
+
+
+def _moved(end: Endpoint, old: Node[Component], part: Component) -> Endpoint:
+    """An end of a connection in the new part, if it is one in the old."""
+    owner, name = owner_and_name(end)
+    route = cast("Node[Component]", owner).route_from(old) if owner is not None else None
+    if route is None:
+        return end
+    node, base = part._node, name.partition("[")[0]
+    for word in route:
+        child = node.children.get(word)
+        if child is None:
+            raise ConnectionError(
+                f"{endpoint_label(end)} is connected, and {node.label} has no '{word}'"
+            )
+        node = child._node
+    if node.declaration(base) is None or not node.has(cast(Any, node.declaration(base))):
+        known = [n for n, _ in node.declarations()]
+        raise ConnectionError(
+            f"{endpoint_label(end)} is connected, and {node.label} in its place has no '{name}': {nearest(base, known)}"
+        )
+    found: Any = getattr(node.component, base)
+    for i in re.findall(r"\d+", name[len(base) :]):
+        found = found[int(i) - 1]
+    return found
+
+
+def _refuse_dependents(model: Node[Component], old: Node[Component]) -> None:
+    """Refuse to leave values behind that depend on a part that goes."""
+    for node in _below(model, old):
+        for name, value in node.modifiers.items():
+            symbols = value.free_symbols if isinstance(value, sp.Basic) else set()
+            for symbol in symbols:
+                if isinstance(symbol, Reference) and symbol.owner.route_from(old) is not None:
+                    raise DeclarationError(
+                        f"{node.label}.{name} depends on '{endpoint_label(symbol)}', which goes; give it another value"
+                    )
+
+
+def _below(node: Node[Component], but: Node[Component]) -> Iterator[Node[Component]]:
+    """A node and those below it, but one with all that is below."""
+    if node is but:
+        return
+    yield node
+    for child in node.children.values():
+        yield from _below(child._node, but)
+
+
+def _with(held: Any, old: Component, part: Component) -> Any:
+    """What an attribute holds, with the new part in the place of the old."""
+    if isinstance(held, list):
+        return [_with(one, old, part) for one in cast(list[Any], held)]
+    return part if held is old else held
