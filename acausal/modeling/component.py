@@ -147,7 +147,7 @@ class Component:
             ConnectionError: if the new part lacks what is connected, or it is of another kind.
         """
         model = copy.deepcopy(self)
-        replace_part(model, path, part)
+        replace_part(model._node, path, part._node)
         return model
 
     # -- attributes ------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import sympy as sp
 
@@ -13,16 +13,14 @@ from acausal.modeling.endpoints import check_pair, endpoint_label, owner_and_nam
 from acausal.modeling.node import Endpoint, Node
 from acausal.modeling.symbols import Reference
 
-if TYPE_CHECKING:
-    from acausal.modeling.component import Component
 
-
-def replace_part(model: Component, path: str, part: Component) -> None:
+def replace_part(model: Node[Any], path: str, new: Node[Any]) -> None:
     """Put a part into a model in the place of another.
 
     Arguments:
+        model: the record of the model.
         path: of the part that goes, such as ``"suspension.damper"`` or ``"wheel[2].tyre"``.
-        part: in its place; it has the connectors and signals that are connected.
+        new: the record of the one in its place; it has the connectors and signals that are connected.
 
     Raises:
         DeclarationError: if there is no such part, the new one is in a model already, or a value elsewhere depends on
@@ -30,47 +28,47 @@ def replace_part(model: Component, path: str, part: Component) -> None:
         ConnectionError: if the new part lacks what is connected, or it is of another kind.
     """
     above, name = _place(model, path)
-    old, new = above.children[name], part._node
-    if new.parent is not None or new is model._node:
+    old: Node[Any] = above.children[name]._node
+    if new.parent is not None or new is model:
         raise DeclarationError(
             f"'{path}': this {new.label} is in a model already; make a second one"
         )
     connections = [
-        (node, [tuple(_moved(end, old._node, part) for end in pair) for pair in node.connections])
+        (node, [tuple(_moved(end, old, new) for end in pair) for pair in node.connections])
         for node in (above, *above.ancestors())
     ]
     for node, pairs in connections:
         for before, after in zip(node.connections, pairs, strict=True):
-            if before != after:
+            if any(a is not b for a, b in zip(before, after, strict=True)):
                 check_pair(*after)
-    _refuse_dependents(model._node, old._node)
+    _refuse_dependents(model, old)
     for node, pairs in connections:
         node.connections = cast(list[tuple[Endpoint, Endpoint]], pairs)
-    above.children = {n: part if n == name else child for n, child in above.children.items()}
-    new.parent, new.name, old._node.parent = above, name, None
+    above.children = {n: new.component if n == name else c for n, c in above.children.items()}
+    new.parent, new.name, old.parent = above, name, None
     attribute, held = name.partition("[")[0], vars(above.component)
-    held[attribute] = _with(held[attribute], old, part)
+    held[attribute] = _with(held[attribute], old.component, new.component)
 
 
-def _place(model: Component, path: str) -> tuple[Node[Component], str]:
+def _place(model: Node[Any], path: str) -> tuple[Node[Any], str]:
     """The node that has a part, and the part's name there."""
-    node, words = model._node, path.split(".")
+    node, words = model, path.split(".")
     for word in words:
         if word not in node.children:
             raise DeclarationError(
                 f"{node.label} has no part '{word}' to replace: {nearest(word, list(node.children))}"
             )
         node = node.children[word]._node
-    return cast("Node[Component]", node.parent), words[-1]
+    return cast(Node[Any], node.parent), words[-1]
 
 
-def _moved(end: Endpoint, old: Node[Component], part: Component) -> Endpoint:
+def _moved(end: Endpoint, old: Node[Any], new: Node[Any]) -> Endpoint:
     """An end of a connection in the new part, if it is one in the old."""
     owner, name = owner_and_name(end)
-    route = cast("Node[Component]", owner).route_from(old) if owner is not None else None
+    route = cast(Node[Any], owner).route_from(old) if owner is not None else None
     if route is None:
         return end
-    node, base = part._node, name.partition("[")[0]
+    node, base = new, name.partition("[")[0]
     for word in route:
         child = node.children.get(word)
         if child is None:
@@ -89,7 +87,7 @@ def _moved(end: Endpoint, old: Node[Component], part: Component) -> Endpoint:
     return found
 
 
-def _refuse_dependents(model: Node[Component], old: Node[Component]) -> None:
+def _refuse_dependents(model: Node[Any], old: Node[Any]) -> None:
     """Refuse to leave values behind that depend on a part that goes."""
     for node in _below(model, old):
         for name, value in node.modifiers.items():
@@ -101,7 +99,7 @@ def _refuse_dependents(model: Node[Component], old: Node[Component]) -> None:
                     )
 
 
-def _below(node: Node[Component], but: Node[Component]) -> Iterator[Node[Component]]:
+def _below(node: Node[Any], but: Node[Any]) -> Iterator[Node[Any]]:
     """A node and those below it, but one with all that is below."""
     if node is but:
         return
@@ -110,7 +108,7 @@ def _below(node: Node[Component], but: Node[Component]) -> Iterator[Node[Compone
         yield from _below(child._node, but)
 
 
-def _with(held: Any, old: Component, part: Component) -> Any:
+def _with(held: Any, old: Any, part: Any) -> Any:
     """What an attribute holds, with the new part in the place of the old."""
     if isinstance(held, list):
         return [_with(one, old, part) for one in cast(list[Any], held)]

@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.components import electrical as el
-from acausal.components import neural
-from acausal.components import translational as tl
+from acausal.components import blocks, electrical as el, neural, translational as tl
 
 
 class Suspension(ac.Component):
@@ -47,9 +45,24 @@ def test_a_model_with_another_part_is_that_made_with_it() -> None:
     assert one.parameters() == other.parameters()
     x0 = {"body.s": 0.1, "body.v": 0.2}
     runs = [ac.simulate(s, (0, 1), dt=0.1, x0=x0).x for s in (one, other)]
-    np.testing.assert_array_equal(*runs)
+    np.testing.assert_array_equal(runs[0], runs[1])
     assert ac.compile(model).parameters()["suspension.damper.d"] == 1.0
     assert found.wheel[1].m is not model.wheel[1].m
+
+
+class Loop(ac.Component):
+    def __init__(self) -> None:
+        super().__init__()
+        self.gain, self.lag = blocks.Gain(k=2.0), blocks.FirstOrder(T=1.0)
+        self.connect(self.gain.y, self.lag.u)
+        self.connect(self.lag.y, self.gain.u)
+
+
+def test_signals_are_connected_again() -> None:
+    system = ac.compile(Loop().replace("gain", neural.Characteristic()))
+    assert "gain.net" in system.parameters()
+    with pytest.raises(ac.ConnectionError, match=r"gain\.y is connected, and .* no 'y'"):
+        Loop().replace("gain", tl.Mass(m=1.0))
 
 
 def test_a_part_gives_way_to_a_network() -> None:
@@ -74,7 +87,13 @@ Twice().taken = TAKEN
     [
         (car, "suspension.dampr", tl.Damper, ac.DeclarationError, "no part 'dampr'.*'damper'"),
         (car, "wheels[2]", tl.Mass, ac.DeclarationError, r"no part 'wheels\[2\]'"),
-        (car, "suspension.damper", el.Resistor, ac.ConnectionError, "damper.flange_a.*no 'flange_a'"),
+        (
+            car,
+            "suspension.damper",
+            el.Resistor,
+            ac.ConnectionError,
+            "damper.flange_a.*no 'flange_a'",
+        ),
         (car, "suspension.damper", lambda: TAKEN, ac.DeclarationError, "in a model already"),
         (car, "suspension", tl.Damper, ac.ConnectionError, "no 'spring'"),
         (Twice, "one", tl.Spring, ac.DeclarationError, r"'other'.c depends on 'one.c'"),
