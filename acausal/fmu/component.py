@@ -126,11 +126,12 @@ class FMU(Component):
                     v.name, Input(kind=kind, unit=v.unit, shape=v.shape, doc=v.text)
                 )
         known = self.description.variables
-        first = 0
+        first, seen = 0, {v.name for v in chosen.results}
         for v in (known[n] for n in self.description.states):
             start = f"fmu_start_{first}"
             vars(self)[start] = self._starts(first, v)
-            declared = Variable(
+            kind = Output if v.name in seen else Variable
+            declared = kind(
                 start=start,
                 unit=v.unit,
                 nominal=v.nominal,

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.components import blocks
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
 from tests.support.hybrid import Ball, Sampled, Thermostat
@@ -45,6 +46,16 @@ class Driven(ac.Component):
         yield ac.Eq(ac.der(self.area), self.plant.s)
 
 
+class FedBack(ac.Component):
+    """An output of the FMU that is one of its states, and acts back on its input."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.plant, self.gain = ac.FMU(path), blocks.Gain(k=-2.0)
+        self.connect(self.plant.s, self.gain.u)
+        self.connect(self.gain.y, self.plant.f)
+
+
 class Several(ac.Component):
     """One FMU in three places, with values of their own."""
 
@@ -72,6 +83,16 @@ def exported(tmp_path_factory: pytest.TempPathFactory) -> Exported:
         return known[key]
 
     return export
+
+
+def test_an_output_that_is_a_state_is_a_signal(exported: Exported) -> None:
+    system = ac.compile(FedBack(exported(Mass)))
+    assert system.states == ("plant.s", "plant.v")
+    field = ac.compile(Mass())
+    x = jnp.array([0.1, 0.0])
+    rates = system.vector_field(0.0, x, (), system.parameters())
+    wanted = field.vector_field(0.0, x, (-0.2,), field.parameters())
+    np.testing.assert_allclose(rates, wanted, rtol=1e-12)
 
 
 def push(t: Any) -> Any:
