@@ -9,6 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Float
 
 from acausal.fmu.handlers import FAILURES, called
@@ -36,7 +37,7 @@ class FMUFunction(eqx.Module):
         rows = {"evaluate": part.n_values, "event": 2 + part.n, "begin": 1 + part.n}[self.kind]
         number = getattr(part.computed, self.kind)
         kind = jnp.result_type(*values, np.float32)
-        found = _found(number, rows, jnp.stack([jnp.asarray(v, kind) for v in values]))
+        found = _found(number, rows, *[jnp.asarray(v, kind) for v in values])
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:
@@ -46,21 +47,40 @@ class FMUFunction(eqx.Module):
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))
-def _found(number: int, rows: int, given: Float[Array, " n"]) -> Float[Array, " rows"]:
-    return called(number, given, (rows,))
+def _found(number: int, rows: int, *given: Float[Array, ""]) -> Float[Array, " rows"]:
+    return called(number, jnp.stack(given), (rows,))
 
 
-@_found.defjvp
-def _(number: int, rows: int, at: tuple[Array], along: tuple[Array]) -> tuple[Array, Array]:
-    return _found(number, rows, *at), _jacobian(number, rows, *at) @ along[0]
+def _along(number: int, rows: int, at: tuple[Array, ...], along: tuple[Any, ...]) -> Any:
+    """Only arguments that move are differentiated: each that does costs the FMU an evaluation."""
+    moves = [i for i, tangent in enumerate(along) if not isinstance(tangent, SymbolicZero)]
+    found = _found(number, rows, *at)
+    if not moves:
+        return found, jnp.zeros_like(found)
+    matrix = _jacobian(number, rows, tuple(moves), jnp.stack(at))
+    return found, matrix[:, np.array(moves)] @ jnp.stack([along[i] for i in moves])
 
 
-@partial(jax.custom_jvp, nondiff_argnums=(0, 1))
-def _jacobian(number: int, rows: int, given: Float[Array, " n"]) -> Float[Array, "rows n"]:
-    return called(number + 1, given, (rows, *given.shape))
+_found.defjvp(_along, symbolic_zeros=True)
+
+
+@partial(jax.custom_jvp, nondiff_argnums=(0, 1, 2))
+def _jacobian(
+    number: int, rows: int, moves: tuple[int, ...], given: Float[Array, " n"]
+) -> Float[Array, "rows n"]:
+    return called(number + 1, _with_marks(moves, given), (rows, *given.shape))
 
 
 @_jacobian.defjvp
-def _(number: int, rows: int, at: tuple[Array], along: tuple[Array]) -> tuple[Array, Array]:
-    second = called(number + 2, *at, (rows, *at[0].shape, *at[0].shape))
-    return _jacobian(number, rows, *at), second @ along[0]
+def _(
+    number: int, rows: int, moves: tuple[int, ...], at: tuple[Array], along: tuple[Array]
+) -> tuple[Array, Array]:
+    (given,) = at
+    shape = (rows, *given.shape, *given.shape)
+    second = called(number + 2, _with_marks(moves, given), shape)
+    return _jacobian(number, rows, moves, given), second @ along[0]
+
+
+def _with_marks(moves: tuple[int, ...], given: Array) -> Array:
+    """The arguments behind one number for each: 1 for those with respect to which derivatives are wanted."""
+    return jnp.concatenate([jnp.zeros_like(given).at[np.array(moves)].set(1.0), given])

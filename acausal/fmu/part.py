@@ -52,8 +52,8 @@ Numbers = np.ndarray[Any, np.dtype[np.float64]]
 Function = Callable[[int, int], int]
 """A function of two addresses, which returns how far an event had to be shifted."""
 
-Fast = Callable[[Numbers, Numbers], dict[int, int]]
-"""Fills rows of a Jacobian that need no difference quotients; by column, how many, from the first."""
+Fast = Callable[[Numbers, list[int], Numbers], dict[int, int]]
+"""Fills rows of some columns of a Jacobian without difference quotients; by column, how many, from the first."""
 
 
 class Event(NamedTuple):
@@ -391,31 +391,36 @@ class Computed:
     # -- derivatives -------------------------------------------------------------------------------
 
     def _with_derivatives(self, function: Function, width: int, height: int, fast: Fast) -> int:
-        """Register a function and, behind it, its Jacobian and its second derivatives."""
-        columns = (0, *range(2, self._at_signs // BYTES))
+        """Register a function and, behind it, its Jacobian and its second derivatives.
+
+        These two take, before the arguments, which of them derivatives are wanted for: the other columns are zero.
+        """
+        columns = [0, *range(2, self._at_signs // BYTES)]
 
         def jacobian(at: int, into: int) -> None:
-            given, matrix = _array(at, width).copy(), _array(into, height, width)
+            (marks, given), matrix = _array(at, 2, width).copy(), _array(into, height, width)
+            wanted = [column for column in columns if marks[column]]
             matrix[:] = 0.0
             with self._lock:
                 first = np.zeros(height)
                 nudges = function(given.ctypes.data, first.ctypes.data)
-                done = fast(given, matrix)
-                for column in columns:
+                done = fast(given, wanted, matrix)
+                for column in wanted:
                     rows = slice(done.get(column, 0), height)
                     if rows.start < height:
                         found = self._quotient(function, given, first, column, nudges)
                         matrix[rows, column] = found[rows]
 
         def second(at: int, into: int) -> None:
-            given, found = _array(at, width).copy(), _array(into, height, width, width)
+            both, found = _array(at, 2, width).copy(), _array(into, height, width, width)
+            given, place = both[1], both.ctypes.data
             first, there = np.zeros((height, width)), np.zeros((height, width))
             found[:] = 0.0
-            jacobian(given.ctypes.data, first.ctypes.data)
+            jacobian(place, first.ctypes.data)
             for column in columns:
                 value = given[column]
                 given[column] += SECOND_STEP * max(self._scales[column], abs(value))
-                jacobian(given.ctypes.data, there.ctypes.data)
+                jacobian(place, there.ctypes.data)
                 found[:, :, column] = (there - first) / (given[column] - value)
                 given[column] = value
 
@@ -454,10 +459,10 @@ class Computed:
     def _is_central(self, function: Function) -> bool:
         return function == self._evaluate and self.description.indicators > 0
 
-    def _no_columns(self, given: Numbers, matrix: Numbers) -> dict[int, int]:
+    def _no_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
         return {}
 
-    def _fast_columns(self, given: Numbers, matrix: Numbers) -> dict[int, int]:
+    def _fast_columns(self, given: Numbers, wanted: list[int], matrix: Numbers) -> dict[int, int]:
         """Rates and results by states and inputs, by the FMU's directional derivatives, where it has them."""
         known = self.description.variables
         if not self.description.directional:
@@ -480,10 +485,11 @@ class Computed:
                 column += variable.size
                 continue
             for seed in np.eye(variable.size):
-                found = np.zeros(size)
-                instance.derivative(unknowns, variable.reference, seed, found)
-                matrix[:size, column] = found
-                done[column] = size
+                if column in wanted:
+                    found = np.zeros(size)
+                    instance.derivative(unknowns, variable.reference, seed, found)
+                    matrix[:size, column] = found
+                    done[column] = size
                 column += 1
         return done
 

@@ -14,6 +14,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import blocks
+from acausal.fmu.part import Computed
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
 from tests.support.hybrid import Ball, Sampled, Thermostat
@@ -90,9 +91,33 @@ def test_an_output_that_is_a_state_is_a_signal(exported: Exported) -> None:
     assert system.states == ("plant.s", "plant.v")
     field = ac.compile(Mass())
     x = jnp.array([0.1, 0.0])
-    rates = system.vector_field(0.0, x, (), system.parameters())
-    wanted = field.vector_field(0.0, x, (-0.2,), field.parameters())
+    rates = system.vector_field(0.0, x, None, system.parameters())
+    wanted = field.vector_field(0.0, x, jnp.array([-0.2]), field.parameters())
     np.testing.assert_allclose(rates, wanted, rtol=1e-12)
+
+
+def test_only_what_is_differentiated_costs_evaluations(
+    exported: Exported, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    columns: list[int] = []
+    quotient = Computed._quotient
+
+    def counted(self: Computed, *given: Any) -> Any:
+        columns.append(given[3])
+        return quotient(self, *given)
+
+    monkeypatch.setattr(Computed, "_quotient", counted)
+    system = ac.compile(FedBack(exported(Mass)))
+    x, known = jnp.array([0.1, 0.3]), system.parameters()
+
+    def rate(v: Any, params: Any) -> Any:
+        return system.vector_field(0.0, jnp.stack([x[0], v]), None, params)[1]
+
+    assert jax.grad(rate)(0.3, known) == pytest.approx(-2.0, rel=1e-12)
+    assert not columns  # the parameters stay as they are
+    by_d = jax.grad(lambda d: rate(0.3, known | {"plant.d": d}))(2.0)
+    assert by_d == pytest.approx(-0.3, rel=1e-7)
+    assert set(columns) == {5, 6, 7}
 
 
 def push(t: Any) -> Any:
