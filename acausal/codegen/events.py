@@ -191,12 +191,14 @@ class _Generator:
     def _resets(self) -> np.ndarray:
         """Which conditions read a state that jumps when they come true."""
         model = self.reduced.model
-        jumps = {
-            (int(self.state[self.reduced.resolve(int(target))[0]]), int(self.place[node]))
-            for group in model.events.jumps
-            for target, row in zip(group.targets, group.group.variables, strict=True)
-            for node, _ in map(self.reduced.resolve, row.tolist())
-        }
+        jumps: set[tuple[int, int]] = set()
+        for group in model.events.jumps:
+            before = np.asarray(group.previous, bool)  # an edge reads what the condition was
+            for target, row in zip(group.targets, group.group.variables[:, before], strict=True):
+                state = int(self.state[self.reduced.resolve(int(target))[0]])
+                jumps |= {
+                    (state, int(self.place[self.reduced.resolve(v)[0]])) for v in row.tolist()
+                }
         reads: list[list[int]] = []
         for group in model.events.guards:
             now = np.equal(group.group.template.orders, 0) & ~np.asarray(group.previous, bool)
