@@ -13,7 +13,6 @@ from typing import Any
 
 import acausal as ac
 from acausal.errors import LIBRARY, nearest, shown
-from acausal.netlist import Library, installed
 
 
 def system_of(args: Namespace, text: str | None = None) -> ac.System:
@@ -64,6 +63,8 @@ def parameters_of(args: Namespace, system: ac.System) -> dict[str, Any]:
 
 def _part(name: str, libraries: list[str]) -> ac.Component:
     """A part by its class: ``neural.Resistance``, a name of Modelica's, or ``module:Class``."""
+    from acausal.netlist import Library, installed  # help starts without it
+
     module, colon, word = name.rpartition(":")
     if colon:
         made = _made(name, _module(module), word)
