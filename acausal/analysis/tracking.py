@@ -16,7 +16,7 @@ from acausal.analysis.filtering import Function
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, ModelError, nearest, shown
 from acausal.modeling import names_in
-from acausal.simulation import Scheme, Steps, for_fixed_steps, integrate, solver_named
+from acausal.simulation import Scheme, Steps, for_fixed_steps, integrate, modes, solver_named
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -184,12 +184,7 @@ def parts_of_steps(system: System, at: Values, h: float) -> int | None:
     point = known(at)
     if point is None:
         return 1
-    modes = np.linalg.eigvals(np.asarray(_jacobian(system, point)))
-    fastest = float(np.max(np.abs(modes), initial=0.0))
-    count = int(np.ceil(h * fastest / RESOLVED)) if np.isfinite(fastest) else 1
+    one = point._replace(**{n: np.asarray(getattr(point, n))[None] for n in ("t", "x", "u")})
+    rates = modes(system, one)
+    count = 1 if rates is None else int(np.ceil(h * float(np.max(np.abs(rates))) / RESOLVED))
     return max(count, 1) if count <= MOST_PARTS else None
-
-
-@eqx.filter_jit
-def _jacobian(system: System, at: Values) -> Float[Array, "n_states n_states"]:
-    return jax.jacfwd(lambda x: system.rates(at._replace(x=x)))(at.x)

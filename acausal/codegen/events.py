@@ -127,11 +127,6 @@ class Events(LeavesCaches):
         slots = [s for f in formulas for s in f.slots if s.previous == previous]
         return {source for s in slots for source in s.values.sources}
 
-    @cached_property
-    def guard_formulas(self) -> tuple[Formula, ...]:
-        """Of the conditions."""
-        return tuple(g.formula for g in self.guards)
-
     def describe(self, guard: int) -> str:
         """A condition, and the component that watches it."""
         component, text = self._stated[guard]

@@ -39,7 +39,11 @@ from acausal.simulation.solvers import (
     for_fixed_steps as for_fixed_steps,
     solver_named as solver_named,
 )
-from acausal.simulation.stability import fastest_mode as fastest_mode, long_steps as long_steps
+from acausal.simulation.stability import (
+    fastest_mode as fastest_mode,
+    long_steps as long_steps,
+    modes as modes,
+)
 from acausal.simulation.stages import KAPPA as KAPPA, SLOW as SLOW
 from acausal.simulation.steps import (
     BAND as BAND,

@@ -9,6 +9,7 @@ import equinox as eqx
 import jax
 import numpy as np
 from jaxtyping import Array, Float
+from numpy.typing import NDArray
 
 from acausal.codegen import Values
 from acausal.errors import user_level
@@ -55,13 +56,22 @@ def fastest_mode(system: System, values: Values) -> tuple[float, float]:
     rows = np.unique(np.linspace(0, len(values.x) - 1, POINTS).astype(int))
     t = np.asarray(values.t)[rows]
     points = values._replace(t=t, x=np.asarray(values.x)[rows], u=np.asarray(values.u)[rows])
-    jacobians = np.asarray(_jacobians(system, points))
-    if not np.isfinite(jacobians).all():
+    rates = modes(system, points)
+    if rates is None:
         return 0.0, 0.0
-    modes = np.linalg.eigvals(jacobians)
-    damping = np.where(-modes.real >= np.abs(modes.imag), -modes.real, 0.0).max(axis=1)
+    damping = np.where(-rates.real >= np.abs(rates.imag), -rates.real, 0.0).max(axis=1)
     worst = int(np.argmax(damping))
     return float(damping[worst]), float(t[worst])
+
+
+def modes(system: System, points: Values) -> NDArray[np.complex128] | None:
+    """Eigenvalues of the model linearized at n points, (n, n_states) [1/s]; None where it has no finite derivatives.
+
+    Arguments:
+        points: the values there, none of them traced.
+    """
+    jacobians = np.asarray(_jacobians(system, points))
+    return np.linalg.eigvals(jacobians).astype(complex) if np.isfinite(jacobians).all() else None
 
 
 def warn_of_long_steps(system: System, values: Values, h: float) -> None:

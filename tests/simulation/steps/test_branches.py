@@ -75,7 +75,7 @@ def text() -> str:
     system = ac.compile(Several())
     assert system.events is not None
     events = system.events
-    formulas = [*events.guard_formulas, *events.updates, *events.jumps]
+    formulas = [*(g.formula for g in events.guards), *events.updates, *events.jumps]
     lines = [f"{f.origin}: {f.expression} -> {f.places.tolist()}" for f in formulas]
     return "\n".join([*lines, str(system.discrete), str(system.states), str(system.equations)])
 
