@@ -47,6 +47,24 @@ def add_command(
     return parser
 
 
+def add_by_name(
+    parser: ArgumentParser,
+    *flags: str,
+    text: str,
+    read: Callable[[str], tuple[str, Any]],
+    metavar: str = "NAME=VALUE",
+) -> None:
+    """An argument that gives a value to a name and can be repeated, with its help and what reads it."""
+    parser.add_argument(
+        *flags,
+        action="append",
+        default=[],
+        type=read,
+        metavar=metavar,
+        help=f"{text}; can be repeated",
+    )
+
+
 def add_model(parser: ArgumentParser, several: str | None = None) -> None:
     """The model (or ``several``), and libraries that its file needs."""
     parser.add_argument("model", help=MODEL, nargs=several)
@@ -57,14 +75,8 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
         metavar="MODULE",
         help="a library of components that the model's file names; can be repeated",
     )
-    parser.add_argument(
-        "--replace",
-        action="append",
-        default=[],
-        type=value_by_name,
-        metavar="PART=CLASS",
-        help="another part in the place of one, such as suspension.damper=neural.Resistance; can be repeated",
-    )
+    words = "another part in the place of one, such as suspension.damper=neural.Resistance"
+    add_by_name(parser, "--replace", text=words, read=text_by_name, metavar="PART=CLASS")
 
 
 def add_parameters(parser: ArgumentParser) -> None:
@@ -74,14 +86,20 @@ def add_parameters(parser: ArgumentParser) -> None:
         metavar="FILE",
         help="parameters and networks from a file, as `acausal fit` and ac.save_params write it",
     )
-    parser.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        type=number_by_name,
-        metavar="NAME=VALUE",
-        help="the value of a parameter, such as mass.m=2.5; can be repeated",
-    )
+    words = "the value of a parameter, such as mass.m=2.5"
+    add_by_name(parser, "--set", text=words, read=number_by_name)
+
+
+def text_by_name(text: str) -> tuple[str, str]:
+    """``damper=neural.Resistance`` as a name and a text.
+
+    Raises:
+        ArgumentTypeError: for a text without a name and an equals sign.
+    """
+    name, equals, value = text.partition("=")
+    if not name or not equals:
+        raise ArgumentTypeError(f"'{text}' is not NAME=VALUE")
+    return name, value
 
 
 def number_by_name(text: str) -> tuple[str, float]:
@@ -90,9 +108,9 @@ def number_by_name(text: str) -> tuple[str, float]:
     Raises:
         ArgumentTypeError: for anything else.
     """
-    name, _, value = text.partition("=")
+    name, value = text_by_name(text)
     try:
-        return _named(text, name), float(value)
+        return name, float(value)
     except ValueError:
         raise ArgumentTypeError(f"'{text}' is not NAME=NUMBER, such as mass.m=2.5") from None
 
@@ -103,14 +121,8 @@ def value_by_name(text: str) -> tuple[str, Any]:
     Raises:
         ArgumentTypeError: for a text without a name and an equals sign.
     """
-    name, _, value = text.partition("=")
+    name, value = text_by_name(text)
     try:
-        return _named(text, name), json.loads(value)
+        return name, json.loads(value)
     except json.JSONDecodeError:
         return name, value
-
-
-def _named(text: str, name: str) -> str:
-    if not name or "=" not in text:
-        raise ArgumentTypeError(f"'{text}' is not NAME=VALUE")
-    return name

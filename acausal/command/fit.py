@@ -11,6 +11,7 @@ from typing import Any
 import acausal as ac
 from acausal.command.arguments import (
     Parsers,
+    add_by_name,
     add_command,
     add_model,
     add_parameters,
@@ -60,15 +61,8 @@ def add_training(parser: ArgumentParser) -> None:
         "--targets", nargs="+", required=True, metavar="NAME", help="the variables to fit"
     )
     parser.add_argument("--options", metavar="FILE", help="keywords of ac.fit, as JSON or TOML")
-    parser.add_argument(
-        "-o",
-        "--option",
-        action="append",
-        default=[],
-        type=value_by_name,
-        metavar="NAME=VALUE",
-        help="one of them, such as epochs=300 or strategy=whole_record; can be repeated",
-    )
+    words = "one of them, such as epochs=300 or strategy=whole_record"
+    add_by_name(parser, "-o", "--option", text=words, read=value_by_name)
     parser.add_argument("--seed", type=int, default=0, help="of networks and sequences (0)")
 
 

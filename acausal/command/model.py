@@ -24,7 +24,7 @@ def system_of(args: Namespace, text: str | None = None) -> ac.System:
     model = model_of(args.model if text is None else text, args.library)
     for path, name in args.replace:
         whole = model.model if isinstance(model, ac.System) else model
-        model = whole.replace(path, _part(str(name), args.library))
+        model = whole.replace(path, _part(name, args.library))
     return model if isinstance(model, ac.System) else ac.compile(model)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import acausal as ac
 from acausal.command.arguments import (
     Parsers,
+    add_by_name,
     add_command,
     add_model,
     add_parameters,
@@ -45,14 +46,8 @@ def add(parsers: Parsers) -> None:
     )  # fmt: skip
     add_training(parser)
     add_parameters(parser)
-    parser.add_argument(
-        "--x0",
-        action="append",
-        default=[],
-        type=number_by_name,
-        metavar="NAME=VALUE",
-        help="the initial value of a state; can be repeated. By default it is found from the targets",
-    )
+    words = "the initial value of a state, by default found from the targets"
+    add_by_name(parser, "--x0", text=words, read=number_by_name)
     results = parser.add_argument_group("results")
     results.add_argument("--out", metavar="FOLDER", help="write every record's bands as CSV")
     results.add_argument("--report", metavar="FOLDER", help="write a page about the predictions")

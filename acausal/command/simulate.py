@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import acausal as ac
 from acausal.command.arguments import (
     Parsers,
+    add_by_name,
     add_command,
     add_model,
     add_parameters,
@@ -46,23 +47,10 @@ def add(parsers: Parsers) -> None:
     add_model(parser)
     add_parameters(parser)
     _add_times(parser)
-    parser.add_argument(
-        "--input",
-        action="append",
-        default=[],
-        type=number_by_name,
-        metavar="NAME=VALUE",
-        help="a constant input, such as road.v_ref=0.1; can be repeated",
-    )
+    words = "a constant input, such as road.v_ref=0.1"
+    add_by_name(parser, "--input", text=words, read=number_by_name)
     parser.add_argument("--inputs", metavar="FILE", help="a file of data with inputs over time")
-    parser.add_argument(
-        "--x0",
-        action="append",
-        default=[],
-        type=number_by_name,
-        metavar="NAME=VALUE",
-        help="the initial value of a state; can be repeated",
-    )
+    add_by_name(parser, "--x0", text="the initial value of a state", read=number_by_name)
     results = parser.add_argument_group("results")
     results.add_argument(
         "--names",
