@@ -166,7 +166,8 @@ class Predictions(Mapping[str, Prediction]):
             "Measured and predicted": [*shown],
         }
         count = len(self)
-        lead = f"{count} record{'' if count == 1 else 's'} predicted, each in one simulation."
+        many = f"{count} records predicted, each in one simulation."
+        lead = "1 record predicted in one simulation." if count == 1 else many
         return PageContent(
             title or "Prediction",
             lead,
