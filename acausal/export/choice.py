@@ -22,7 +22,7 @@ def chosen(
     network: str | None,
     inputs: Sequence[str] | None,
     outputs: Sequence[str],
-    units: Mapping[str, str],
+    units: Mapping[str, str] | None,
     parameters: bool,
     function: str,
 ) -> Subject:
@@ -36,6 +36,7 @@ def chosen(
         ModelError: for a model that is not compiled.
     """
     need_known(f"export.{function}", model, params)
+    units = {} if units is None else units
     if not isinstance(units, Mapping):
         raise DataError(
             f"export: units are texts by name, such as {{'s_rel': 'm'}}, not {shown(units)}"

@@ -21,6 +21,7 @@ from acausal.errors import (
     ExportError,
     listing,
     nearest,
+    need_flag,
     shown,
     user_level,
 )
@@ -107,7 +108,7 @@ def fmu(
     need_exportable(system, "fmu")
     target = new_file(path, "export.fmu", overwrite)
     chosen = _checked_kinds(fmi, kinds, STEP if step is None else step)
-    places = _checked_platforms(platforms, fmi) if binary else ()
+    places = _checked_platforms(platforms, fmi) if need_flag(binary, "binary") else ()
     scalars = fmi == "2.0"
     free = _known(inputs, system.inputs)
     wanted = _wanted(outputs, system)

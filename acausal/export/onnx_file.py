@@ -66,7 +66,7 @@ def onnx(
     need_package("onnx", "onnx")
     from acausal.export.graph import model_of
 
-    subject = chosen(model, params, network, inputs, outputs, units or {}, parameters, "onnx")
+    subject = chosen(model, params, network, inputs, outputs, units, parameters, "onnx")
     closed = traced(subject, batch, "onnx")
     names = [p.name for p in subject.inputs], [p.name for p in subject.outputs]
     defaults = {p.name: p.default for p in subject.inputs if p.default is not None}

@@ -68,7 +68,7 @@ def watched(system: System, ranges: Ranges | None, function: str) -> Watch | Non
     for name in ranges:
         if name not in names:
             raise DataError(
-                f"export.{function}: ranges: there is no network '{name}'; {nearest(name, names)}"
+                f"export.{function}: ranges: there is no network {shown(name)}; {nearest(name, names)}"
             )
     found = calls(system, *ranges)
     bounds = {

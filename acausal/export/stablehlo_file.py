@@ -84,7 +84,7 @@ def stablehlo(
             raise DataError(
                 f"export.stablehlo: there is no platform '{platform}'; {nearest(platform, PLATFORMS)}"
             )
-    subject = chosen(model, params, network, inputs, outputs, units or {}, parameters, "stablehlo")
+    subject = chosen(model, params, network, inputs, outputs, units, parameters, "stablehlo")
     call = subject.call if batch is None else subject.batch()
     shapes = [jax.ShapeDtypeStruct(s.shape, real) for s in arguments(subject, batch, "stablehlo")]
 

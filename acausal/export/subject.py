@@ -141,7 +141,7 @@ def network_of(system: System, params: Mapping[str, Any], name: str) -> Any:
     """
     names = system.layout.module_names
     if name not in names:
-        raise DataError(f"export: there is no network '{name}'; {nearest(name, names)}")
+        raise DataError(f"export: there is no network {shown(name)}; {nearest(name, names)}")
     return params[name]
 
 

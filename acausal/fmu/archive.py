@@ -136,7 +136,7 @@ def _write(file: Path, archive: zipfile.ZipFile, member: zipfile.ZipInfo, target
 
 
 def _refuse(file: Path, why: str) -> NoReturn:
-    raise DeclarationError(f"FMU: '{file}' {why}.")
+    raise DeclarationError(f"FMU: '{file}' {why}.") from None
 
 
 def _platforms() -> tuple[str, ...]:

@@ -102,8 +102,9 @@ SOUND_OF: dict[str, dict[str, Callable[[Case], Any]]] = {
 """The same for single functions."""
 
 RESULTS = frozenset([
-    "CrossValidation", "Diagram", "Distilled", "Ensemble", "Fit", "Formula", "Initialization", "Linearization",
-    "OperatingPoint", "Profile", "RecordFit", "Solution", "Sweep", "System",
+    "CrossValidation", "Diagram", "Distilled", "Ensemble", "Estimation", "Fit", "Formula", "Initialization",
+    "Linearization", "Observer", "OperatingPoint", "Prediction", "Predictions", "Profile", "RecordFit", "Solution",
+    "Stability", "Sweep", "System",
 ])  # fmt: skip
 """Classes of which no user makes objects."""
 
