@@ -48,9 +48,9 @@ test: $(READY) ## all tests but the slow ones
 	$(BIN)/python -m pytest $(PYTEST_ARGS)
 
 test-slow: $(READY) ## the slow tests, but that of the wheel, which `make wheel` runs
-	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m slow \
+	XLA_FLAGS="$${XLA_FLAGS-$(QUICKER)}" $(BIN)/python -m pytest $(PYTEST_ARGS) -m "slow and not machines" \
 		$(LONG:%=--ignore=%) --ignore=tests/test_packaging.py
-	$(BIN)/python -m pytest $(PYTEST_ARGS) -m slow $(LONG)
+	$(BIN)/python -m pytest $(PYTEST_ARGS) -m "slow and not machines" $(LONG)
 
 # Separate environments, made by .ci/dependencies.py each time they are used.
 test-newest test-uv test-today: export XLA_FLAGS ?= $(QUICK)

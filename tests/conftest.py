@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 import tempfile
+from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,32 @@ def maps() -> int:
         return Path("/proc/self/maps").read_bytes().count(b"\n")
     except OSError:
         return MAPS + 1
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of a test with the mark ``cases(fast=2, slow=5)`` two cases are fast, five slow, and the others for `machines`.
+
+    They are spread evenly over the cases. A number that is not given is that of all.
+    """
+    groups = defaultdict[str, list[pytest.Item]](list)
+    for item in items:
+        if item.get_closest_marker("cases"):
+            groups[item.nodeid.partition("[")[0]].append(item)
+    for group in groups.values():
+        counts: Any = next(group[0].iter_markers("cases")).kwargs
+        for here, there in (("fast", "slow"), ("slow", "machines")):
+            found = [item for item in group if tier(item) == here]
+            count = min(counts.get(here, len(found)), len(found))
+            stay = {i * len(found) // count for i in range(count)}
+            for i in set(range(len(found))) - stay:
+                found[i].add_marker(there)
+
+
+def tier(item: pytest.Item) -> str:
+    """Which tests one belongs to: fast, slow or machines."""
+    marks = [m for m in ("machines", "slow") if item.get_closest_marker(m)]
+    return (*marks, "fast")[0]
 
 
 def pytest_collection_finish() -> None:

@@ -31,6 +31,7 @@ def pair(request):
     return case, {n: measure.build(case, n, Stopwatch()) for n in SIZES[request.param]}
 
 
+@pytest.mark.cases(fast=1)
 def test_the_generated_code_agrees_with_code_by_hand(pair):
     case, built = pair
     for n, (system, rhs, _) in built.items():
@@ -73,6 +74,8 @@ def counts():
     return json.loads(run.stdout.splitlines()[-1])
 
 
+@pytest.mark.slow
+@pytest.mark.cases(fast=1)
 def test_sympy_is_asked_as_often_whatever_the_size(pair, counts):
     case, built = pair
     called = counts[next(name for name, known in CASES.items() if known is case)]
@@ -100,6 +103,7 @@ def ride():
     return task.record(), ac.compile(with_networks()).parameters(0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "length"), [(1, task.SAMPLES), (5, 40)])
 def test_all_take_the_same_gradient_of_the_quarter_vehicle(ride, count, length):
     asked = task.task("", *ride, count, length)
@@ -153,6 +157,7 @@ def test_all_optimizers_find_a_minimum(name):
     np.testing.assert_allclose(x, 1.0, atol=1e-4)
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", peers.TASKS)
 def test_peers_agree(name):

@@ -121,6 +121,7 @@ def test_a_copied_solution_has_all_variables(again):
     np.testing.assert_array_equal(other["mass.a"], solution["mass.a"])
 
 
+@pytest.mark.slow
 def test_a_spawned_process_finds_the_same_trajectory():
     system = learned()
     params = system.parameters(1)

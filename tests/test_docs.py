@@ -228,6 +228,7 @@ def test_the_picture_shows_every_room() -> None:
     assert shown == (folders - {"components/"}) | {"errors.py", "files.py", "system.py"}
 
 
+@pytest.mark.slow
 def test_the_reference_lists_the_public_names() -> None:
     """Names that packages re-export, from stubs too, and functions named as the module that defines them."""
     griffe = pytest.importorskip("griffe")

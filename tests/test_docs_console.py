@@ -23,6 +23,7 @@ def blocks(page: Path) -> list[str]:
     return [textwrap.dedent(found[2]) for found in BLOCK.finditer(text)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "page", [p for p in PAGES if blocks(p)], ids=lambda p: p.relative_to(ROOT).as_posix()
 )

@@ -33,6 +33,7 @@ def test_compiling_and_simulating(caplog: pytest.LogCaptureFixture) -> None:
     assert simulating.getMessage() == "simulating Oscillator from 0 to 1 s in 10 steps"
 
 
+@pytest.mark.slow
 def test_training(caplog: pytest.LogCaptureFixture, tmp_path) -> None:
     options = {"modifiers": {"spring.c": ac.Shift(10.0)}, "strategy": "gauss_newton", "epochs": 2}
     with caplog.at_level(logging.DEBUG, "acausal"):

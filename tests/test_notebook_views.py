@@ -130,6 +130,7 @@ def test_data_show_every_signal_and_what_is_missing(data: ac.Data) -> None:
     assert "3 of 5" in late._repr_html_()
 
 
+@pytest.mark.slow
 def test_a_fit_and_its_confidence_show_what_was_learned(fit: ac.Fit) -> None:
     text = fit._repr_html_()
     assert balanced(text)

@@ -131,6 +131,7 @@ def test_wheel_names_its_license_and_python(wheel: Path) -> None:
     assert any(name.endswith("/licenses/LICENSE") for name in names)
 
 
+@pytest.mark.slow
 def test_sdist_gives_the_same_wheel(tree: Path, wheel: Path, tmp_path: Path) -> None:
     sdist = build("sdist", tree, tmp_path / "sdist")
     with tarfile.open(sdist) as archive:
@@ -148,6 +149,7 @@ def test_the_symlink_leads_to_the_library() -> None:
     assert str(link.readlink()) == "../components"
 
 
+@pytest.mark.slow
 def test_nothing_imports_the_top_level_folder() -> None:
     offenders: list[str] = []
     for path in python_files():

@@ -238,6 +238,7 @@ QUIET = tuple(HealthCheck)
 GRADIENTS = [gradients_agree_with_differences]
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("holds", some_slow(PROPERTIES, GRADIENTS), ids=lambda p: p.__name__)
 @settings(suppress_health_check=QUIET)
 @given(network=networks(8, 4), seed=st.integers(0, 2**16))
@@ -245,6 +246,7 @@ def test_of_small_networks(holds: Any, network: Network, seed: int) -> None:
     holds(network, seed)
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.parametrize(
     "holds", some_slow(PROPERTIES, PROPERTIES, GRADIENTS), ids=lambda p: p.__name__
 )

@@ -69,7 +69,7 @@ def test_differences_find_an_error_of_a_gradient() -> None:
     assert by_largest_entries(value, [wrong], [x]) == pytest.approx(1e-3, rel=1e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_all_solvers_agree_on_van_der_pol() -> None:
     pytest.importorskip("sksundae")
     from benchmarks.stiff.work_precision import measure

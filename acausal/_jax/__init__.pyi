@@ -35,6 +35,8 @@ from .tracing import (
     array as array,
     known as known,
     need_known as need_known,
+    numpy_or_jax as numpy_or_jax,
+    select as select,
     traced as traced,
     without_derivatives as without_derivatives,
 )

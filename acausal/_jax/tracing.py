@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import Array
 from jax.core import Tracer
 from jax.typing import ArrayLike as JaxArrayLike
@@ -68,9 +69,25 @@ def without_derivatives(tree: Tree) -> Tree:
     return jax.tree.map(lambda v: jax.lax.stop_gradient(v) if eqx.is_array(v) else v, tree)
 
 
-def array(value: ArrayLike | JaxArrayLike) -> Array:
-    """A value as an array of floats; where it is known, it stays so within what JAX traces."""
-    if traced(value):
-        return jnp.asarray(value, float)
+def array(value: ArrayLike | JaxArrayLike, dtype: Any = float) -> Array:
+    """A value as an array; where it is known, it stays so within what JAX traces.
+
+    `jnp.asarray` compiles a program for every new shape that it is given outside of `jax.jit`, this does not.
+    """
+    if traced(value) or isinstance(value, Array):
+        return jnp.asarray(value, dtype)
     with jax.ensure_compile_time_eval():
-        return jnp.asarray(value, float)
+        return jax.device_put(np.asarray(value, dtype))
+
+
+def select(values: Array, index: Any) -> Array:
+    """``values[index]``; JAX compiles a program for it, unless the values are known."""
+    return values[index] if traced(values) else array(np.asarray(values)[index], values.dtype)
+
+
+def numpy_or_jax(*trees: object) -> Any:
+    """The module whose functions compute with some values: NumPy where they are known, JAX where it traces.
+
+    JAX compiles each operation for every new shape that it is given outside of `jax.jit`.
+    """
+    return jnp if traced(*trees) else np

@@ -18,6 +18,7 @@ from jax import Array
 from jax.core import Tracer
 from jaxtyping import Float
 
+from acausal._jax import array
 from acausal.codegen.lower import evaluate
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.reading import read_elements
@@ -88,12 +89,12 @@ def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
 def _as_array(given: Sequence[Any], known: Float[np.ndarray, " n_free"]) -> Float[Array, " n_free"]:
     """Numbers as an array, in which neighbours that are known are one constant, however many they are."""
     if not any(isinstance(value, Tracer) for value in given):
-        return jnp.asarray(known)
+        return array(known)
     runs = groupby(range(len(given)), lambda i: isinstance(given[i], Tracer))
     pieces = [
         jnp.stack([jnp.asarray(given[i], dtype=float) for i in run])
         if traced
-        else jnp.asarray(known[list(run)])
+        else array(known[list(run)])
         for traced, run in runs
     ]
     return jnp.concatenate(pieces)

@@ -13,6 +13,7 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
+from acausal._jax import array
 from acausal.codegen import (
     Packed,
     ParameterLayout,
@@ -126,7 +127,7 @@ class Conditions(LeavesCaches):
         """Start values of variables, each with its sign; those of one expression side by side."""
         model, n = self.reduced.model, self.reduced.model.n_variables
         number = [model.start[v] if v < n else 0.0 for v, _ in members]
-        x = jnp.asarray(np.asarray(number, dtype=float))
+        x: Any = np.asarray(number, dtype=float)
         groups: dict[Any, list[tuple[int, tuple[int, ...]]]] = {}
         for row, (variable, _) in enumerate(members):
             if (b := self._bindings.get(variable)) is not None:
@@ -134,8 +135,12 @@ class Conditions(LeavesCaches):
         for (expression, symbols), found in groups.items():
             rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
             values = read_parameters(self.parameters, arguments, packed)
-            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, values.T, strict=True))))
-        return x * np.asarray([sign for _, sign in members], dtype=float)
+            x = (
+                jnp.asarray(x)
+                .at[rows]
+                .set(evaluate(expression, dict(zip(symbols, values.T, strict=True))))
+            )
+        return array(x * np.asarray([sign for _, sign in members], dtype=float))
 
     def _initial(self, group: EquationGroup, at: Values) -> Array:
         """Residuals of initial equations; derivatives are taken along the vector field."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -14,7 +15,7 @@ import optimistix as optx
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import is_number, is_real, traced, without_derivatives
+from acausal._jax import array, is_number, is_real, traced, without_derivatives
 from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
 from acausal.errors import DataError, InitializationError, listing, nearest, shown
 from acausal.flattening import LeavesCaches
@@ -124,7 +125,7 @@ class Initializer(LeavesCaches):
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
         x, plan = self._posed(packed, {} if x0 is None else x0, steady, least_squares)
-        at = Values(jnp.asarray(t0, float), x, u0, packed, d)
+        at = Values(array(t0), x, u0, packed, d)
         return x if plan is None else self._found(plan, at)[0]
 
     def start_or_nan(
@@ -198,14 +199,20 @@ class Initializer(LeavesCaches):
     ) -> tuple[Array, Plan | None]:
         """The states to begin with, and the conditions that remain to be met, if any."""
         self._known("x0", names_in(given, "x0"))
-        x = self.conditions.starts(packed)
+        x: Any = self.conditions.starts(packed)
+        is_known = not traced(x, list(given.values()))
+        x = np.array(x) if is_known else x
         for i, name in enumerate(self.names):
             if name in given:
                 if not is_number(given[name]):
                     raise DataError(
                         f"x0: '{name}' is {shown(given[name])}; give a real number that is finite."
                     )
-                x = x.at[i].set(given[name])
+                if is_known:
+                    x[i] = given[name]
+                else:
+                    x = x.at[i].set(given[name])
+        x = array(x)
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
         at_will = ~is_given & ~self.conditions.fixed
         if isinstance(steady, bool):  # fixed starts must be those of rest

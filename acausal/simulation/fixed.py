@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 from numpy.typing import NDArray
 
-from acausal._jax import cast, known, traced
+from acausal._jax import array, cast, known, numpy_or_jax, select, traced
 from acausal.codegen import Packed, Values
 from acausal.errors import SimulationError
 from acausal.simulation import solvers
@@ -54,8 +54,8 @@ def simulate_fixed(
     rows = slice(None) if saved is None else rows_of(ends, saved)
     h = (ends[-1] - ends[0]) / (len(ends) - 1)
     samples = over_steps(run.inputs, ends)
-    steps = Steps(jnp.asarray(ends[:-1]), jnp.asarray(h), samples)
-    start = run.start._replace(t=jnp.asarray(ends[0]))  # an array: other times need no compilation
+    steps = Steps(array(ends[:-1]), array(h), samples)
+    start = run.start._replace(t=array(ends[0]))  # an array: other times need no compilation
     start, steps = cast((start, steps), dtype)
     scheme = solvers.for_fixed_steps(solver, dtype, direct=direct)
     # where values are known, `are_split` has seen no edge within a step; those at ends of steps move what is traced
@@ -63,17 +63,16 @@ def simulate_fixed(
     x = _scan_steps(run.system, start, steps, scheme, direct, divided)
     if not traced(x):
         _check(run, ends, np.asarray(x))
-    t = jnp.asarray(ends)[rows]
+    t = array(ends[rows])
     if any(f is not None for f in samples.functions):
         u = evaluate_all(run.inputs, t)
     else:
-        last = evaluate_all(
-            run.inputs, t[-1:] * 0 + ends[-1]
-        )  # an input that is held has jumped there
-        u = jnp.concatenate([samples.start, last])[rows]
+        last = evaluate_all(run.inputs, array(ends[-1:]))  # an input that is held has jumped there
+        u = array(numpy_or_jax(samples, last).concatenate([samples.start, last])[rows])
+    x = x if saved is None else select(x, rows)
     if traced(x) and isinstance(solver, solvers.EXPLICIT):
-        _check_derivatives(run.system, start._replace(t=t, x=x[rows], u=u), float(h))
-    t, x, u = cast((t, x[rows], u), dtype)
+        _check_derivatives(run.system, start._replace(t=t, x=x, u=u), float(h))
+    t, x, u = cast((t, x, u), dtype)
     return Solution(start._replace(t=t, x=x, u=u), run.system)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal._jax import is_real, traced
+from acausal._jax import array, is_real, traced
 from acausal.data import Data, Interpolation, Signal, differentiate, is_data_frame
 from acausal.errors import DataError, listing, nearest, shortened, shown, user_level
 from acausal.modeling import names_in
@@ -224,7 +224,7 @@ def _function(
     if samples.ndim == 0:
         if not traced(samples) and not np.isfinite(samples):
             raise DataError(f"Input '{name}' is {samples}.")
-        return Constant(jnp.asarray(cast(ArrayLike, value), float))
+        return Constant(array(cast(ArrayLike, value)))
     if ends is None:
         raise DataError(
             f"Input '{name}' has samples but no times: give (times, samples), or dt for fixed steps."
@@ -276,7 +276,7 @@ def _derived(name: str, source: str, function: TimeFunction) -> TimeFunction:
     if not times:
         return function
     if isinstance(function, Constant):
-        return Constant(jnp.zeros_like(function.value))
+        return Constant(array(0.0))
     if not isinstance(function, Signal):
         return Derivative(function, times)
     try:
@@ -295,11 +295,20 @@ def evaluate(
     return jnp.stack(values) if functions else jnp.zeros(0)
 
 
-@eqx.filter_jit
 def evaluate_all(
     functions: tuple[TimeFunction, ...], t: Float[Array, " n"]
 ) -> Float[Array, "n n_inputs"]:
     """All inputs at n times."""
+    constant = [np.asarray(f.value) for f in functions if isinstance(f, Constant) and not traced(f)]
+    if len(constant) == len(functions):
+        return array(np.broadcast_to(np.asarray(constant, float), (len(t), len(functions))))
+    return _evaluate_all(functions, t)
+
+
+@eqx.filter_jit
+def _evaluate_all(
+    functions: tuple[TimeFunction, ...], t: Float[Array, " n"]
+) -> Float[Array, "n n_inputs"]:
     return jax.vmap(lambda t: evaluate(functions, t))(t)
 
 

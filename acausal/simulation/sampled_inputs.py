@@ -12,7 +12,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import traced
+from acausal._jax import array, numpy_or_jax, traced
 from acausal.data import FRACTIONS, Signal, polynomial_coefficients
 from acausal.simulation.inputs import Constant, TimeFunction, evaluate_all
 from acausal.simulation.step_grid import ON_GRID
@@ -53,7 +53,7 @@ def over_steps(functions: tuple[TimeFunction, ...], ends: Ends) -> Samples:
     Any other one stays a function, which is evaluated at the stages of every step.
     """
     sampled = [_on_grid(f, ends) for f in functions]
-    nothing = jnp.zeros(len(ends) - 1)
+    nothing = np.zeros(len(ends) - 1)
     columns = [_Sampled(nothing, nothing) if c is None else c for c in sampled]
     left = tuple(f if c is None else None for f, c in zip(functions, sampled, strict=True))
     return _together(columns, left, ends)
@@ -72,12 +72,13 @@ def _together(
     columns: Sequence[_Sampled], functions: tuple[TimeFunction | None, ...], ends: Ends
 ) -> Samples:
     if not columns:
-        empty = jnp.zeros((len(ends) - 1, 0))
+        empty = array(np.zeros((len(ends) - 1, 0)))
         return Samples(empty, empty)
     at_starts, at_ends, coefficients = zip(*columns, strict=True)
+    stack = numpy_or_jax(columns).stack
     return Samples(
-        jnp.stack(at_starts, axis=1),
-        jnp.stack(at_ends, axis=1),
+        array(stack(at_starts, axis=1)),
+        array(stack(at_ends, axis=1)),
         functions,
         _side_by_side(coefficients),
     )
@@ -96,7 +97,7 @@ def _side_by_side(
 def _on_grid(function: TimeFunction, ends: Ends) -> _Sampled | None:
     """An input over every step; ``None`` if it is not a polynomial there."""
     if isinstance(function, Constant):
-        value = jnp.broadcast_to(function.value, (len(ends) - 1,))
+        value = numpy_or_jax(function).broadcast_to(function.value, (len(ends) - 1,))
         return _Sampled(value, value)
     if not isinstance(function, Signal) or traced(function.ts):
         return None

@@ -8,13 +8,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import diffrax as dfx
-import jax.numpy as jnp
 import numpy as np
 from jax.typing import DTypeLike
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import is_real, need_double_precision, precision, traced
+from acausal._jax import array, is_real, need_double_precision, precision, select, traced
 from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
@@ -134,7 +133,7 @@ def simulate(
     _check_times(kind, ends, saved, functions)
     announce_derivatives(system.inputs, given)
     packed = system.pack(params)
-    u_start = evaluate_all(functions, jnp.asarray([start]))[0]
+    u_start = select(evaluate_all(functions, array([start])), 0)
     steady = isinstance(x0, str) and x0 == "steady"
     values = system.start_values(packed, None if steady else x0, u_start, start, steady=steady)
     run = Run(system, values, functions, end)

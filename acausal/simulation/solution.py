@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import traced
+from acausal._jax import select, traced
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, nearest
 from acausal.files import need_path, write_files
@@ -260,7 +260,8 @@ class Solution(ByName):
     def _observe(self, names: Sequence[str]) -> None:
         unread = new = tuple(n for n in names if n not in self._observed)
         for source, values in ((self.system.states, self.x), (self.system.inputs, self.u)):
-            self._observed.update({n: values[:, source.index(n)] for n in new if n in source})
+            found = {n: select(values, (..., source.index(n))) for n in new if n in source}
+            self._observed.update(found)
         new = tuple(n for n in new if n not in self._observed)
         for name in new:
             if name not in self.system.variables:

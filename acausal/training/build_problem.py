@@ -218,7 +218,7 @@ def _weighted(records: Records, weights: Weighting, targets: tuple[str, ...]) ->
         TrainingError: if nothing of a target counts.
     """
     weighted = weights.apply(records)
-    for name, total in zip(targets, jnp.sum(weighted.weight, axis=0), strict=True):
+    for name, total in zip(targets, np.asarray(weighted.weight).sum(axis=0), strict=True):
         if not total > 0:
             raise TrainingError(
                 f"sample_weights: all weights of '{name}' are 0; leave the target out."
@@ -227,8 +227,9 @@ def _weighted(records: Records, weights: Weighting, targets: tuple[str, ...]) ->
 
 
 def _refuse_constant(problem: Problem) -> None:
-    largest = jnp.abs(problem.records.y).max(axis=0)
-    for name, varies in zip(problem.targets, problem.records.sigma > VARIES * largest, strict=True):
+    largest = np.abs(np.asarray(problem.records.y)).max(axis=0)
+    varied = np.asarray(problem.records.sigma) > VARIES * largest
+    for name, varies in zip(problem.targets, varied, strict=True):
         if not varies:
             raise DataError(
                 f"Target '{name}' is constant in the data; it gives nothing to learn from."

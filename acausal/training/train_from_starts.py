@@ -305,7 +305,7 @@ def _no_better_than_the_mean(problem: Problem, best: Best) -> str | None:
     """A sentence on a model that follows its records no better than a constant does, or None."""
     records = problem.records
     level = np.sqrt(len(problem.targets))
-    error = float(nrmse(best.simulated.y, records.y, records.sigma, records.weight))
+    error = float(jax.jit(nrmse)(best.simulated.y, records.y, records.sigma, records.weight))
     if error < level:
         return None
     return (

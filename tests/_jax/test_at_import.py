@@ -8,6 +8,7 @@ import pytest
 from tests.support.paths import ROOT
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "imports",
     [

@@ -51,6 +51,7 @@ def test_the_vehicle_and_its_gradient_are_near_those_in_double_precision(vehicle
             np.testing.assert_allclose(own, wanted, atol=1e-3 * float(jnp.max(jnp.abs(wanted))))
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize(
     "choice",
     [
@@ -82,6 +83,7 @@ class Loop(ac.Component):
         yield ac.Eq(self.y + self.y**3 + ac.sin(self.y), self.x)
 
 
+@pytest.mark.slow
 def test_nonlinear_loops_are_solved_as_well_as_rounding_allows():
     single, double = (
         ac.simulate(ac.compile(Loop()), (0, 1), dt=0.05, dtype=d)["y"] for d in ("f4", "f8")

@@ -106,6 +106,7 @@ def test_the_order_of_sensors_changes_nothing_and_an_ensemble_is_near():
     assert np.sqrt(np.mean(off**2)) < 0.15
 
 
+@pytest.mark.slow
 def test_the_gradient_of_the_likelihood_is_that_of_differences():
     data = record()
 
@@ -213,6 +214,7 @@ def test_states_and_a_parameter_of_a_pendulum_are_found(method):
     assert found["w"].shape == (501,)
 
 
+@pytest.mark.slow
 def test_fitted_noise_is_more_likely_than_the_default():
     given = {"dt": H, "states": GIVEN["states"], "sensors": ["mass.s"]}
     fitted, default = (ac.estimate(plain(), record(), noise=n, **given) for n in ("fit", None))

@@ -53,6 +53,7 @@ def test_nan_is_passed_on():
     assert np.isnan(eliminate(a, b.at[3].set(jnp.nan))).any()
 
 
+@pytest.mark.slow
 def test_derivatives_in_both_modes_and_of_second_order():
     a, b = equations(4)
     for derivative in (jax.jacrev, jax.jacfwd):

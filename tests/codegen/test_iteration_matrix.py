@@ -94,6 +94,7 @@ def test_batches(case):
     close(run(matrix.factorize, matrix.solve), run(dense, jnp.linalg.solve))
 
 
+@pytest.mark.cases(fast=3)
 @pytest.mark.parametrize("transform", [jax.grad, jax.jacfwd])
 def test_derivatives_by_entries_shift_and_right_side(case, transform):
     matrix, entries, b, dense = case

@@ -26,6 +26,7 @@ class Fold(ac.Component):
         yield Eq(self.y**2, 1 - self.x)
 
 
+@pytest.mark.slow
 def test_of_classes_that_inherit_a_loop_the_one_that_fails_is_named():
     whole = ac.Component()
     for name in (*(f"Early{i}" for i in range(FEW_VARIANTS)), "Late"):
@@ -41,6 +42,7 @@ def square_root():
     return component
 
 
+@pytest.mark.machines
 @pytest.mark.parametrize(
     ("part", "steps", "sentence"),
     [

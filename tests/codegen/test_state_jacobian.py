@@ -83,6 +83,7 @@ class Thermostat(ac.Component):
             yield ac.Eq(ac.der(T), sum(here) - 3 * T**3 + (self.heat if i == 0 else 0.0))
 
 
+@pytest.mark.slow
 def test_a_row_that_reads_all_states_needs_one_derivative_more():
     system = ac.compile(Thermostat(40))
     jacobian, packed = system.state_jacobian, system.pack()
@@ -118,6 +119,7 @@ def open_always(monkeypatch):
         monkeypatch.setattr(state_jacobian, name, limit)
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("large", [10, 10**6], ids=["sparse", "torn"])
 @pytest.mark.parametrize("resistor", [el.Resistor, Hardening])
 def test_loops_that_join_all_states_are_opened(resistor, large, monkeypatch):
@@ -146,6 +148,7 @@ def test_loops_that_join_all_states_are_opened(resistor, large, monkeypatch):
         jacobian.entries(lambda x: x, x)
 
 
+@pytest.mark.slow
 def test_states_and_unknowns_are_found_together(monkeypatch):
     """An implicit Euler step by Newton's method: with the loops solved for each guess, and with open loops."""
     open_always(monkeypatch)

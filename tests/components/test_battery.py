@@ -73,6 +73,7 @@ def run(system):
     return ac.simulate(system, (0.0, 1200.0), dt=1.0, inputs=inputs, params=params)
 
 
+@pytest.mark.slow
 def test_current_counts_charge(run):
     counted = 0.6 - 400.0 / Q * (1 - np.cos(np.asarray(run.t) / 200.0))
     assert np.asarray(run["particle.soc"]) == pytest.approx(counted, abs=1e-9)
@@ -132,6 +133,7 @@ class Inflow(ac.Component):
         yield ac.Eq(self.port.i, -1.0)
 
 
+@pytest.mark.slow
 def test_a_constant_current_leaves_a_parabola_in_the_sphere():
     """Surface less mean is ``tau i/(15 Q)`` after a while (J. Crank: The mathematics of diffusion, 1975)."""
     lead = {}

@@ -304,6 +304,7 @@ def test_tables_interpolate_and_extrapolate(over_time):
     assert np.allclose(y["timed"], np.interp(t, [0, 0.5, 2], [0, 1, 4]))
 
 
+@pytest.mark.slow
 def test_motions_keep_their_limits_and_arrive_together():
     parts = {
         "ptp": blocks.KinematicPTP2(
@@ -485,6 +486,7 @@ def responses():
     return ac.simulate(ac.compile(Responses()), t=(0, 2), rtol=1e-9, atol=1e-11)
 
 
+@pytest.mark.slow
 def test_step_and_ramp_responses(responses):
     t = np.asarray(responses.t)
     step = lambda b, a: signal.step(signal.TransferFunction(b, a), T=t)[1]  # noqa: E731
@@ -568,6 +570,7 @@ def frequency_responses():
     return f, dict(zip(parts, np.asarray(response).T, strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILTERS)
 def test_filters_have_the_textbook_response(frequency_responses, name):
     f, responses = frequency_responses

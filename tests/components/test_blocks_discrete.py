@@ -53,6 +53,7 @@ def source(t: np.ndarray) -> np.ndarray:
 U = source(SAMPLES[:-1])
 
 
+@pytest.mark.slow
 def test_samples_and_holds(sol):
     np.testing.assert_allclose(sol["sampler.y"], U, rtol=1e-12)
     np.testing.assert_allclose(sol["late.y"], np.where(BETWEEN < 3 * PERIOD, U[0], U), rtol=1e-12)

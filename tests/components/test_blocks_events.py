@@ -63,7 +63,7 @@ def system() -> ac.System:
     return ac.compile(Sources())
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_sources_in_models_with_events(system):
     ts = np.arange(0.005, 2.0, 0.01)
     sol = ac.simulate(system, (0.0, 2.0), saveat=ts, rtol=1e-9, atol=1e-10)
@@ -141,6 +141,7 @@ class Tables(ac.Component):
         yield ac.When(ac.sample(5, 5), ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
+@pytest.mark.slow
 def test_steps_end_at_jumps_and_corners_of_tables():
     run = ac.simulate(ac.compile(Tables()), 2.0, saveat=[2.0])
     times = {

@@ -73,6 +73,7 @@ def switched(on: np.ndarray, off: np.ndarray, start: bool) -> np.ndarray:
     return np.array(values)
 
 
+@pytest.mark.slow
 def test_two_point_blocks(sol):
     np.testing.assert_array_equal(sol["hysteresis.y"], switched(SINE > 0.5, SINE < -0.5, False))
     np.testing.assert_array_equal(sol["control.y"], switched(SINE < -0.5, SINE > 0.5, True))
@@ -159,6 +160,7 @@ class Network(ac.Component):
         yield ac.Eq(self.start.reset[0], self.stop.on)
 
 
+@pytest.mark.slow
 def test_networks():
     sol = ac.simulate(ac.compile(Network()), (0.0, 5.0), saveat=TIMES[TIMES < 5])
     t = np.asarray(sol.t)

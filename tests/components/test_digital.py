@@ -50,6 +50,7 @@ class Gates(ac.Component):
                 self.connect(value.y, made.x[i])
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("gate", GATES)
 def test_gates_follow_their_tables(gate: type) -> None:
     end = ac.simulate(ac.compile(Gates(gate)), 1.0, saveat=[1.0])
@@ -91,6 +92,7 @@ class Latch(ac.Component):
         self.connect(self.first.y, self.second.x[1])
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     ("gate", "active", "quiet"), [(dg.Nand, "'0'", "'1'"), (dg.Nor, "'1'", "'0'")]
 )
@@ -121,6 +123,7 @@ class Delays(ac.Component):
         self.connect(self.one.y, self.gate.x[1])
 
 
+@pytest.mark.slow
 def test_changes_that_do_not_last_are_not_passed_on() -> None:
     changes = {
         "same.y": "U 0, 0 0.25, 1 1.25, 0 2.25, 1 4.25, X 5.25, 0 6.25",
@@ -152,6 +155,7 @@ class Strippers(ac.Component):
         self.connect(self.ramp.y, self.real.x[0])
 
 
+@pytest.mark.slow
 def test_strength_is_stripped_and_numbers_become_values() -> None:
     found = ac.simulate(ac.compile(Strippers()), 6.0, saveat=[1.9, 2.1, 4.9, 5.1])
     tables = {"LogicToX01": "XX01XX01X", "LogicToX01Z": "XX01ZX01X", "LogicToUX01": "UX01XX01X"}
@@ -218,6 +222,7 @@ class Converters(ac.Component):
             self.connect(bit, to)
 
 
+@pytest.mark.slow
 def test_a_voltage_goes_through_bits_and_back() -> None:
     ts = np.arange(0.1, 1, 0.1)
     found = ac.simulate(ac.compile(Converters()), (0.0, 1.0), saveat=[0.04, *ts])

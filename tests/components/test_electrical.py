@@ -785,6 +785,7 @@ def static():
     return at
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("u", [0.0, 2.0])
 def test_switches_open_and_close(static, u):
     found = static(u)
@@ -997,6 +998,7 @@ def bench():
     )
 
 
+@pytest.mark.slow
 def test_capacitor_and_inductor_are_charged(bench):
     rising = 1 - np.exp(-2 * bench.t)
     assert np.allclose(bench["charged.v"], rising, atol=1e-6)

@@ -49,6 +49,7 @@ def bridge(*nets: str, **parts: ac.Component) -> Circuit:
 # -- diodes and thyristors ---------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_bridge_rectifies() -> None:
     ts = np.linspace(0, 0.04, 81)
     found = ac.simulate(ac.compile(bridge()), (0.0, 0.04), saveat=ts)
@@ -59,7 +60,7 @@ def test_a_bridge_rectifies() -> None:
     assert (np.asarray(found["d3.off"])[inside] == 1).all()
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_bridge_charges_a_capacitor() -> None:
     smoothing = el.Capacitor(C=1e-3, v=ac.Start(0.0, fixed=True))
     model = bridge("c.p load.p", "c.n load.n", c=smoothing)
@@ -102,7 +103,7 @@ def test_a_thyristor_conducts_from_its_firing_until_the_current_vanishes() -> No
     assert (off[blocks_] == 1).all()
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_triac_conducts_in_both_directions() -> None:
     model = Circuit(
         "source.p triac.n",
@@ -139,6 +140,7 @@ def arc(switch: el.IdealSwitchWithArc) -> Circuit:
     )
 
 
+@pytest.mark.slow
 def test_an_arc_burns_until_the_current_is_weak() -> None:
     made = el.CloserWithArc(Ron=1e-9, V0=30, dVdt=1e4, Vmax=60, off=ac.Start(1.0, fixed=True))
     times = np.asarray([0.5, 0.502, 0.6, 0.7])
@@ -159,6 +161,7 @@ def test_an_arc_burns_until_the_current_is_weak() -> None:
     assert float(found["switch.tSwitch"][-1]) == pytest.approx(0.5)
 
 
+@pytest.mark.slow
 def test_a_converter_steps_down() -> None:
     """At 10 kHz with half of the time on; the ripple's mean is half of the input."""
     model = Circuit(

@@ -355,6 +355,7 @@ def test_states_are_levels_and_temperatures_of_what_has_a_mass(system):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_heated_pipe(bench):
     flow = 1e-3 * WATER.rho
     drop = 1e6 * 1e-3 + 3e3 / 1.9e-3**2 * 0.9e-3**2

@@ -17,6 +17,7 @@ def at(value):
     return ac.Start(value, fixed=True)
 
 
+@pytest.mark.cases(fast=4)
 @pytest.mark.parametrize(
     "element",
     [
@@ -64,6 +65,7 @@ class Block(ac.Component):
         self.connect(self.mass.flange_b, self.friction.flange_a)
 
 
+@pytest.mark.machines
 @pytest.mark.parametrize(
     "steps",
     [
@@ -236,7 +238,7 @@ class Redundant(ac.Component):
 FULL = {"first.f_normalized": 1.0, "second.f_normalized": 1.0}
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_brakes_that_share_a_load_hold_it_and_their_torques_are_told_to_be_open():
     sol = ac.simulate(ac.compile(Redundant("Brake")), 4.0, inputs=FULL, saveat=[1.0, 4.0])
     np.testing.assert_allclose(sol["fast.w"], [2.0, 0.0], atol=1e-8)

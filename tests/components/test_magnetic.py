@@ -440,6 +440,7 @@ def bench():
     return ac.simulate(system, t=(0, 1), saveat=times, solver="tsit5", rtol=1e-8, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_coil_is_an_inductor(bench):
     current = (1 - np.exp(-4 * bench.t)) / 2
     assert np.allclose(bench["plain.i"], current, atol=1e-6)

@@ -220,6 +220,7 @@ SLOW = ("rotational", "thermal")
 LONG = [domain for domain in CASES if domain not in (*SLOW, "translational")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("domain", some_slow(CASES, SLOW, LONG))
 def test_a_law_is_learned(domain: str) -> None:
     case = CASES[domain]

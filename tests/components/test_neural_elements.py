@@ -123,6 +123,7 @@ def power(domain: str, run: ac.Solution, part: str) -> np.ndarray:
     return np.asarray(effort) * np.asarray(run[f"{part}.{kind.through}"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("domain", all_slow_but("translational", DOMAINS))
 def test_energy_in_every_domain(domain: str) -> None:
     """What flows in is lost, and nowhere gained, or stored, and nowhere negative."""
@@ -143,6 +144,7 @@ def test_energy_in_every_domain(domain: str) -> None:
     assert np.abs(np.asarray(run["hysteresis.z"])).max() <= 10
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "element",
     [

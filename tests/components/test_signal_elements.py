@@ -115,6 +115,7 @@ def _difference(t):
     return 3 / (w**2 + rate**2) * (rate * np.sin(w * t) - w * np.cos(w * t) + w * np.exp(-rate * t))
 
 
+@pytest.mark.slow
 def test_two_stores_joined_by_signals_are_one(solution):
     t = np.asarray(solution.t)
     for name in ("warm.T", "cold.T"):

@@ -125,6 +125,7 @@ def near_edges():
     return np.concatenate([np.nextafter(edges, 0), edges, np.nextafter(edges, 9)])
 
 
+@pytest.mark.slow
 def test_their_values(system):
     params, x = system.parameters(), np.zeros(len(system.states))
     read = jax.jit(jax.vmap(lambda t: system.observe(names(), t, x, None, params)))
@@ -134,6 +135,7 @@ def test_their_values(system):
     assert at_edges.max() <= 5.001, names()[at_edges.max(axis=0).argmax()]
 
 
+@pytest.mark.slow
 def test_exported_c_computes_the_same(system, tmp_path):
     params, x = system.parameters(), np.zeros(len(system.states))
     field = jax.jit(jax.vmap(lambda t: system.vector_field(t, x, None, params)))
@@ -146,6 +148,7 @@ def test_exported_c_computes_the_same(system, tmp_path):
         assert np.all((exported.derivatives() >= 0.999) & (exported.dx <= 5.001))
 
 
+@pytest.mark.slow
 def test_exported_steps_see_every_edge_on_their_grid(tmp_path):
     """Ramps, tops and periods begin and end where steps do, or a rounding error beside; some last no time."""
     i = blocks.Integrator(y_start=0.0)

@@ -447,6 +447,7 @@ def bench():
     return ac.simulate(ac.compile(Bench()), t=(0, 2), inputs=inputs, rtol=1e-8, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_an_oscillator_swings_and_keeps_its_energy(bench):
     swing = 0.1 * np.cos(10 * bench.t)
     assert np.allclose(bench["mass.s"], 0.75 + swing, atol=1e-6)

@@ -70,6 +70,7 @@ def test_a_ground_is_drawn_at_each_component_that_needs_it() -> None:
     assert "load.n ground.p" in attributes(drawing, "connection")
 
 
+@pytest.mark.slow
 def test_lists_are_one_box_with_a_count() -> None:
     chain = Chain(10_000)
     with calls_below(8_000_000):
@@ -187,6 +188,7 @@ def test_drawings_need_no_colour_of_their_own_page() -> None:
     assert "http" not in svg.replace("http://www.w3.org/2000/svg", "")
 
 
+@pytest.mark.slow
 def test_the_same_model_gives_the_same_drawing_whatever_the_hash_seed() -> None:
     code = (
         "import acausal as ac; from tests.support.drawn import Drive, Bridge; import hashlib;"

@@ -46,6 +46,7 @@ def made(system, params):
     return Table(plain.time, plain.current, volts, plain.ambient, plain.case_time, plain.case)
 
 
+@pytest.mark.slow
 def test_a_jump_follows_the_row_before(made):
     data = made.data()
     jump = np.searchsorted(data.time, 60.0 + AFTER)

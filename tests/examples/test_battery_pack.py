@@ -45,6 +45,7 @@ def test_all_cells_share_one_network(driven) -> None:
     assert networks == [LAW]
 
 
+@pytest.mark.slow
 def test_currents_of_a_row_add_up_to_that_of_the_pack(driven, sol) -> None:
     whole = jax.vmap(driven.inputs[CURRENT])(jnp.asarray(driven.t))
     for row in range(1, ROWS + 1):

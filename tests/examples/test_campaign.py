@@ -12,6 +12,7 @@ from examples.campaign.runs import EVERY, LATE, RUNS, campaign
 from tests.support.counted import compilations
 
 
+@pytest.mark.slow
 def test_runs_differ_in_length_rates_and_gaps() -> None:
     records = campaign()
     assert list(records) == list(RUNS)

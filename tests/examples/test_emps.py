@@ -64,6 +64,7 @@ def test_smoothed_signals_keep_what_is_slow() -> None:
     assert true[model.INPUT][inside] == pytest.approx(late[inside], abs=1e-4)
 
 
+@pytest.mark.slow
 @REAL
 def test_the_published_model_follows_the_record() -> None:
     training, _ = load(DATA, "EMPS", FILES)

@@ -36,6 +36,7 @@ def oscillator() -> tuple[ac.System, ac.Data]:
     return system, ac.Data(ts, signals, interpolation={model.INPUT: "band-limited"})
 
 
+@pytest.mark.slow
 def test_a_few_samples_tell_the_initial_state(oscillator: tuple[ac.System, ac.Data]) -> None:
     system, record = oscillator
     found = judge.simulate(system, None, record, model.OUTPUT, known=50, solver=study.SOLVER)

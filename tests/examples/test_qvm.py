@@ -93,6 +93,7 @@ def test_wrong_parameters_and_their_modifiers_meet() -> None:
     assert all(wrong[n] == right[n] for n in ("suspension.c", "suspension.d"))
 
 
+@pytest.mark.slow
 def test_a_short_demo_writes_its_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     settings = {**experiments.DEMO.settings, "sequence_length": 0.25, "batch_size": 8}
     monkeypatch.setattr(demo, "DEMO", replace(experiments.DEMO, epochs=60, settings=settings))

@@ -37,6 +37,7 @@ def shipped(tmp_path_factory):
     return Vehicle(trained.system, trained.params, folder), missing
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("doing", TOOLS)
 def test_each_tool_agrees_with_acausal(shipped, doing, monkeypatch):
     monkeypatch.setattr(elsewhere, "ROUNDS", 1)

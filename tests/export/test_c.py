@@ -254,6 +254,7 @@ def test_single_precision(tmp_path: Path) -> None:
     np.testing.assert_allclose(model.derivatives(), exact, rtol=2e-4)
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("make", [Sagging, Sharing, Redundant])
 @pytest.mark.parametrize("factor", [1.0, 1.7])
 def test_start_values_follow_from_parameters(

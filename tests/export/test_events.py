@@ -100,6 +100,7 @@ CASES = {
 }
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("name", some_slow(CASES, ["ball, implicit", "slipping"]))
 def test_steps_in_c_are_those_of_simulate(name: str, tmp_path: Path) -> None:
     case = CASES[name]
@@ -157,6 +158,7 @@ def run_fmu(path: Path, case: Case, kind: str, **options: Any) -> Any:
     )
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 @pytest.mark.parametrize("name", ["ball", "thermostat", "sampled", "relay"])
 def test_fmus_run_in_fmpy(name: str, fmi: str, tmp_path: Path) -> None:
@@ -262,6 +264,7 @@ COARSE = {"Analog_SwitchWithArc", "Rotational_LossyGearDemo3"}
 """Examples that break down with these steps, in `acausal.simulate` as in C."""
 
 
+@pytest.mark.cases(slow=6)
 @pytest.mark.parametrize("name", some_slow(EXAMPLES, EXAMPLES, LONGER))
 def test_examples_in_c(name: str, tmp_path: Path) -> None:
     model = ac.load(FOLDER / f"{name}.json")
@@ -286,6 +289,7 @@ def test_examples_in_c(name: str, tmp_path: Path) -> None:
     assert np.sum(off.max(axis=1, initial=0) > 1e-9) <= 1
 
 
+@pytest.mark.cases(slow=2)
 @pytest.mark.filterwarnings(
     "ignore:export.fmu. steps of"
 )  # of a co-simulation that is not run here

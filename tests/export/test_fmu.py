@@ -115,11 +115,13 @@ def exported(
 Exported = tuple[Case, Unpacked]
 
 
+@pytest.mark.cases(fast=2)
 def test_fmpy_finds_no_problems(exported: Exported) -> None:
     _, fmu = exported
     assert fmu.fmpy.validation.validate_fmu(str(fmu.path)) == []
 
 
+@pytest.mark.cases(fast=3)
 def test_cosimulation_has_the_steps_of_simulate(exported: Exported) -> None:
     case, fmu = exported
     with fmu.instance("CoSimulation") as model:
@@ -132,6 +134,7 @@ def test_cosimulation_has_the_steps_of_simulate(exported: Exported) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
 
 
+@pytest.mark.cases(fast=3)
 def test_model_exchange_agrees_with_simulate(exported: Exported) -> None:
     case, fmu = exported
     states, _, order = _states_of(case.system, fmu)
@@ -149,6 +152,7 @@ def test_model_exchange_agrees_with_simulate(exported: Exported) -> None:
         )
 
 
+@pytest.mark.cases(fast=3)
 def test_directional_and_adjoint_derivatives_are_those_of_linearize(exported: Exported) -> None:
     case, fmu = exported
     system, names, n = case.system, case.outputs, len(case.system.states)
@@ -224,6 +228,7 @@ def vehicle() -> ac.System:
     return ac.compile(with_networks())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", VERSIONS)
 def test_parameters_that_are_set_first_move_the_starts(tmp_path: Path, fmi: str) -> None:
     fmpy = need_fmpy()
@@ -295,6 +300,7 @@ def test_weights_are_tunable_arrays(vehicle: ac.System, tmp_path: Path) -> None:
     assert described.variability == "tunable"
 
 
+@pytest.mark.slow
 def test_value_references_outlive_a_training(vehicle: ac.System, tmp_path: Path) -> None:
     for fmi in VERSIONS:
         both = [
@@ -535,6 +541,7 @@ def test_typical_magnitudes_are_known(tmp_path: Path, fmi: str) -> None:
 # -- many components -------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_ten_thousand_masses_are_a_few_arrays(tmp_path: Path) -> None:
     fmpy = need_fmpy()
     path = ac.export.fmu(ac.compile(Chain(10_000)), tmp_path / "chain.fmu")

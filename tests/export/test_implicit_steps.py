@@ -63,6 +63,7 @@ class PreLoad(ac.Component):
             self.connect(gap.flange_b, high)
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize(
     ("make", "end", "dt"), [(OvervoltageProtection, 0.02, 2e-4), (PreLoad, 0.2, 2e-4)]

@@ -145,6 +145,7 @@ def agree(rumoca, system, names, end, folder, params=None, driven=""):
         )
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("case", CASES)
 def test_rumoca_simulates_the_text_as_acausal_does(case, rumoca, tmp_path):
     make, names, end, driven = CASES[case]

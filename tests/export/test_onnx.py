@@ -74,6 +74,7 @@ def test_discrete_variables_are_an_input(run, tmp_path):
         same(dx, [(30 * on - 10) / 10])
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "law",
     [

@@ -97,6 +97,7 @@ def fmu(
     return Unpacked(path, request.param)
 
 
+@pytest.mark.slow
 def test_fmpy_finds_no_problems_with_the_flag(fmu: Unpacked) -> None:
     assert fmu.fmpy.validation.validate_fmu(str(fmu.path)) == []
     flag = {v.name: v for v in fmu.description.modelVariables}[FLAG]
@@ -147,6 +148,7 @@ class Bouncing(ac.Component):
         yield ac.When(self.h < 0, *bounces)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fmi", ["2.0", "3.0"])
 def test_the_flag_of_a_model_with_events(tmp_path: Path, fmi: str) -> None:
     """Steps that end because of the flag are no events of the model; the second argument changes at events."""

@@ -100,6 +100,7 @@ class Stepped(ac.Component):
         self.connect(self.step.y, self.lag.u)
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("events", [False, True])
 def test_a_time_that_is_known_ahead_has_a_gradient(events: bool) -> None:
     with warnings.catch_warnings():

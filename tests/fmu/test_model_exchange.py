@@ -132,6 +132,7 @@ def test_steps_are_those_of_the_model(exported: Exported, fmi: str) -> None:
     np.testing.assert_allclose(found["plant.s"], expected["s"], atol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "options",
     [{"dt": 5e-3}, pytest.param({"rtol": 1e-8}, marks=pytest.mark.slow)],
@@ -154,6 +155,7 @@ def test_gradients_are_those_of_the_model(exported: Exported, options: dict[str,
     assert abs(found["plant.s.start"]) > 1e-3
 
 
+@pytest.mark.slow
 def test_start_values_are_parameters(exported: Exported) -> None:
     system = ac.compile(ac.FMU(exported(Ball), {"h": 2.0}))
     for h in (2.0, 1.5):
@@ -169,6 +171,8 @@ def test_starts_of_states_are_guesses_that_x0_and_rest_replace(exported: Exporte
     np.testing.assert_allclose(at_rest, [(3.2 / 400) ** (1 / 3), 0.0], atol=1e-9)
 
 
+@pytest.mark.slow
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     ("model", "end", "name"), [(Ball, 1.4, "h"), (Thermostat, 12.0, "T"), (Sampled, 1.0, None)]
 )
@@ -197,6 +201,7 @@ def test_gradients_go_through_events(exported: Exported) -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_arrays_of_fmi_3_are_arrays(exported: Exported) -> None:
     start = [0.02, -0.01, 0.03, 0.01]
     arrays = ac.FMU(exported(Chain, "3.0", 4), {"mass.s": start, "leg.c": [90.0, 95, 100, 105]})
@@ -212,6 +217,7 @@ def test_arrays_of_fmi_3_are_arrays(exported: Exported) -> None:
         np.testing.assert_allclose(found[f"mass.s[{i}]"], expected[f"mass[{i}].s"], atol=1e-12)
 
 
+@pytest.mark.slow
 def test_equal_fmus_share_calls_and_a_pickled_system_loads_its_own(exported: Exported) -> None:
     system = ac.compile(Several(exported(Mass)))
     run = ac.simulate(system, 0.1, dt=1e-2)
@@ -223,6 +229,7 @@ def test_equal_fmus_share_calls_and_a_pickled_system_loads_its_own(exported: Exp
         np.testing.assert_array_equal(run[f"part[{i}].s"], again[f"part[{i}].s"])
 
 
+@pytest.mark.slow
 def test_lanes_have_instances_of_their_own(exported: Exported) -> None:
     system = ac.compile(ac.FMU(exported(Mass), {"f": 1.0}))
     last = lambda d: ac.simulate(system, 0.1, dt=1e-2, params={"d": d})["s"][-1]  # noqa: E731

@@ -154,6 +154,7 @@ def compiled() -> ac.System:
     return ac.compile(Model())
 
 
+@pytest.mark.cases(slow=60)
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.slow
 def test_a_random_model(seed: int) -> None:

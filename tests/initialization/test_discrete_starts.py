@@ -18,6 +18,7 @@ class Latch(ac.Component):
         yield ac.When(self.x > 1, ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("fixed", [True, False])
 def test_a_fixed_start_is_the_value_before_the_first_event(fixed):
     system = ac.compile(Latch(n=ac.Start(3, fixed=fixed), high=ac.Start(0, fixed=fixed)))

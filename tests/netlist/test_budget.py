@@ -78,6 +78,7 @@ def load(file: Path, document: dict[str, Any], **options: Any) -> Any:
     return ac.load(file, **options)
 
 
+@pytest.mark.cases(fast=4)
 @pytest.mark.parametrize("name", RUNAWAYS)
 def test_a_file_that_runs_away_is_refused_at_once(name: str, file: Path) -> None:
     document, sentence = RUNAWAYS[name]

@@ -68,6 +68,7 @@ def test_a_ball_of_a_file_bounces(write: Write) -> None:
     assert system.discrete.keys() == {"n"}
 
 
+@pytest.mark.slow
 def test_clocks_relays_and_chains_of_a_file(write: Write) -> None:
     system = ac.compile(ac.load(write(RELAYS)))
     run = ac.simulate(system, (0.0, 3.05), saveat=[0.5, 1.0, 1.6, 3.05], rtol=1e-9, atol=1e-11)

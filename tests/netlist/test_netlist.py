@@ -604,6 +604,7 @@ def test_a_loaded_model_runs(file: Path) -> None:
     np.testing.assert_allclose(found["mass.s"], exact, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_forward_references_need_no_recursion(file: Path) -> None:
     chain = {f"p{i}": f"p{i + 1} + 1" for i in range(3000)} | {"p3000": 1.0}
     model = read(file, {"parameters": chain})

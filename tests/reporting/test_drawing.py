@@ -33,6 +33,7 @@ def test_a_drawing_says_what_to_install(draw) -> None:
         draw()
 
 
+@pytest.mark.slow
 def test_the_kernel_works_without_what_is_optional() -> None:
     """A model is compiled, simulated and fitted where no extra is installed."""
     script = """

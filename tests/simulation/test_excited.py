@@ -15,6 +15,7 @@ def test_default_arguments_are_right(name):
     assert max(found) < 1e-4, int(np.argmax(found))
 
 
+@pytest.mark.cases(fast=1, slow=4)
 @pytest.mark.slow
 @pytest.mark.parametrize("solver", ["auto", "stiff"])
 @pytest.mark.parametrize("name", STRUCTURES)

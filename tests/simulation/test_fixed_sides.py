@@ -48,6 +48,7 @@ def test_full_order_at_edges_within_steps(lag):
     assert coarse / fine > 8
 
 
+@pytest.mark.slow
 def test_the_steps_that_an_edge_divides_are_saved_on_the_grid(lag):
     params = lag.parameters() | {"s.startTime": 0.537}
     sol = ac.simulate(lag, END, dt=0.1, params=params, solver="rk4")
@@ -61,6 +62,7 @@ def test_the_steps_that_an_edge_divides_are_saved_on_the_grid(lag):
     assert float(slope) == pytest.approx(difference, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_edges_within_steps_divide_them_when_jax_compiles_and_maps(lag):
     def last(start, period):
         params = lag.parameters() | {"s.startTime": start, "s.period": period}
@@ -78,6 +80,7 @@ def test_edges_within_steps_divide_them_when_jax_compiles_and_maps(lag):
         assert [by_start[k], by_period[k]] == pytest.approx(slopes, rel=1e-4)
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("wrap", [lambda f: f, jax.jit], ids=["known", "compiled"])
 def test_edges_at_ends_of_steps_have_a_gradient(lag, wrap):
     def last(start):
@@ -160,6 +163,7 @@ def test_a_held_input_that_jumps_within_steps_divides_them_when_jax_compiles(hel
     assert float(jax.jit(lambda k: last(0.0037, k, 0.02))(1.0)) == pytest.approx(fine, abs=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["previous", "linear"])
 def test_a_training_with_a_delayed_input_simulates_that_delay(held, kind):
     ts = np.arange(101) * 0.02

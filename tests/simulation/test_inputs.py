@@ -263,6 +263,7 @@ def test_numbers_have_no_rate():
     assert float(jnp.abs(found[["first.v", "first.a"]]).max()) == 0.0
 
 
+@pytest.mark.cases(fast=3)
 @pytest.mark.parametrize("dt", [0.1, None])
 @pytest.mark.parametrize("form", ["pair", "samples", "record", "signal"])
 def test_records_are_differentiated_as_they_are_interpolated(form, dt):
@@ -323,6 +324,7 @@ def test_a_missing_reference_is_asked_for_alone():
     )
 
 
+@pytest.mark.cases(fast=4)
 @pytest.mark.parametrize("parts", [1, 3])
 @pytest.mark.parametrize(
     ("interpolation", "times"),
@@ -358,6 +360,7 @@ def test_a_derivative_is_compiled_with_its_function():
     assert float(jax.jit(Derivative(position, 2))(2.0)) == pytest.approx(3.2)
 
 
+@pytest.mark.slow
 def test_fit_differentiates_the_record_and_says_so_once():
     true, _ = follow({REFERENCE: position})
     record = ac.Data(T, {REFERENCE: position(T), "second.s": true["second.s"]})

@@ -82,6 +82,7 @@ CASES = {
 }
 
 
+@pytest.mark.cases(fast=4)
 @pytest.mark.parametrize("solver", ["auto", "stiff"])
 @pytest.mark.parametrize("name", CASES)
 def test_known_edges(name, solver):
@@ -164,6 +165,7 @@ def lag():
     return ac.compile(made)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", ["auto", "stiff"])
 def test_the_gradient_by_the_time_of_an_edge(lag, solver):
     """Exact: each edge at t adds its height times 1 - exp(-(5 - t)/T) to the value at 5 s."""

@@ -74,6 +74,7 @@ def test_adaptive_solvers_agree(solver):
     assert float(sol["mass.s"][-1]) == pytest.approx(float(reference["mass.s"][-1]), rel=1e-7)
 
 
+@pytest.mark.slow
 def test_auto_takes_an_implicit_solver_for_a_stiff_model():
     params = plain().parameters() | {"spring.d": 1e6, "mass.m": 1.0}  # modes at -1e6 and -5e-5 1/s
     sol = ac.simulate(plain(), (0, 10), params=params, inputs=NO_FORCE, x0=AT_ONE, max_steps=1000)
@@ -115,6 +116,7 @@ def test_sampled_inputs_equal_functions():
     )
 
 
+@pytest.mark.slow
 def test_inputs_off_the_grid_are_read_at_stage_times():
     odd = (np.linspace(0, 3, 77), force(np.linspace(0, 3, 77)))
     fixed = ac.simulate(plain(), (0, 3), dt=1e-3, inputs={"push.f": odd})
@@ -272,6 +274,7 @@ def test_gradients_by_parameters_and_starts(how):
         assert float(gradient[i]) == pytest.approx(float(difference), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_adaptive_steps_have_derivatives_in_both_modes():
     """Without a choice of diffrax's adjoint, alone and within `jax.jit` and `jax.vmap`."""
 
@@ -541,6 +544,7 @@ def test_an_unstable_model_is_named_as_the_cause():
         ac.simulate(system, (0, 20), x0=at_one, max_steps=500)
 
 
+@pytest.mark.slow
 def test_a_model_without_a_real_solution_says_so_after_one_search(monkeypatch):
     """The adaptive solver gives up its steps, and no step is searched for long once a value is not finite."""
     evaluations, norm = itertools.count(), newton._norm

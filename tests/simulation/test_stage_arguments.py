@@ -77,6 +77,7 @@ def test_unknown_arguments_leave_the_unknown_itself(args: Any) -> None:
     np.testing.assert_array_equal(stage.per_unit, [1.0, 1.0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "how",
     [

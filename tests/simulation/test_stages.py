@@ -34,6 +34,7 @@ def solve(solver: Any, knee: Any, rtol: float, steps: int = 1500) -> Any:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["kvaerno3", "kvaerno5"])
 def test_tight_tolerances_cost_few_steps_where_modes_are_fast(name: str) -> None:
     found = solve(solvers.solver_named(name), 5.0, 1e-7)
@@ -44,6 +45,7 @@ def test_tight_tolerances_cost_few_steps_where_modes_are_fast(name: str) -> None
     assert not bool(theirs.result == dfx.RESULTS.successful)
 
 
+@pytest.mark.slow
 def test_gradients_go_through_implicit_steps() -> None:
     def end(knee: Any) -> Any:
         return solve(solvers.solver_named("kvaerno5"), knee, 1e-7).ys[-1, 0]
@@ -80,6 +82,7 @@ def test_fixed_implicit_steps_are_differentiated_in_both_modes() -> None:
     assert float(forward) == pytest.approx(float(jax.jit(jax.grad(lambda k: end(k, None)))(2.0)))
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize("name", ["implicit_euler", "kvaerno3"])
 def test_where_a_stage_has_no_solution_the_step_and_its_derivatives_are_not_numbers(name: str):
     """A training rejects such a trial; it must not end the program."""

@@ -100,6 +100,7 @@ MODELS: dict[str, tuple[Any, tuple[str, ...]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.cases(fast=3)
 @pytest.mark.parametrize("name", MODELS)
 def test_what_only_the_sum_of_equations_says_is_found(name: str) -> None:
     make, states = MODELS[name]

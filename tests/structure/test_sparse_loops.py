@@ -96,11 +96,13 @@ def field(system):
     return lambda x, u, packed: system.vector_field(0.3, x, u, packed)
 
 
+@pytest.mark.cases(fast=1)
 def test_the_right_side_is_that_of_the_dense_loop(both):
     found, expected = (jax.jit(field(s))(*arguments(s)) for s in both)
     np.testing.assert_allclose(found, expected, rtol=1e-10)
 
 
+@pytest.mark.cases(fast=1)
 def test_gradients_by_states_inputs_and_parameters(both):
     def gradient(system):
         loss = lambda *args: jnp.sum(field(system)(*args) ** 2)  # noqa: E731
@@ -111,6 +113,7 @@ def test_gradients_by_states_inputs_and_parameters(both):
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-10)
 
 
+@pytest.mark.cases(fast=1)
 def test_batches(both):
     scale = jnp.asarray([[0.5], [1.0], [1.5]])
 
@@ -122,6 +125,7 @@ def test_batches(both):
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
+@pytest.mark.cases(fast=1)
 def test_every_variable_can_be_observed(both):
     mesh, _ = both
     names = [n for n in mesh.variables if n.endswith((".v", ".i", ".a", ".tau"))]
@@ -129,6 +133,7 @@ def test_every_variable_can_be_observed(both):
     np.testing.assert_allclose(*read, rtol=1e-8, atol=1e-9)
 
 
+@pytest.mark.cases(fast=1)
 def test_second_derivatives(both):
     def curvature(system):
         x, u, packed = arguments(system)
@@ -149,6 +154,7 @@ def test_a_mesh_that_floats_is_refused():
         ac.compile(Net(9, lambda k: el.Conductor(G=1.0), grounded=False))
 
 
+@pytest.mark.slow
 def test_meshes_that_nothing_joins_are_solved_together():
     class Two(ac.Component):
         def __init__(self):
@@ -187,6 +193,7 @@ def mesh_from_ten(monkeypatch):
     monkeypatch.setattr(steps, "WRITTEN", 10)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("mesh_from_ten")
 def test_a_root_that_newtons_method_alone_does_not_find():
     system = ac.compile(ring(lambda y: y**3 - 2 * y + 2))
@@ -194,6 +201,7 @@ def test_a_root_that_newtons_method_alone_does_not_find():
     assert system.vector_field(0.0, [0.0], None, None)[0] == pytest.approx(-1.7692923542)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("mesh_from_ten")
 def test_the_place_of_a_breakdown():
     no_root = ac.compile(ring(lambda y: y**2 + 1))

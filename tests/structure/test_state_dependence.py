@@ -42,6 +42,7 @@ def check(model, most):
     return system
 
 
+@pytest.mark.cases(fast=3)
 @pytest.mark.parametrize("name", MODELS)
 def test_all_derivatives_are_in_the_pattern(name):
     check(*MODELS[name])

@@ -82,6 +82,7 @@ def test_a_guess_that_follows_from_others_is_dropped():
     assert len(tear(incidence, anything, 5).tears) == 2
 
 
+@pytest.mark.slow
 def test_a_large_block_is_torn_with_bounded_work():
     n = 2000
     rng = np.random.default_rng(0)
@@ -207,7 +208,7 @@ def test_a_torn_arm_moves_as_a_sparse_one(monkeypatch):
         np.testing.assert_allclose(ours, theirs, rtol=1e-8, atol=1e-10)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_linkage_closes_and_keeps_its_energy():
     linkage = Linkage([0.3, 1.0, 0.7], [1.0, 0.5, -1.0])
     for joint in linkage.joint:

@@ -62,6 +62,7 @@ def records() -> dict[str, ac.Data]:
     return {"long": record(1, 41), "short": record(2, 25)}
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.slow
 @pytest.mark.parametrize("solver", ["bdf", "auto"])
 def test_a_stiff_model_is_identified_from_several_records(records: dict[str, ac.Data], solver: str):
@@ -140,6 +141,7 @@ def test_runs_of_one_loop_are_those_made_singly():
     assert np.abs(by_both[1][1]).max() > 0.01
 
 
+@pytest.mark.slow
 def test_steps_that_are_both_fixed_and_adaptive_are_refused(records: dict[str, ac.Data]):
     for options in ({"solver": "bdf"}, {"rtol": 1e-5}):
         with pytest.raises(ac.TrainingError, match="is for fixed steps, but solver="):

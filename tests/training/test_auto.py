@@ -105,6 +105,7 @@ def test_scales_go_along_in_files(tmp_path: Path) -> None:
     assert far[2] - far[1] == pytest.approx(far[1] - far[0], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_trained_law_is_where_the_next_training_begins() -> None:
     fit = train(x0="data")
     again = ac.fit(
@@ -114,6 +115,7 @@ def test_a_trained_law_is_where_the_next_training_begins() -> None:
     assert "linear law" not in [stage.title for stage in again.stages]
 
 
+@pytest.mark.slow
 def test_a_fit_that_is_not_good_says_so() -> None:
     """Nothing moves as the force that is said to push it."""
     t = np.linspace(0.0, 5.0, 251)
@@ -171,6 +173,7 @@ SHORT = ["friction, acceleration", "circuit in microseconds", "motor's load"]
 LONG = ["house, a month", "tanks", "limit cycle"]
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.parametrize("name", some_slow([*SHORT, *LONG], SHORT, LONG))
 def test_problems_without_options(name: str) -> None:
     problem = PROBLEMS[name]

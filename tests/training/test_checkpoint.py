@@ -100,6 +100,7 @@ def test_a_training_goes_on_after_every_kind_of_break(tmp_path: Path):
     assert not last.interrupted
 
 
+@pytest.mark.slow
 def test_a_training_that_has_ended_goes_on_to_where_it_is(tmp_path: Path):
     fit = train(checkpoint=tmp_path / "run.safetensors", checkpoint_every=1e9)
     same(fit, uninterrupted())
@@ -183,6 +184,7 @@ def test_a_checkpoint_of_another_training_is_refused(
     )
 
 
+@pytest.mark.slow
 def test_states_that_are_no_targets_are_part_of_the_data(tmp_path: Path):
     """Trained states begin where measured ones were, and move relative to that."""
     data = record(end=2.0).select(["mass.a", "mass.s", "push.f"])
@@ -358,6 +360,7 @@ def test_checkpoints_are_written_at_intervals(monkeypatch: pytest.MonkeyPatch, t
     assert written == [0.0, 75.0, 150.0, 175.0]
 
 
+@pytest.mark.slow
 def test_a_loss_whose_helper_has_changed_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):

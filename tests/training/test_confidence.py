@@ -50,7 +50,7 @@ def test_the_band_of_a_law_holds_the_truth():
     assert edge > 3 * middle  # nothing was seen there
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_bands_hold_the_truth_as_often_as_they_say():
     """Over noises: two standard deviations are 95 % of a Gaussian; a band that is too wide would tell nothing."""
     shares: list[float] = []
@@ -89,6 +89,7 @@ def coloured(seed: int, keep: float = 0.9) -> ac.Data:
     return ac.Data(data.time, {"mass.a": a, "push.f": data["push.f"]})
 
 
+@pytest.mark.slow
 def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure():
     """Standard deviations of white noise and a known start are an eighth of these."""
     fits = [
@@ -197,6 +198,7 @@ class Beside(ac.Component):
         self.one, self.other = Oscillator(), Oscillator(learned=True)
 
 
+@pytest.mark.slow
 def test_what_no_target_depends_on_is_told_of():
     data = noisy(0, 0.0)
     twice = ac.Data(
@@ -271,6 +273,7 @@ def test_what_is_followed_exactly_leaves_nothing_to_learn():
     )
 
 
+@pytest.mark.slow
 def test_residuals_of_a_fit():
     (found,) = trained().residuals()
     assert found.target == "mass.a"

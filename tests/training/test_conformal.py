@@ -48,6 +48,7 @@ def test_a_band_holds_its_share_of_a_third_record():
     assert "hold 90 % of" in repr(band)
 
 
+@pytest.mark.slow
 def test_a_band_is_the_quantile_of_independent_errors():
     """A perfect model and white noise: the Gaussian's own quantile."""
     data, rng = record(cubic=0.0), np.random.default_rng(0)

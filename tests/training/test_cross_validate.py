@@ -113,6 +113,7 @@ def test_blocks_of_time_are_left_out_of_every_record():
         np.testing.assert_array_equal(record.time, records()[name].time)
 
 
+@pytest.mark.slow
 def test_a_single_record_has_blocks_only():
     with pytest.raises(ac.DataError, match="there is only one: take folds=5"):
         validate(data=records()["a"])
@@ -171,6 +172,7 @@ def test_a_record_that_is_left_out_is_predicted_with_what_is_expected_of_it():
     )
 
 
+@pytest.mark.slow
 def test_a_parameter_of_each_record_leaves_the_others_better(tmp_path: Path):
     common, own = by_record(), validate(per_record={"spring.c": 5.0})
     assert own.training_loss.mean < 0.5 * common.training_loss.mean
@@ -187,6 +189,7 @@ def test_a_fold_says_how_it_was_trained():
         assert fit.settings == alone.settings
 
 
+@pytest.mark.slow
 def test_folds_begin_where_an_earlier_training_ended():
     earlier = by_record().fits[0]
     found = validate(prior=earlier, epochs=1)
@@ -207,6 +210,7 @@ class Stepped(ac.Component):
         self.connect(self.step.y, self.lag.u)
 
 
+@pytest.mark.slow
 def test_conditions_that_a_trained_parameter_moves_are_watched():
     """Without events the time of a step has no gradient, and stays where it is."""
     t = np.linspace(0.0, 2.0, 21)
@@ -236,6 +240,7 @@ def test_all_trainings_refuse_alike(wrong: dict[str, Any]):
     assert said[0] == said[1]
 
 
+@pytest.mark.slow
 def test_several_starts_go_into_every_fold():
     found = validate(starts=4, epochs=6)
     assert all(fit.starts is not None and len(fit.starts) == 4 for fit in found.fits)

@@ -44,6 +44,7 @@ def problem(data: dict[str, ac.Data], **options: Any) -> Problem:
     return build_problem(plain(), data, TARGETS, dict(start), FitOptions(**options))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", all_slow_but("linear", ["linear", "cubic", "band-limited"]))
 def test_a_delayed_input_is_the_record_s_interpolation(kind: Any) -> None:
     data = {"a": late(60, kind=kind), "b": late(40, start=3.0, kind=kind)}
@@ -64,6 +65,7 @@ def test_a_delayed_input_is_the_record_s_interpolation(kind: Any) -> None:
         np.testing.assert_allclose(middle, signal(t + DT / 2), atol=1e-11)
 
 
+@pytest.mark.slow
 def test_a_step_of_held_inputs_ends_before_the_next_sample() -> None:
     p = problem({"a": late(60, kind="previous")}, delays={"push.f": 2 * DT})
     inputs = p.steps(p.pack(p.assemble(p.start()), p.start())).inputs
@@ -100,7 +102,7 @@ def test_gradients_are_those_of_central_differences(kind: Any, options: dict[str
         assert g != 0
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_late_input_is_found_beside_parameters() -> None:
     fit = ac.fit(
         plain(),
@@ -133,6 +135,7 @@ def test_a_late_input_is_found_beside_parameters() -> None:
     np.testing.assert_allclose(again["mass.s"], fit.records["long"].predicted[:, 1], atol=5e-6)
 
 
+@pytest.mark.slow
 def test_a_late_sensor_is_found_in_sequences_and_held_out_data() -> None:
     data = late(tau=0.0)
     shown = jax.vmap(ac.Signal(data.time, data.signals["mass.a"], "cubic").delayed(0.05))

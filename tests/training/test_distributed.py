@@ -20,6 +20,7 @@ def alone():
     return weights(trained(None))
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("processes", "devices"),

@@ -92,6 +92,7 @@ def test_members_side_by_side_find_the_same():
     assert both.loss[0, 0] != both.loss[0, 1]
 
 
+@pytest.mark.slow
 def test_the_spread_is_that_of_the_members():
     found, at = trained(), 100
     band = found.laws["extra.net"]
@@ -117,6 +118,7 @@ def test_the_spread_is_that_of_the_members():
     assert "Ensemble of 3 for extra.net, mass.m" in repr(found)
 
 
+@pytest.mark.slow
 def test_an_ensemble_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     slow_down(monkeypatch)
     for epoch in (8, 25):

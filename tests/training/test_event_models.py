@@ -65,6 +65,7 @@ def test_a_thermostats_zone_learns_its_losses() -> None:
     assert error(fit.params["losses.net"], lambda x: 0.5 * x**1.25, 4.0, 11.0) < 0.03
 
 
+@pytest.mark.slow
 def test_a_ball_learns_its_restitution_from_noisy_heights() -> None:
     ball, times = ac.compile(Ball()), np.linspace(0.0, 3.0, 151)
     true = ac.simulate(ball, (0.0, 3.0), saveat=times, rtol=1e-10, atol=1e-10)
@@ -84,7 +85,7 @@ def test_a_ball_learns_its_restitution_from_noisy_heights() -> None:
     assert fit.params["e"] == pytest.approx(0.8, abs=5e-4)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_motor_learns_its_stribeck_curve() -> None:
     fit, true = trained(Motor(learned_friction()), Motor(Stribeck()), "rotor.w", 4.0, 200, 20)
     assert {-1, 0, 1} <= set(np.asarray(true["friction.mode"]).astype(int).tolist())
@@ -96,7 +97,7 @@ def test_a_motor_learns_its_stribeck_curve() -> None:
     assert error(fit.params["friction.net"], stribeck, 0.0, 2.8) < 1e-3
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_converter_learns_how_its_inductor_saturates() -> None:
     values: dict[str, Any] = {"Inom": 5.0, "Lnom": 0.8e-3, "Lzer": 1.5e-3, "Linf": 0.3e-3}
     inductor = el.SaturatingInductor(**values, i=ac.Start(0.0, fixed=True))

@@ -30,6 +30,7 @@ def train(**options):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_sequences_whose_gradients_explode_are_left_out():
     with pytest.warns(UserWarning, match=r"in its gradient alone\); left out\. " + MEND):
         fit = train(epochs=10, sequence_length=0.4, batch_size=16)
@@ -40,6 +41,7 @@ def test_sequences_whose_gradients_explode_are_left_out():
     assert -0.05 < fit.modifiers["limit"] < 0  # those that slip move it towards the truth, 50
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("strategy", ["whole_record", "gauss_newton"])
 def test_a_training_whose_gradient_explodes_ends_with_a_mend(strategy):
     with pytest.raises(

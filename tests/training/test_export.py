@@ -25,6 +25,7 @@ def read(path: Path) -> dict:
     return json.loads(path.with_name(path.name + ".json").read_text())
 
 
+@pytest.mark.slow
 def test_ranges_are_those_of_the_trained_record(fit):
     ((low, high),) = fit.ranges["extra.net"]
     seen = fit.arguments["extra.net"][:, 0]
@@ -93,6 +94,7 @@ def test_the_card_tells_how_sure_it_is(fit, tmp_path):
     assert f"- {sure.summary()[0]}" in path.with_name("a.mlir.md").read_text()
 
 
+@pytest.mark.slow
 def test_what_lies_beside_the_model_is_told(tmp_path):
     found = ac.fit(
         learned(), {"a": record(), "b": record()}, "mass.a", sequence_length=0.5, batch_size=2, epochs=2,

@@ -45,6 +45,8 @@ def test_nrmse_of_a_perfect_prediction_has_a_gradient():
     assert float(jax.grad(lambda p: losses.nrmse(p * q, q, jnp.ones(1)))(1.0)) == 0
 
 
+@pytest.mark.slow
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "chosen",
     [
@@ -77,6 +79,7 @@ def test_the_gradient_of_the_loss_is_that_of_differences(chosen):
         assert float(along) == pytest.approx(float(ends[0] - ends[1]) / 2e-6, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_loss_of_sequences_is_that_of_simulations():
     posed = problem(sequence_length=1.0, batch_size=2)
     batch = posed.draw(jax.random.key(1))
@@ -185,6 +188,7 @@ def test_the_same_seed_gives_the_same_weights():
     assert not np.array_equal(a[0], c[0])
 
 
+@pytest.mark.slow
 def test_users_losses_regularizers_and_optimizers():
     def absolute(predicted, measured, sigma):
         assert predicted.shape == measured.shape in ((20, 1), (1001, 1))
@@ -327,6 +331,7 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
     )
 
 
+@pytest.mark.slow
 def test_too_many_rejections_end_the_training():
     data = broken(slice(0, 1001))
     with pytest.raises(ac.TrainingError) as error:
@@ -430,6 +435,7 @@ def test_chunks_do_not_change_the_result(monkeypatch):
 # -- starts ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_outputs_alone_suffice_for_the_whole_record():
     data = record(end=10.0).select(["mass.a", "push.f"])
     for x0 in ("model", {"mass.s": 0.0, "mass.v": 0.0}):

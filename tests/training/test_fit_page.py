@@ -15,7 +15,7 @@ from acausal.training.record_fit import RecordFit, out_of_range
 from tests.support.hybrid_training import Convection, Zone, learned_losses
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_trajectories_of_a_model_with_events_are_those_of_the_training():
     times = np.linspace(0, 60, 301)
     truth = ac.simulate(ac.compile(Zone(Convection())), (0, 60), saveat=times)

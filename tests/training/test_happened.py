@@ -41,6 +41,7 @@ def events(end: float, c: float) -> int:
     return len(ac.simulate(system, (0.0, end), params=params, dt=0.1, solver="rk4").events)
 
 
+@pytest.mark.slow
 def test_events_are_counted_in_every_record(fit: ac.Fit) -> None:
     assert fit.params["C"] == pytest.approx(C, rel=1e-4)
     assert list(fit.history.events) == list(ENDS)

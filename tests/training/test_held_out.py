@@ -43,6 +43,7 @@ def trained() -> ac.Fit:
     return train()
 
 
+@pytest.mark.slow
 def test_the_best_is_the_one_that_predicts_what_was_held_out():
     fit, data = trained(), noisy()
     assert fit.samples_trained == 301
@@ -81,6 +82,7 @@ def test_what_is_held_out_never_moves_the_training():
     assert runs[0].validation_loss != runs[1].validation_loss
 
 
+@pytest.mark.slow
 def test_another_record_is_held_out():
     """Its start is its own, its errors count as those of the training's record."""
     data = noisy()
@@ -97,6 +99,7 @@ def test_another_record_is_held_out():
     assert fit.validation_loss == pytest.approx(np.sqrt(np.mean(miss**2)), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_coarser_records_are_integrated_as_finely():
     data = record(cubic=5.0, end=5.0)
     coarse = {"time": data.time[::4], **{n: v[::4] for n, v in data.signals.items()}}

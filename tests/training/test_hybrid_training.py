@@ -18,6 +18,7 @@ def zone() -> tuple[ac.System, ac.Data]:
     return system, ac.Data(ts, {"T": np.asarray(sol["T"])})
 
 
+@pytest.mark.machines
 @pytest.mark.parametrize("solver", ["rk4", pytest.param("tsit5", marks=pytest.mark.slow)])
 def test_a_zone_under_a_thermostat_finds_its_parameters(
     zone: tuple[ac.System, ac.Data], solver: str
@@ -39,6 +40,7 @@ def test_a_zone_under_a_thermostat_finds_its_parameters(
     assert fit.params["G"] == pytest.approx(1.0, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_balls_restitution_from_two_records() -> None:
     system = ac.compile(Ball())
     ts = np.linspace(0.0, 1.2, 61)

@@ -20,6 +20,7 @@ def fitted(cubic: float, solver: str) -> ac.Fit:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_error_of_steps_is_told_where_it_moves_parameters_by_deviations():
     """Heun's steps err here as much as the noise lets one see; those of rk4 do not."""
     coarse, fine = (fitted(0.0, solver) for solver in ("heun", "rk4"))

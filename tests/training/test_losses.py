@@ -104,6 +104,7 @@ def test_laws_without_outliers_are_normal(law: ErrorLaw):
     )
 
 
+@pytest.mark.slow
 def test_the_curvature_is_the_second_derivative_of_normal_errors_and_above_that_of_others():
     y = jnp.asarray(samples(0.2, 30))
     arguments = y, jnp.asarray([0.3, 5.0]), jnp.ones_like(y)
@@ -142,6 +143,7 @@ def posed(loss: Any, **chosen: Any) -> Problem:
     return over_whole_record(build_problem(plain(), {"one": given}, TARGETS, params, options))
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "chosen",
     [
@@ -248,6 +250,7 @@ def test_robust_losses_bear_outliers(ml: ac.Fit):
             assert plainly.noise[name] > 3 * level
 
 
+@pytest.mark.slow
 def test_sequences_learn_with_a_likelihood():
     fit = trained(
         record(cubic=0.0, end=4.0), "student", strategy="sequences", sequence_length=0.5,

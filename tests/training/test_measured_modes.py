@@ -30,6 +30,7 @@ def driven() -> ac.System:
     return ac.compile(Thermostat(), inputs=["on"])
 
 
+@pytest.mark.slow
 def test_a_given_mode_is_an_input_and_needs_no_events(
     driven: ac.System, run: tuple[ac.Solution, tuple[np.ndarray, np.ndarray]]
 ) -> None:
@@ -98,6 +99,7 @@ def test_a_mode_alone_is_no_target() -> None:
         ac.fit(ac.compile(Ball()), data, targets=["n"], modifiers=["e"])
 
 
+@pytest.mark.slow
 def test_sequences_that_do_not_know_the_mode_are_warned_of(
     run: tuple[ac.Solution, tuple[np.ndarray, np.ndarray]],
 ) -> None:

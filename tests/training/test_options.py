@@ -38,6 +38,7 @@ def test_options_cannot_change() -> None:
         FitOptions().gamma = 0.3  # pyright: ignore[reportAttributeAccessIssue]
 
 
+@pytest.mark.slow
 def test_iterables_may_be_used_up_by_reading_them_once() -> None:
     seen: list[Any] = []
     given: dict[str, Any] = {

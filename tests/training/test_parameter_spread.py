@@ -60,6 +60,7 @@ def test_what_is_no_spread_is_refused(pushed, given, message: str) -> None:
         ac.fit(system, record, ["mass.s"], parameter_spread=given, epochs=1, progress=False)
 
 
+@pytest.mark.slow
 def test_a_model_with_a_spread_bears_another_offset(pushed) -> None:
     system, record = pushed
     loss = {}

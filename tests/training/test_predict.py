@@ -33,6 +33,7 @@ def trained() -> ac.Fit:
     return ac.fit(plain(), data, "mass.s", modifiers=["mass.m"], **QUIET)
 
 
+@pytest.mark.slow
 def test_a_start_that_is_not_measured_is_found_and_the_band_holds():
     part = clean().between(10, 18)
     found = trained().predict({"a": noisy(part, 1, "mass.s")})["a"]

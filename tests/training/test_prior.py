@@ -69,6 +69,7 @@ def joint(records: dict[str, ac.Data]) -> ac.Fit:
     return trained(records)
 
 
+@pytest.mark.slow
 def test_one_record_after_the_other_is_worth_both_together(
     first: ac.Fit, second: ac.Fit, joint: ac.Fit
 ):

@@ -40,6 +40,7 @@ def mass(fit: ac.Fit) -> ac.Profile:
     return fit.profile("mass.m", points=11)
 
 
+@pytest.mark.slow
 def test_the_profile_of_a_linear_case_is_that_of_the_confidence(fit: ac.Fit, mass: ac.Profile):
     value = float(fit.params["mass.m"])
     sigma = fit.confidence().parameters["mass.m"] * value
@@ -79,6 +80,7 @@ class Two(ac.Component):
         self.connect(self.push.flange, self.mass.flange_b)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("loss", [pytest.param("nrmse", marks=pytest.mark.slow), "likelihood"])
 def test_a_flat_profile_is_not_identifiable(loss: str, tmp_path: Path):
     system = ac.compile(Two())

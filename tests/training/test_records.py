@@ -86,6 +86,7 @@ def test_the_loss_is_that_of_all_samples():
     assert float(simulated.loss) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_programs_do_not_grow_with_the_number_of_records():
     def size(count: int) -> int:
         ends = np.linspace(1.0, 3.0, count)
@@ -101,6 +102,7 @@ def test_programs_do_not_grow_with_the_number_of_records():
     assert size(6) == size(2)
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "chosen",
     [
@@ -238,6 +240,7 @@ def test_signals_with_times_of_their_own_are_compared_at_their_own_samples():
     np.testing.assert_array_equal(np.flatnonzero(~np.isnan(errors)), slow)
 
 
+@pytest.mark.slow
 def test_uneven_samples_are_integrated_in_steps_that_are_short_enough():
     """Rows every 0.01 to 0.2 s; one record's clock is faster than the other's."""
     fine = run(6.0, 2, dt=0.002)
@@ -265,6 +268,7 @@ def test_uneven_samples_are_integrated_in_steps_that_are_short_enough():
     assert fit.params["mass.m"] == pytest.approx(TRUE["mass.m"], rel=2e-3)
 
 
+@pytest.mark.slow
 def test_records_of_other_inputs_and_starts_may_be_mixed():
     """At rest with the first input, from given values, and as measured."""
     data = {n: runs()[n] for n in ("short", "long", "medium")}
@@ -298,6 +302,7 @@ def with_offsets() -> tuple[dict[str, ac.Data], ac.Fit]:
     return data, train(data, per_record={"spring.c": 5.0}, x0="fit")
 
 
+@pytest.mark.slow
 def test_parameters_of_records_are_found():
     _, fit = with_offsets()
     found = [r.parameters["spring.c"] for r in fit.records.values()]
@@ -333,6 +338,7 @@ def test_a_new_record_gets_its_own_value_with_the_rest_frozen():
 # -- what is held out, and answers by record ---------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_records_are_held_out_by_name_or_in_part():
     fit = train(validation="medium", epochs=3)
     assert tuple(fit.records) == ("short", "long")
@@ -347,6 +353,7 @@ def test_records_are_held_out_by_name_or_in_part():
     np.testing.assert_array_equal(np.flatnonzero(counted), np.arange(451, 601))
 
 
+@pytest.mark.slow
 def test_questions_are_answered_by_record_and_together():
     fit = train(learned_data(), learned(), modifiers=["mass.m"], strategy="whole_record", epochs=5)
     together, one = fit.residuals(), fit.residuals("short")
@@ -367,6 +374,7 @@ def learned_data() -> dict[str, ac.Data]:
     return runs()
 
 
+@pytest.mark.slow
 def test_the_report_shows_every_record(tmp_path: Any):
     chosen = {"validation": "medium", "epochs": 3, "per_record": {"spring.c": 5.0}}
     page = train(**chosen).report(tmp_path).read_text()

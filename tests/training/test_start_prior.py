@@ -37,6 +37,7 @@ def test_the_noise_of_a_signal_is_told_from_the_signal(count: int):
     assert noise_level([with_gap]) == pytest.approx(0.03, rel=0.4)
 
 
+@pytest.mark.slow
 def test_measured_starts_are_found_within_their_noise():
     """Taken as true, the first noisy samples make the mass pay for them."""
     clean = record(cubic=0.0).between(4.0, 10.0)
@@ -53,6 +54,7 @@ def test_measured_starts_are_found_within_their_noise():
     assert given.loss > 1.05 * fit.loss
 
 
+@pytest.mark.slow
 def test_a_start_that_is_not_measured_is_found_near_that_of_the_model():
     clean = record(cubic=0.0).between(4.0, 10.0)
     data = noisy(clean, 0.01, ("mass.v",))

@@ -81,6 +81,7 @@ def test_several_starts_find_what_a_single_one_misses():
     assert fit.loss == starts().loss.min() == starts().loss[starts().best]
 
 
+@pytest.mark.slow
 def test_the_given_start_is_the_first_and_trains_as_it_does_alone():
     table = starts()
     np.testing.assert_allclose(table.values[0], (12.5, 0.2))
@@ -191,6 +192,7 @@ def test_a_positive_parameter_is_spread_by_factors():
     assert values == pytest.approx((3 / math.e, 3.0, 3 * math.e), rel=0.02)
 
 
+@pytest.mark.slow
 def test_starts_are_trained_on_side_by_side_as_one_after_the_other():
     """As on an accelerator; those that have ended stay as they are."""
     options = FitOptions(x0="model", modifiers=BOUNDS)
@@ -214,6 +216,7 @@ def test_starts_are_trained_on_side_by_side_as_one_after_the_other():
         assert one[0] != before[0]
 
 
+@pytest.mark.slow
 def test_starts_that_diverge_end_no_others(recwarn: pytest.WarningsRecorder):
     """A mass of a gram on this spring diverges in steps of 20 ms."""
     wide = {"mass.m": ac.Bounded(1e-4, 1e3), "spring.d": ac.Bounded(0.02, 2.0)}
@@ -237,6 +240,7 @@ def test_an_interrupted_training_of_several_starts_goes_on(tmp_path: Path):
     np.testing.assert_array_equal(again.starts.finished, starts().finished)
 
 
+@pytest.mark.slow
 def test_parts_of_a_strategy_follow_each_other():
     fit = train(strategy=("whole_record", "gauss_newton"), epochs=(12, 20), starts=5)
     assert fit.starts is not None

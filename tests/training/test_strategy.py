@@ -73,6 +73,7 @@ def test_lbfgs_says_when_it_finds_nothing_better():
 SCALES = np.logspace(0, 2, 10)
 
 
+@pytest.mark.cases(fast=5)
 @pytest.mark.parametrize("times", [1.01, 1.1, 2.0, 10.0, 100.0])
 @pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
 def test_lbfgs_does_not_ruin_a_good_start(times: float, unit: float):
@@ -167,6 +168,7 @@ class Explosive(eqx.Module):
         return 1e6 * self.weight * x**3
 
 
+@pytest.mark.slow
 def test_a_leg_over_the_whole_record_survives_a_trial_that_diverges():
     params = learned().parameters() | {"extra.net": Explosive(jnp.asarray(0.0))}
     fit = ac.fit(
@@ -237,6 +239,7 @@ def without_states(end: float | None = None) -> ac.Data:
     return data.select(["mass.a", "push.f"])
 
 
+@pytest.mark.slow
 def test_the_state_at_the_start_is_found():
     data = record()
     later = data.between(data.time[300], data.time[900])
@@ -250,6 +253,7 @@ def test_the_state_at_the_start_is_found():
         assert fit.x0[name] == pytest.approx(later[name][0], abs=0.05 * later[name].std())
 
 
+@pytest.mark.slow
 def test_batches_of_sequences_need_no_measured_states():
     fit = ac.fit(
         learned(), without_states(10.0), "mass.a", x0="fit", sequence_length=0.5, batch_size=5,
@@ -276,6 +280,7 @@ def test_sequences_lie_side_by_side():
     assert over_whole_record(shooting()).sequences.always_alike
 
 
+@pytest.mark.slow
 def test_parts_of_one_trajectory_have_no_gaps():
     """Shooting states start on the model's own trajectory: sequences and the whole record agree."""
     problem = shooting()
@@ -291,6 +296,7 @@ def test_parts_of_one_trajectory_have_no_gaps():
     assert float(gap[0]) == 0.0
 
 
+@pytest.mark.slow
 def test_the_gradient_with_initial_states_is_that_of_differences():
     problem = shooting()
     start, batch = problem.start(), problem.draw(jax.random.key(1))

@@ -6,11 +6,10 @@ from typing import Any
 
 import diffrax as dfx
 import equinox as eqx
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import cast, known, traced
+from acausal._jax import array, cast, known, traced
 from acausal.codegen import Ahead, Field, Packed
 from acausal.errors import SimulationError, StepLimitError, listing
 from acausal.initialization import restless
@@ -113,16 +112,16 @@ def simulate_in_steps(
     problem = Problem(
         ModelField(run.start.packed, run.inputs, run.system, run.start.d),
         run.start.x,
-        jnp.asarray(run.begin),
-        jnp.asarray(run.end),
-        jnp.asarray(saved),
-        jnp.asarray(ts),
-        jnp.asarray(jumps),
-        jnp.asarray(rtol, float),
-        jnp.asarray(atol, float),
+        array(run.begin),
+        array(run.end),
+        array(saved),
+        array(ts),
+        array(jumps, bool),
+        array(rtol),
+        array(atol),
         max_steps,
         events=run.system.events,
-        max_step=None if max_step is None or ends is not None else jnp.asarray(max_step, float),
+        max_step=None if max_step is None or ends is not None else array(max_step),
     )
     problem, d = cast((problem, run.start.d), dtype)
     log = None

@@ -7,9 +7,10 @@ from typing import NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float, PyTree
 
-from acausal._jax import known, two_modes
+from acausal._jax import array, known, two_modes
 from acausal.codegen import StateJacobian
 from acausal.errors import SimulationError
 from acausal.simulation.log import Log
@@ -52,7 +53,7 @@ def solve(
     Raises:
         SimulationError: for a solver that knows more than the state at a step's start, if there are events.
     """
-    start = Start(problem.begin, problem.x, jnp.asarray(0), d, log)
+    start = Start(problem.begin, problem.x, array(0, int), d, log)
     if solver is None:
         return _automatic(problem, start, jacobian, forward)
     method = solver if isinstance(solver, Paced) else method_of(solver, problem, jacobian)
@@ -62,7 +63,7 @@ def solve(
             "'kvaerno5' for stiff models with events"
         )
     found = _run(method, problem, start, False, forward)
-    return Solved(found, method.name, jnp.asarray(jnp.nan))
+    return Solved(found, method.name, array(np.nan))
 
 
 def _automatic(problem: Problem, start: Start, jacobian: StateJacobian, forward: bool) -> Solved:
@@ -71,7 +72,7 @@ def _automatic(problem: Problem, start: Start, jacobian: StateJacobian, forward:
     first = _run(method, problem, start, True, forward)
     why = known(first.why)
     if why is not None and int(why) not in (STIFF, EXHAUSTED):
-        return Solved(first, method.name, jnp.full_like(first.t, jnp.inf))
+        return Solved(first, method.name, array(np.inf, first.t.dtype))
     goes_on = (first.why == STIFF) | (first.why == EXHAUSTED)
     begin = jnp.where(goes_on, first.t, problem.end)  # nothing is left to do where it is not stiff
     again = Start(begin, first.x, first.next, first.d, first.log)

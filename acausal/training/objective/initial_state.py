@@ -11,7 +11,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from acausal._jax import is_number, traced
+from acausal._jax import array, is_number, traced
 from acausal.codegen import Packed
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, shown
@@ -114,9 +114,8 @@ def first_states(
         for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
     kinds = tuple(sorted({s.kind for s in starts}))
-    return FirstStates(
-        jnp.asarray([s.kind for s in starts]), jnp.asarray([s.state for s in starts]), kinds
-    )
+    kind, states = [s.kind for s in starts], np.asarray([s.state for s in starts])
+    return FirstStates(array(kind, int), array(states), kinds)
 
 
 def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:

@@ -6,11 +6,10 @@ from collections.abc import Iterable, Mapping, Set
 from dataclasses import replace
 from typing import NamedTuple
 
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from acausal._jax import is_number
+from acausal._jax import array, is_number
 from acausal.data import Data, Signal
 from acausal.errors import DataError, TrainingError, shown
 from acausal.simulation import (
@@ -86,8 +85,8 @@ def lay_out(
     x = np.concatenate([r.x for r in rows])
     lengths = [np.append(np.diff(g.t), g.t[-1] - g.t[-2]) for g in grids]
     steps = Steps(
-        jnp.asarray(np.concatenate([g.t for g in grids])),
-        jnp.asarray(np.concatenate(lengths) if even is None else even),
+        array(np.concatenate([g.t for g in grids])),
+        array(np.concatenate(lengths) if even is None else even),
         _joined([r.inputs for r in rows]),
     )
     missing = np.isnan(y)
@@ -96,16 +95,16 @@ def lay_out(
         raise DataError(f"Target '{empty[0]}' has no samples in the data.")
     records = Records(
         steps=steps,
-        y=jnp.asarray(np.where(missing, 0.0, y)),
-        weight=jnp.asarray(np.where(missing, 0.0, 1.0)),
-        sigma=jnp.asarray(np.std(y, axis=0, where=~missing))
+        y=array(np.where(missing, 0.0, y)),
+        weight=array(np.where(missing, 0.0, 1.0)),
+        sigma=array(np.std(y, axis=0, where=~missing))
         if not empty
-        else jnp.ones(len(targets)),
-        x=None if np.isnan(x).any(axis=1).all() else jnp.asarray(x),
-        of=jnp.asarray(np.repeat(np.arange(len(rows)), counts)),
-        first=jnp.asarray(ends - counts),
-        last=jnp.asarray(ends - 1),
-        sampled=jnp.asarray(np.concatenate([g.sampled for g in grids])),
+        else array(np.ones(len(targets))),
+        x=None if np.isnan(x).any(axis=1).all() else array(x),
+        of=array(np.repeat(np.arange(len(rows)), counts), int),
+        first=array(ends - counts, int),
+        last=array(ends - 1, int),
+        sampled=array(np.concatenate([g.sampled for g in grids]), bool),
         names=tuple(data),
     )
     if timing is not None and solver is not None:
@@ -165,31 +164,31 @@ def _with_last(
 ) -> Samples:
     """The inputs with one more step at the end, over which they stay as they are there; those that are held jump."""
     jump = np.array([isinstance(f, Signal) and f.jumps for f in functions], bool)
-    last = inner.end[-1:]
+    sides = np.asarray(inner.start), np.asarray(inner.end)
+    last = sides[1][-1:]
     if jump.any():
-        last = jnp.where(jump, evaluate_all(functions, jnp.asarray(until)), last)
-    start, end = (jnp.concatenate([side, last]) for side in (inner.start, inner.end))
-    coefficients = inner.coefficients
-    if coefficients is not None:
-        coefficients = jnp.concatenate([coefficients, jnp.zeros_like(coefficients[:1])])
-    return Samples(start, end, (), coefficients)
+        last = np.where(jump, np.asarray(evaluate_all(functions, array(until))), last)
+    start, end = (array(np.concatenate([side, last])) for side in sides)
+    if inner.coefficients is None:
+        return Samples(start, end)
+    curved = np.asarray(inner.coefficients)
+    return Samples(start, end, (), array(np.concatenate([curved, np.zeros_like(curved[:1])])))
 
 
 def _joined(parts: list[Samples]) -> Samples:
     """The inputs of all records end to end."""
     if len(parts) == 1:
         return parts[0]
-    start, end = (
-        jnp.concatenate(side) for side in zip(*((p.start, p.end) for p in parts), strict=True)
-    )
+    sides = zip(*((p.start, p.end) for p in parts), strict=True)
+    start, end = (array(np.concatenate(side)) for side in sides)
     curved = next((p.coefficients for p in parts if p.coefficients is not None), None)
     if curved is None:
         return Samples(start, end)
     filled = [
-        jnp.zeros((len(p.start), *curved.shape[1:])) if p.coefficients is None else p.coefficients
+        np.zeros((len(p.start), *curved.shape[1:])) if p.coefficients is None else p.coefficients
         for p in parts
     ]
-    return Samples(start, end, (), jnp.concatenate(filled))
+    return Samples(start, end, (), array(np.concatenate(filled)))
 
 
 def _grid(samples: Float[np.ndarray, " n"], longest: float | None) -> Grid:

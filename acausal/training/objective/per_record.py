@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal._jax import is_number
+from acausal._jax import array, is_number
 from acausal.codegen import Packed
 from acausal.errors import TrainingError, nearest, shown
 from acausal.modeling import names_in
@@ -133,8 +133,8 @@ def per_record(
     ]
     return PerRecord(
         names,
-        jnp.asarray(scale, float),
-        1.0 - jnp.asarray(free, float),
+        array(scale),
+        array(1.0 - np.asarray(free, float)),
         system.layout.depending(names),
-        jnp.ones(records),
+        array(np.ones(records)),
     )

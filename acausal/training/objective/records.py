@@ -134,5 +134,5 @@ class Records(eqx.Module):
 
     def rows_of(self, record: int) -> Int[np.ndarray, " n"]:
         """The rows of a record that hold samples."""
-        first, last = int(self.first[record]), int(self.last[record])
-        return first + np.flatnonzero(np.asarray(self.sampled[first : last + 1]))
+        first, last = (int(np.asarray(side)[record]) for side in (self.first, self.last))
+        return first + np.flatnonzero(np.asarray(self.sampled)[first : last + 1])

@@ -99,6 +99,7 @@ class Sequences(eqx.Module):
             weight[some.sum() :] = 0.0  # each once
         return replace(self, starts=self.starts[chosen], weight=jnp.asarray(weight))
 
+    @eqx.filter_jit
     def draw(self, key: PRNGKeyArray) -> Batch:
         """A batch; the same key gives the same batch."""
         for_start, for_points = jax.random.split(key)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 
+from acausal._jax import array
 from acausal.errors import TrainingError
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sequences import Sequences, whole_records
@@ -33,8 +33,8 @@ def over_windows(problem: Problem, rows: int) -> Problem:
     assert records.x is not None
     starts = starts[np.isfinite(np.asarray(records.x)[starts]).all(axis=1)]
     cut = Sequences(
-        jnp.asarray(starts),
-        jnp.ones(len(starts)),
+        array(starts, int),
+        array(np.ones(len(starts))),
         rows,
         batch_size=len(starts),
         points=None,

@@ -14,6 +14,7 @@ from functools import cache
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jax import lax
 from jax.flatten_util import ravel_pytree
@@ -78,6 +79,7 @@ def lbfgs(memory: int = 60) -> DescentMethod:
         memory: changes of the gradient from which the Hessian is estimated.
     """
 
+    @jax.jit
     def init(params: Any) -> Any:
         point, _ = ravel_pytree(params)
         zero, none = jnp.zeros((), point.dtype), jnp.zeros_like(point)

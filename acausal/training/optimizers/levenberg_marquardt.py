@@ -59,6 +59,7 @@ def levenberg_marquardt() -> DescentMethod:
     is that of H. B. Nielsen: Damping parameter in Marquardt's method, Technical University of Denmark, 1999.
     """
 
+    @jax.jit
     def init(params: Any) -> Any:
         point, _ = ravel_pytree(params)
         zero, none = jnp.zeros((), point.dtype), jnp.zeros_like(point)

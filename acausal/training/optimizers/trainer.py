@@ -116,6 +116,7 @@ def candidates(state: State) -> tuple[PyTree, ...]:
     return state.trainable, known
 
 
+@eqx.filter_jit
 def _best_known(state: State) -> PyTree:
     """The best point of a descent; before the first update its start."""
     point, unravel = ravel_pytree(state.trainable)

@@ -97,6 +97,7 @@ def test_a_model_that_is_not_stiff_keeps_explicit_steps():
     np.testing.assert_allclose(found["mass.s"], 0.1 * np.cos(10 * found.t), atol=2e-5)
 
 
+@pytest.mark.slow
 def test_the_choice_is_the_same_where_jax_compiles():
     system = van_der_pol()
 

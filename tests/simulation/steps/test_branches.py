@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import pytest
 
 import acausal as ac
 from tests.support.hybrid import Ball, Sampled, Step, Thermostat
@@ -44,6 +45,7 @@ class Multivibrator(Comparator):
         yield from self.fed(-self.v)
 
 
+@pytest.mark.slow
 def test_a_schmitt_trigger_keeps_its_branch() -> None:
     ts = np.linspace(0, 2, 201)
     run = ac.simulate(ac.compile(Schmitt()), (0.0, 2.0), saveat=ts)
@@ -53,6 +55,7 @@ def test_a_schmitt_trigger_keeps_its_branch() -> None:
     np.testing.assert_allclose(run["out"][clear], np.where(phase < 0.5, -1, 1)[clear])
 
 
+@pytest.mark.slow
 def test_a_multivibrator_swings() -> None:
     run = ac.simulate(ac.compile(Multivibrator()), (0.0, 1.0), rtol=1e-9, atol=1e-11)
     times = [e.t for e in run.events if e.after and "high" in e.after]
@@ -80,6 +83,7 @@ def text() -> str:
     return "\n".join([*lines, str(system.discrete), str(system.states), str(system.equations)])
 
 
+@pytest.mark.slow
 def test_hash_seeds_do_not_change_what_holds_at_events() -> None:
     code = "from tests.simulation.steps import test_branches; print(test_branches.text())"
     runs = [

@@ -31,6 +31,7 @@ def boost() -> ac.Component:
     )
 
 
+@pytest.mark.slow
 def test_a_boost_converter_has_the_events_of_its_switch_alone() -> None:
     run = ac.simulate(ac.compile(boost()), 2e-3)
     np.testing.assert_allclose([e.t for e in run.events], 5e-5 * np.arange(1, 41), rtol=1e-9)
@@ -40,6 +41,7 @@ def test_a_boost_converter_has_the_events_of_its_switch_alone() -> None:
     np.testing.assert_allclose(run["c.v"][-1], 33.14408, rtol=1e-5)
 
 
+@pytest.mark.cases(fast=1)
 @pytest.mark.parametrize(
     "ramps", [{"rising": 0.0}, {"falling": 0.0}, {"rising": 0.0, "falling": 0.0}]
 )
@@ -73,6 +75,7 @@ class Level(ac.Component):
         yield ac.When(self.h < 0, ac.Reinit(self.h, self.to))
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("options", [{}, {"dt": 0.01}], ids=["adaptive", "fixed"])
 @pytest.mark.parametrize("to", [0.0, 1e-12])
 def test_a_state_that_is_set_to_its_own_threshold_has_events_without_end(

@@ -1,6 +1,7 @@
 """Clocks: `ac.sample`."""
 
 import numpy as np
+import pytest
 
 import acausal as ac
 
@@ -27,12 +28,14 @@ class Clocks(ac.Component):
         self.slow, self.fast = Clock(period=0.3), Counter()
 
 
+@pytest.mark.slow
 def test_clocks_of_several_components_keep_their_periods():
     sol = ac.simulate(ac.compile(Clocks()), (0.0, 0.65), saveat=[0.0, 0.25, 0.65])
     np.testing.assert_array_equal(sol["slow.n"], [1, 1, 3])
     np.testing.assert_array_equal(sol["fast.n"], [1, 3, 7])
 
 
+@pytest.mark.slow
 def test_a_clock_ticks_at_the_start_but_for_rounding():
     sol = ac.simulate(ac.compile(Clock()), (0.3, 0.75), saveat=[0.3, 0.35, 0.75])
     np.testing.assert_array_equal(sol["n"], [1, 1, 5])
@@ -55,6 +58,7 @@ class Relayed(ac.Component):
         yield ac.When(ac.sample(0, 0.1), ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
+@pytest.mark.slow
 def test_a_clock_does_not_stop_where_another_event_comes_first_by_rounding():
     run = ac.simulate(ac.compile(Relayed()), (0.0, 6.05), saveat=[6.05], rtol=1e-9, atol=1e-11)
     assert float(run["n"][0]) == 61

@@ -78,6 +78,7 @@ def ends(system: ac.System, kind: str) -> Any:
     return run, values
 
 
+@pytest.mark.cases(slow=1)
 @pytest.mark.parametrize("kind", some_slow(["fixed", "adaptive"], ["fixed"], ["adaptive"]))
 def test_each_has_its_own_time(system: ac.System, kind: str) -> None:
     run, values = ends(system, kind)

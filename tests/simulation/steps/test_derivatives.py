@@ -41,6 +41,7 @@ def central(function: Any, at: tuple[float, ...], i: int, change: float = 1e-6) 
     return (float(function(*up)) - float(function(*down))) / (2 * change)
 
 
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("kind", STEPS)
 @pytest.mark.parametrize("bounces", [1, 2, 5])
 def test_a_bouncing_ball(ball: ac.System, kind: str, bounces: int) -> None:
@@ -100,6 +101,7 @@ def test_an_event_at_a_time_to_save(ball: ac.System) -> None:
     assert gradient == pytest.approx(sp_derivatives(1.0)[0], rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", all_slow_but("fixed", STEPS))
 def test_a_sampling_period_is_trained(kind: str) -> None:
     system = ac.compile(Sampled())
@@ -180,6 +182,7 @@ class _StepResponse(ac.Component):
         self.connect(self.step.y, self.lag.u)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "how",
     [

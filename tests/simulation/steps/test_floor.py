@@ -50,6 +50,7 @@ def exact(t: float) -> float:
     return float(np.sum(integrand * np.diff(ends)))
 
 
+@pytest.mark.slow
 def test_steps_end_where_an_integer_jumps(system):
     sol = ac.simulate(system, (0, 10), saveat=np.linspace(0, 10, 33))
     assert float(sol["x"][-1]) == pytest.approx(exact(10.0), abs=1e-8)
@@ -58,6 +59,7 @@ def test_steps_end_where_an_integer_jumps(system):
     np.testing.assert_allclose(sol["phase"], (ts - START) % PERIOD, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_a_start_that_is_an_instant_but_for_rounding(system):
     params = system.parameters() | {"begin": 0.0, "period": 0.1}
     sol = ac.simulate(system, (0.3, 0.95), saveat=[0.3, 0.35, 0.95], params=params)

@@ -64,6 +64,7 @@ PATHS: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "path", some_slow(PATHS, ["tsit5"], [p for p in PATHS if p not in ("heun", "tsit5")])
 )
@@ -121,7 +122,7 @@ def test_rows_of_a_training_see_their_own_side(name: str, kind: Any) -> None:
     np.testing.assert_allclose([value, gradient], [exact, -1], atol=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_the_order_of_fixed_steps_survives_jumps_between_them() -> None:
     """Beside steps a quarter as long the error of rk4 falls by 4^4, where the input jumps between their ends, too."""
     u = ac.Signal([0.0, 0.33, 0.71, 1.0], [0.5, -1.0, 1.5, 0.2], "previous")

@@ -28,6 +28,7 @@ def _floor(t: Any) -> Any:
     return 0.1 * jnp.sin(t)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "steps",
     [

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+import pytest
 
 import acausal as ac
 
@@ -21,6 +22,7 @@ class Counted(ac.Component):
         yield ac.When(side > 0, ac.Eq(self.n, ac.pre(self.n) + 1))
 
 
+@pytest.mark.slow
 def test_the_instant_of_a_jump_is_exact() -> None:
     system = ac.compile(Counted())
     for level in np.linspace(0.21, 0.87, 12).tolist():

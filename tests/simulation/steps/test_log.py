@@ -43,6 +43,7 @@ def run(system: ac.System) -> Any:
     return ac.simulate(system, (0.0, 3.0), inputs={"u": steps}, saveat=np.linspace(0, 3, 7))
 
 
+@pytest.mark.slow
 def test_events_name_the_component_and_what_has_changed(run: Any) -> None:
     first, jump, *_ = run.events
     assert (first.component, first.condition) == ("ball", "ball: h < 0")
@@ -99,6 +100,7 @@ def test_a_copy_keeps_its_events_and_asks_for_inputs(run: Any) -> None:
     pytest.importorskip("matplotlib.pyplot").close(copied.plot("ball.n"))
 
 
+@pytest.mark.slow
 def test_events_where_jax_traces_and_of_runs_side_by_side() -> None:
     ball = ac.compile(Ball())
 

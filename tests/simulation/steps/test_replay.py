@@ -62,6 +62,7 @@ def loss(solver: str, k: Any, x0: Any, u: Any) -> Any:
 POINT = 4.0, 1.0, jnp.asarray(SAMPLES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solver", some_slow(["tsit5", "bdf", "auto"], ["tsit5"], ["bdf"]))
 def test_reverse_forward_and_differences_agree(solver: str):
     of = functools.partial(loss, solver)
@@ -81,6 +82,7 @@ def test_reverse_forward_and_differences_agree(solver: str):
         assert float(found) == pytest.approx(float(expected), rel=near, abs=1e-7)
 
 
+@pytest.mark.machines
 @pytest.mark.parametrize("solver", some_slow(["tsit5", "bdf"], ["tsit5"], ["bdf"]))
 def test_a_long_run_is_made_again_part_by_part(solver: str, monkeypatch: pytest.MonkeyPatch):
     """The same derivatives, to the last digits, with room for some tens of steps only."""
@@ -95,6 +97,7 @@ def test_a_long_run_is_made_again_part_by_part(solver: str, monkeypatch: pytest.
         np.testing.assert_allclose(b, a, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_derivatives_side_by_side_are_those_in_turn():
     gradient = jax.grad(functools.partial(loss, "bdf"))
     ks = jnp.asarray([2.0, 4.0])
@@ -102,6 +105,7 @@ def test_derivatives_side_by_side_are_those_in_turn():
     np.testing.assert_allclose(together, [gradient(k, *POINT[1:]) for k in ks], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_every_sample_of_an_input_counts():
     """Steps end at the corners of the input: no sample lies unseen within a step."""
     by_u = jax.grad(functools.partial(loss, "tsit5"), 2)(*POINT)
@@ -120,7 +124,7 @@ def test_every_sample_of_an_input_counts():
     np.testing.assert_allclose(by_u, jax.grad(of)(POINT[2]), rtol=1e-5, atol=1e-8)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_sparse_factors_serve_the_derivative():
     system = ac.compile(Plate(11))
     start = jnp.asarray(system.initial_state())
