@@ -14,13 +14,17 @@ from acausal.errors import DeclarationError, shortened
 from acausal.fmu.archive import DESCRIPTION
 from acausal.modeling import element_names
 
-Interface = Literal["model exchange", "co-simulation"]
+Interface = Literal["me", "cs"]
+"""Model exchange, or co-simulation."""
 
 REAL = ("Real", "Float64", "Float32")
 WHOLE = (
     "Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64",
 )  # fmt: skip
 NUMBERS = (*REAL, *WHOLE, "Boolean")
+
+STEPS = 500
+"""Communication steps in an experiment of which only the length is known."""
 
 DIRECTIONAL = re.compile(rb"<ModelExchange[^>]*providesDirectionalDerivatives\s*=\s*.(?:true|1)")
 """What fmpy does not read of FMI 3."""
@@ -79,7 +83,8 @@ class Description:
         depends: for outputs and rates the variables that each depends on; None: all.
         indicators: how many event indicators there are.
         once: whether it can be instantiated only once in a process. directional: whether it has derivatives.
-        step: the size of steps that it suggests for co-simulation, or 0.
+        step: the size of communication steps that it suggests for co-simulation.
+        returns_early: whether a communication step may end before its end.
     """
 
     version: str
@@ -98,9 +103,14 @@ class Description:
     once: bool
     directional: bool
     step: float
+    returns_early: bool
 
     def __hash__(self) -> int:
         return hash((self.token, self.model, self.version))
+
+    def library(self, kind: Interface) -> str:
+        """The name of its library for model exchange or for co-simulation; empty where it has none."""
+        return self.exchange if kind == "me" else self.cosimulation
 
     def of(self, causality: str, types: Sequence[str] = NUMBERS) -> list[FMUVariable]:
         """The variables of a causality and of some types."""
@@ -189,8 +199,20 @@ def _described(read: Any, directional: bool) -> Description:
         indicators=indicators,
         once=bool(can.canBeInstantiatedOnlyOncePerProcess),
         directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
-        step=float((experiment and experiment.stepSize) or 0.0),
+        step=_step(experiment, cosimulation),
+        returns_early=bool(getattr(cosimulation, "mightReturnEarlyFromDoStep", False)),
     )
+
+
+def _step(experiment: Any, cosimulation: Any) -> float:
+    """The communication step: as the FMU suggests, else its own steps, else a part of its experiment, or of 1 s."""
+    begin, end, step = (
+        float(getattr(experiment, name, None) or 0.0)
+        for name in ("startTime", "stopTime", "stepSize")
+    )
+    own = float(getattr(cosimulation, "fixedInternalStepSize", None) or 0.0)
+    found = step or own or (end - begin) / STEPS
+    return found if 0 < found < math.inf else 1 / STEPS
 
 
 def _variable(read: Any) -> FMUVariable:
