@@ -51,7 +51,11 @@ class Chosen:
     """
 
     def __init__(
-        self, description: Description, values: dict[str, Any], observe: tuple[str, ...]
+        self,
+        description: Description,
+        kind: Interface,
+        values: dict[str, Any],
+        observe: tuple[str, ...],
     ) -> None:
         known = description.variables
         for name in (*values, *observe):
@@ -70,6 +74,9 @@ class Chosen:
                 )
         self.parameters = [*description.parameters, *starts]
         self.inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
+        if kind == "cs":  # an input with a value is what a parameter is: it holds from the start
+            self.parameters += [v for v in self.inputs if v.name in values]
+            self.inputs = [v for v in self.inputs if v.name not in values]
         results = [known[n] for n in dict.fromkeys((*description.outputs, *observe))]
         self.results = [v for v in results if v.type in NUMBERS]
 

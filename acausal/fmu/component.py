@@ -64,6 +64,8 @@ class FMU(Component):
         kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
         step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
             experiment.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation, which has no derivatives with respect
+            to them: gradients take them as they are, and are not refused.
 
     Raises:
         DeclarationError: for a file that is not a sound FMU, an unknown name, or what is not supported.
@@ -80,10 +82,12 @@ class FMU(Component):
         observe: Sequence[str] = (),
         kind: Literal["me", "cs"] | None = None,
         step: float | None = None,
+        open_loop: bool = False,
     ) -> None:
         digest, folder = read(path)
         description = read_description(folder, path)
-        chosen = Chosen(description, dict(values or {}), tuple(observe))
+        of = interface(description, kind)
+        chosen = Chosen(description, of, dict(values or {}), tuple(observe))
         part = Part(
             str(Path(path).resolve()),
             digest,
@@ -92,8 +96,9 @@ class FMU(Component):
             tuple(v.name for v in chosen.parameters),
             tuple(v.name for v in chosen.inputs),
             tuple(v.name for v in chosen.results),
-            of := interface(description, kind),
+            of,
             communication_step(description, of, step),
+            open_loop,
         )
         values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
         super().__init__(values=FMUFunction(part, values_of), event=FMUFunction(part, event))
@@ -149,8 +154,13 @@ class FMU(Component):
 
     def _declare_held(self, results: Iterable[FMUVariable]) -> None:
         for v in results:
-            start = v.starts if v.shape is not None else v.starts[0]
-            declared = _Held(start, kind=_kind(v), unit=v.unit, shape=v.shape, doc=v.text)
+            declared = _Held(
+                _nested(v.starts, v.shape or ()),
+                kind=_kind(v),
+                unit=v.unit,
+                shape=v.shape,
+                doc=v.text,
+            )
             self._add_declaration(v.name, declared)
         self._add_declaration(HISTORY, Discrete(0, kind="int", doc="number of the FMU's history"))
         self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))

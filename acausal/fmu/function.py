@@ -48,7 +48,10 @@ class FMUFunction(eqx.Module):
         given = [jnp.asarray(v, kind) for v in values]
         if self.kind == "take":
             inputs = slice(2, 2 + part.n_inputs)
-            given[inputs] = [_without_derivative(part.description.model, u) for u in given[inputs]]
+            held = (
+                jax.lax.stop_gradient if part.open_loop else partial(_held, part.description.model)
+            )
+            given[inputs] = [held(u) for u in given[inputs]]
         found = _found(number, rows, *given)
         return jnp.take(found, jnp.asarray(which).astype(int))
 
@@ -59,7 +62,7 @@ class FMUFunction(eqx.Module):
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
-def _without_derivative(model: str, u: Float[Array, ""]) -> Float[Array, ""]:
+def _held(model: str, u: Float[Array, ""]) -> Float[Array, ""]:
     return u
 
 
@@ -68,12 +71,13 @@ def _refuse(model: str, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Arr
     if not isinstance(along[0], SymbolicZero):
         raise SimulationError(
             f"FMU: the gradient goes through the inputs of '{model}', and a co-simulation has no derivatives with "
-            "respect to its inputs; use it by model exchange, or train only what does not act on it."
+            "respect to its inputs: use it by model exchange, or, if nothing that is trained acts on them, say so: "
+            "ac.FMU(..., open_loop=True)."
         )
     return at[0], jnp.zeros_like(at[0])
 
 
-_without_derivative.defjvp(_refuse, symbolic_zeros=True)
+_held.defjvp(_refuse, symbolic_zeros=True)
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))

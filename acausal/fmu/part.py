@@ -19,6 +19,7 @@ class Part:
         settings: values that are fixed and no real parameters, by name.
         parameters, inputs, results: names of what a model gives, and of what it reads.
         kind: model exchange or co-simulation. step: the communication step [s].
+        open_loop: whether gradients take the inputs of a co-simulation as they are.
     """
 
     path: str
@@ -30,6 +31,7 @@ class Part:
     results: tuple[str, ...]
     kind: Interface = "me"
     step: float = 0.0
+    open_loop: bool = False
 
     # -- sizes -----------------------------------------------------------------------------------
 
@@ -55,14 +57,13 @@ class Part:
     @cached_property
     def n_values(self) -> int:
         """How many numbers an evaluation gives: rates, results, indicators."""
-        return self.n + len(self.elements(self.results)) + self.description.indicators
+        indicators = self.description.indicators if self.kind == "me" else 0
+        return self.n + len(self.elements(self.results)) + indicators
 
     @cached_property
     def key(self) -> str:
         """It stands for all that the part is."""
-        of = (
-            self.digest, self.settings, self.parameters, self.inputs, self.results, self.kind, self.step
-        )  # fmt: skip
+        of = {**self.__getstate__(), "path": "", "description": ""}
         return sha256(repr(of).encode()).hexdigest()
 
     def __getstate__(self) -> dict[str, Any]:

@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import jax
 import numpy as np
 import pytest
 
 import acausal as ac
 from tests.fmu.test_model_exchange import Mass
 from tests.support.fmus import Unpacked, need_fmpy
+from tests.support.foreign import foreign_fmu
 
 STEP = 0.01
 
@@ -64,3 +66,36 @@ def test_it_steps_from_point_to_point(masses: Callable[[str], Path], fmi: str) -
     for k in (-2.0, -1.0, -2.0):  # again with the same values: no instance remembers
         run = ac.simulate(system, 0.3, saveat=times, dt=STEP, params={"k": k})
         np.testing.assert_allclose(run["plant.s"], by_fmpy(path, fmi, k), atol=1e-12)
+
+
+def test_parameters_have_gradients_and_inputs_have_none(masses: Callable[[str], Path]) -> None:
+    system = ac.compile(ac.FMU(masses("2.0"), {"f": 1.0}, kind="cs", step=STEP))
+
+    def last(d: Any) -> Any:
+        return ac.simulate(system, 0.2, saveat=[0.2], dt=STEP, params={"d": d})["s"][0]
+
+    np.testing.assert_allclose(jax.grad(last)(2.0), (last(2.001) - last(1.999)) / 2e-3, rtol=1e-5)
+    looped = ac.compile(Looped(masses("2.0")))
+    with pytest.raises(ac.SimulationError, match="has no derivatives with respect to its inputs"):
+        jax.grad(lambda k: ac.simulate(looped, 0.02, dt=STEP, params={"k": k})["area"][-1])(-2.0)
+
+
+def test_a_co_simulation_that_explodes_says_so() -> None:
+    model = ac.FMU(foreign_fmu("Mass_Damper"), {"f": 0.0}, kind="cs", step=5e-3)
+    run = ac.simulate(ac.compile(model), 5.0, saveat=[5.0], dt=5e-2)
+    with pytest.warns(UserWarning, match=r"explodes: 'y' is .* smaller step= .* or kind='me'"):
+        _ = run["y"]
+
+
+def test_the_kind_and_the_step_are_checked() -> None:
+    only = foreign_fmu("FMU3Model")
+    assert "in steps of 0.002 s" in repr(ac.FMU(only))
+    with pytest.raises(ac.DeclarationError, match="has 'cs', not kind='me'"):
+        ac.FMU(only, kind="me")
+    with pytest.raises(ac.DeclarationError, match="above zero"):
+        ac.FMU(only, step=-1.0)
+    with pytest.raises(ac.DeclarationError, match="has no communication step"):
+        ac.FMU(foreign_fmu("Mass_Damper"), step=0.1)
+    system = ac.compile(ac.FMU(only))
+    run = ac.simulate(system, 0.004, dt=2e-3, inputs=dict.fromkeys(system.inputs, 1.0))
+    assert np.isfinite(run["vector[2]"]).all()
