@@ -11,6 +11,7 @@ import numpy as np
 from acausal.errors import DeclarationError, nearest
 from acausal.fmu.archive import read
 from acausal.fmu.chosen import Chosen, communication_step, interface, name_of
+from acausal.fmu.conversion import Conversion
 from acausal.fmu.description import REAL, Description, FMUVariable, read_description
 from acausal.fmu.evaluated import NEVER
 from acausal.fmu.fmu_view import as_html, as_text
@@ -138,14 +139,17 @@ class FMU(Component):
         constant = [v for v in chosen.inputs if v.name in chosen.values]
         for v in (*chosen.parameters, *constant):
             name = name_of(v)
-            low, high = (None if np.isinf(limit) else limit for limit in (v.minimum, v.maximum))
-            declared = Parameter(unit=v.unit, min=low, max=high, shape=v.shape, doc=v.text)
+            limits = sorted(map(v.conversion.to_model, (v.minimum, v.maximum)))
+            low, high = (None if np.isinf(limit) else limit for limit in limits)
+            unit = v.conversion.unit
+            declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
             self._add_declaration(name, declared)
-            given = chosen.values.get(v.name, v.starts if v.shape is not None else v.starts[0])
+            starts = [v.conversion.to_model(s) for s in v.starts]
+            given = chosen.values.get(v.name, starts if v.shape is not None else starts[0])
             self.modify(**{self._names[name]: given})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                declared = Input(kind=_kind(v), unit=v.unit, shape=v.shape, doc=v.text)
+                declared = Input(kind=_kind(v), unit=v.conversion.unit, shape=v.shape, doc=v.text)
                 self._add_declaration(v.name, declared)
         if self._part.kind == "cs":
             self._declare_held(chosen.results)
@@ -157,7 +161,7 @@ class FMU(Component):
             declared = _Held(
                 _nested(v.starts, v.shape or ()),
                 kind=_kind(v),
-                unit=v.unit,
+                unit=v.conversion.unit,
                 shape=v.shape,
                 doc=v.text,
             )
@@ -174,8 +178,8 @@ class FMU(Component):
             kind = Output if v.name in seen else Variable
             declared = kind(
                 start=start,
-                unit=v.unit,
-                nominal=v.nominal,
+                unit=v.conversion.unit,
+                nominal=abs(v.conversion.factor) * v.nominal,
                 state="always",
                 shape=v.shape,
                 doc=v.text,
@@ -184,7 +188,9 @@ class FMU(Component):
             first += v.size
         for v in results:
             if v.name not in self._names:
-                self._add_declaration(v.name, Output(unit=v.unit, shape=v.shape, doc=v.text))
+                self._add_declaration(
+                    v.name, Output(unit=v.conversion.unit, shape=v.shape, doc=v.text)
+                )
         if self._has_events:
             self._add_declaration(
                 HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
@@ -207,34 +213,44 @@ class FMU(Component):
         return [e for n in names for e in np.ravel(np.asarray(self[n], dtype=object)).tolist()]
 
     def _arguments(self, history: Any, inputs: list[Any]) -> list[Any]:
-        known, part = self.description.variables, self._part
-        names = [name_of(known[n]) for n in part.parameters]
-        return [
-            time,
-            history,
-            *self._elements(self.description.states if part.n else ()),
-            *inputs,
-            *self._elements(names),
-        ]
+        part = self._part
+        states = self.description.states if part.n else ()
+        return [time, history, *self._given(states), *inputs, *self._parameters()]
+
+    def _units(self, names: Iterable[str]) -> list[Conversion]:
+        known = self.description.variables
+        return [v.conversion for v in (known[n] for n in names) for _ in range(v.size)]
+
+    def _given(self, names: Sequence[str]) -> list[Any]:
+        """The values that the FMU gets for some variables, in its own units."""
+        each = zip(self._units(names), self._elements(names), strict=True)
+        return [units.to_fmu(value) for units, value in each]
+
+    def _parameters(self) -> list[Any]:
+        known, names = self.description.variables, self._part.parameters
+        values = self._elements(name_of(known[n]) for n in names)
+        return [u.to_fmu(value) for u, value in zip(self._units(names), values, strict=True)]
 
     def equations(self) -> Iterable[Any]:
         """Rates of states, outputs, and what happens at events."""
         part, known = self._part, self.description.variables
-        inputs = self._elements(part.inputs)
+        inputs = self._given(part.inputs)
         if part.kind == "cs":
             yield self._communication(inputs)
             return
         history = self[HISTORY] if self._has_events else 0
         states = self._elements(self.description.states)
         arguments = self._arguments(history, inputs)
-        for i, state in enumerate(states):
-            yield Eq(der(state), self.values(i, *arguments))
+        units = self._units(self.description.states)
+        for i, (state, u) in enumerate(zip(states, units, strict=True)):
+            yield Eq(der(state), Conversion(u.unit, u.factor).to_model(self.values(i, *arguments)))
         place = len(states)
         for name in part.results:
             given = self._arguments(history, self._needed(name, inputs))
             for i, result in enumerate(self._elements([name])):
                 if known[name].name not in self.description.states:
-                    yield Eq(result, self.values(place + i, *given))
+                    found = self.values(place + i, *given)
+                    yield Eq(result, known[name].conversion.to_model(found))
             place += known[name].size
         if self._has_events:
             yield from self._events(place, arguments, states, inputs)
@@ -242,11 +258,12 @@ class FMU(Component):
     def _communication(self, inputs: list[Any]) -> When:
         """The step to a communication point, and the inputs that hold from there on."""
         given = self._arguments(pre(self[HISTORY]), [0.0] * len(inputs))
-        reached, results = self[REACHED], self._elements(self._part.results)
+        reached, names = self[REACHED], self._part.results
+        results = zip(self._elements(names), self._units(names), strict=True)
         return When(
             initial() | sample(0, self._part.step),
             Eq(reached, self.values(0, *given)),
-            *[Eq(y, self.values(1 + i, *given)) for i, y in enumerate(results)],
+            *[Eq(y, u.to_model(self.values(1 + i, *given))) for i, (y, u) in enumerate(results)],
             Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
         )
 
@@ -270,14 +287,15 @@ class FMU(Component):
         yield Eq(self[HISTORY], self.event(0, *given))
         yield Eq(self[NEXT], self.event(1, *given))
         if states:
-            jumps = [Reinit(x, self.event(2 + i, *given)) for i, x in enumerate(states)]
+            each = enumerate(zip(states, self._units(self.description.states), strict=True))
+            jumps = [Reinit(x, u.to_model(self.event(2 + i, *given))) for i, (x, u) in each]
             yield When(abs(self[HISTORY] - pre(self[HISTORY])) > HALF, *jumps)
 
     def _starts(self, first: int, variable: FMUVariable) -> Any:
         """The start values of a state, which the FMU's own initialization finds, by expressions of parameters."""
-        part, known = self._part, self.description.variables
+        part = self._part
         zeros = [0.0] * (2 + part.n + part.n_inputs)
-        parameters = self._elements(name_of(known[n]) for n in part.parameters)
+        parameters = self._parameters()
         function = GivenModule(f"start#{part.key}", FMUFunction(part, "begin"))
         places = range(1 + first, 1 + first + variable.size)
         each = [function(place, *zeros, *parameters) for place in places]
@@ -285,7 +303,7 @@ class FMU(Component):
             found = evaluated(part)
             states = found.first_states if found is not None else [0.0] * part.n
             each = states[first : first + variable.size]
-        return _nested(each, variable.shape or ())
+        return _nested([variable.conversion.to_model(e) for e in each], variable.shape or ())
 
 
 def _kind(variable: FMUVariable) -> Literal["bool", "real", "int"]:

@@ -51,8 +51,12 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
 def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:
     def one(v: FMUVariable) -> str:
         sizes = f"[{','.join(map(str, v.shape))}]" if v.shape is not None else ""
-        value = f" = {' '.join(v.start.split()[:4])}" if with_values and v.start else ""
-        return f"{v.name}{sizes}{value}{' ' * bool(v.unit)}{v.unit}"
+        starts = (v.start or "").split()[:4]
+        if v.conversion.unit != v.unit:
+            starts = [f"{v.conversion.to_model(float(s)):g}" for s in starts]
+        value = f" = {' '.join(starts)}" if with_values and starts else ""
+        unit = v.conversion.unit or v.unit
+        return f"{v.name}{sizes}{value}{' ' * bool(unit)}{unit}"
 
     more = f", and {len(variables) - MOST} more" if len(variables) > MOST else ""
     return ", ".join(map(one, variables[:MOST])) + more or "none"

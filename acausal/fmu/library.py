@@ -6,11 +6,10 @@ import ctypes as C
 from collections import deque
 from collections.abc import Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 from acausal.errors import SimulationError, shortened
-from acausal.fmu.archive import binary
+from acausal.fmu.archive import Folder, binary
 from acausal.fmu.description import Description, FMUVariable, Interface
 
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
@@ -92,11 +91,11 @@ class Library:
 
     instances = 0
 
-    def __init__(self, description: Description, folder: Path, kind: Interface) -> None:
+    def __init__(self, description: Description, folder: Folder, kind: Interface) -> None:
         self.description, self.folder, self.kind = description, folder, kind
         self.name = description.model.encode()
         self.messages = _MESSAGES.setdefault(self.name, deque(maxlen=MESSAGES))
-        path = binary(folder, description.library(kind), description.model)
+        path = binary(folder.path, description.library(kind), description.model)
         try:
             self._library = C.PyDLL(str(path))
         except OSError as error:
@@ -158,7 +157,7 @@ class Library:
         Raises:
             FMUError: if the FMU refuses, as it does for a wrong GUID.
         """
-        d, resources = self.description, self.folder / "resources"
+        d, resources = self.description, self.folder.path / "resources"
         name, token = self.name, d.token.encode()
         text, boolean = C.c_char_p, C.c_int if self.is_2 else C.c_bool
         if self.is_2:
