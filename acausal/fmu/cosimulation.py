@@ -181,15 +181,15 @@ class Stepped(Computed):
         """The number of the history behind the step, and the outputs."""
         with self._lock:
             before, time = self._history(at), C.c_double.from_address(at).value
-            parameters = self._values_of_parameters(at)
-            if self._histories.events[before].time == time:  # it is there
-                instance = self._histories.instance(parameters, before)
-                assert isinstance(instance, Slave)
-                history, outputs = before, self._outputs(instance, time).tobytes()
-            else:
-                event = Event(before, time, b"", b"", b"", timed=True)
-                after = self._histories.after(parameters, event)
-                history, outputs = after.history, after.numbers
+            known = self._histories.events
+            event = Event(before, time, b"", b"", b"", timed=True)
+            there = known[before].time == time
+            if there:  # the step that led there
+                event = known[before]
+                while not event.timed:
+                    event = known[event.before]
+            after = self._histories.after(self._values_of_parameters(at), event)
+            history, outputs = before if there else after.history, after.numbers
             C.c_double.from_address(into).value = history
             C.memmove(into + BYTES, outputs, len(outputs))
         return 0
