@@ -16,7 +16,7 @@ import jax
 import numpy as np
 
 import acausal as ac
-from acausal.fmu import handlers
+from acausal.fmu import handlers, loaded
 
 STEPS = 20_000
 TIMES = 5
@@ -70,12 +70,13 @@ def main() -> None:
     handlers._call = counted
     jax.block_until_ready(run(params))
     handlers._call = kept
-    computed = model._part.computed
+    computed = loaded.computed(model._part)
     given, found = np.zeros(2 + model._part.n + 99), np.zeros(model._part.n_values)
-    starts = np.frombuffer(computed._defaults())
+    starts = np.frombuffer(computed.defaults())
     at = 2 + model._part.n + model._part.n_inputs
     given[at : at + len(starts)] = starts
     pair = given.ctypes.data, found.ctypes.data
+    assert isinstance(computed, loaded.Evaluated)
     alone = best(lambda: [computed._evaluate(*pair) for _ in range(1000)]) / 1000
     print(f"{model.description.model}, {len(params)} parameters, {STEPS} Euler steps")
     print(f"  {value / STEPS * 1e6:8.2f} us a step, {calls / STEPS:.2f} calls a step")

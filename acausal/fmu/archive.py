@@ -5,7 +5,6 @@ An archive may come from anybody: paths that climb, links, and contents that gro
 
 from __future__ import annotations
 
-import atexit
 import platform
 import shutil
 import struct
@@ -17,6 +16,7 @@ from collections.abc import Iterator
 from hashlib import sha256
 from pathlib import Path, PurePosixPath
 from typing import NoReturn
+from weakref import WeakValueDictionary, finalize
 
 from acausal.errors import DeclarationError, reason, shortened
 from acausal.files import need_path
@@ -39,12 +39,23 @@ SMALL = 2**24
 CHUNK = 2**20
 
 
-def read(path: object) -> tuple[str, Path]:
+class Folder:
+    """A folder that is removed when nothing refers to it any more, or Python ends.
+
+    Attributes:
+        path: of the folder.
+    """
+
+    def __init__(self) -> None:
+        self.path = Path(tempfile.mkdtemp(prefix="acausal-fmu-"))
+        finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+
+def read(path: object) -> tuple[str, Folder]:
     """Unpack an FMU.
 
     Returns:
-        The archive's digest, and the folder that holds its description, its binaries and its resources. The folder
-        exists until the process ends.
+        The archive's digest, and the folder that holds its description, its binaries and its resources.
 
     Raises:
         DeclarationError: for what is not a sound archive.
@@ -56,34 +67,29 @@ def read(path: object) -> tuple[str, Path]:
             while part := stream.read(CHUNK):
                 digest.update(part)
             name = digest.hexdigest()
-            if name not in _FOLDERS:
-                _FOLDERS[name] = _unpacked(file, stream)
-        return name, _FOLDERS[name]
+            folder = _FOLDERS.get(name)
+            if folder is None:
+                folder = _FOLDERS[name] = _unpacked(file, stream)
+        return name, folder
     except OSError as error:
         raise DeclarationError(f"FMU: '{file}' cannot be read: {reason(error)}.") from None
 
 
-_FOLDERS: dict[str, Path] = {}
+_FOLDERS: WeakValueDictionary[str, Folder] = WeakValueDictionary()
 """Where archives have been unpacked, by digest."""
 
 
-def _unpacked(file: Path, stream: object) -> Path:
-    folder = Path(tempfile.mkdtemp(prefix="acausal-fmu-"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+def _unpacked(file: Path, stream: object) -> Folder:
+    folder = Folder()
     try:
         with zipfile.ZipFile(stream) as archive:  # pyright: ignore[reportArgumentType, reportCallIssue]
             members = list(_members(file, archive))
             for member, target in members:
-                _write(file, archive, member, folder / target)
+                _write(file, archive, member, folder.path / target)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError) as error:
-        shutil.rmtree(folder, ignore_errors=True)
         _refuse(file, f"is not a sound archive ({shortened(error)}); export it again")
     except (ValueError, RuntimeError) as error:  # encrypted, or a header that makes no sense
-        shutil.rmtree(folder, ignore_errors=True)
         _refuse(file, f"cannot be unpacked ({shortened(error)})")
-    except BaseException:
-        shutil.rmtree(folder, ignore_errors=True)
-        raise
     return folder
 
 

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from acausal.errors import DeclarationError, nearest, shown
+from acausal.errors import DeclarationError, nearest
 from acausal.fmu.archive import read
-from acausal.fmu.description import NUMBERS, REAL, Description, FMUVariable, read_description
+from acausal.fmu.chosen import Chosen, communication_step, interface, name_of
+from acausal.fmu.conversion import Conversion
+from acausal.fmu.description import REAL, Description, FMUVariable, read_description
+from acausal.fmu.evaluated import NEVER
 from acausal.fmu.fmu_view import as_html, as_text
 from acausal.fmu.function import FMUFunction
-from acausal.fmu.part import NEVER, Part
+from acausal.fmu.loaded import evaluated, has_events
+from acausal.fmu.part import Part
 from acausal.modeling import (
     HALF,
     Component,
@@ -29,34 +33,47 @@ from acausal.modeling import (
     Variable,
     When,
     der,
+    initial,
     pre,
+    sample,
     time,
     where,
 )
 
 HISTORY, NEXT, INDICATORS = "fmu.history", "fmu.next", "fmu.indicators"
+REACHED = "fmu.reached"
 """Names of what the model knows of the FMU's events."""
 
 
-class FMU(Component):
-    """A part that somebody else made: an FMU for model exchange, by FMI 2.0 or 3.0.
+class _Held(Discrete, Output):
+    """An output that is read at communication points and held between them."""
 
-    Its continuous states are states of the model. Inputs and outputs are signals, ``plant.f`` or ``plant["mass.s"]``.
-    Its real parameters are parameters of the component, by the FMU's names. **To simulate an FMU runs native code that
-    it brings along.**
+
+class FMU(Component):
+    """A part that somebody else made: an FMU for model exchange or co-simulation, by FMI 2.0 or 3.0.
+
+    In model exchange its continuous states are states of the model. In co-simulation it is a sampled part, which goes
+    from one communication point to the next by itself: inputs are set and held there, outputs are read there.
+    Inputs and outputs are signals, ``plant.f`` or ``plant["mass.s"]``. Its real parameters are parameters of the
+    component, by the FMU's names. **To simulate an FMU runs native code that it brings along.**
 
     Arguments:
         path: of the file.
         values: by the FMU's names, values of parameters; of inputs, which are then parameters, too; and of variables
             whose start value the FMU takes as it is, which become parameters ``"mass.s.start"``.
         observe: names of further variables that the model reads.
+        kind: ``"me"``, model exchange, or ``"cs"``, co-simulation. By default the first of these that the FMU has.
+        step: the communication step of co-simulation [s]; by default the one that the FMU suggests, or 1/500 of its
+            experiment.
+        open_loop: nothing that is trained acts on the inputs of a co-simulation, which has no derivatives with respect
+            to them: gradients take them as they are, and are not refused.
 
     Raises:
         DeclarationError: for a file that is not a sound FMU, an unknown name, or what is not supported.
     """
 
-    values = Module(doc="what the FMU computes between events")
-    event = Module(doc="what the FMU computes at an event")
+    values = Module(doc="what the FMU computes between events, or in a communication step")
+    event = Module(doc="what the FMU does at an event, or with new inputs")
 
     def __init__(
         self,
@@ -64,10 +81,14 @@ class FMU(Component):
         values: Mapping[str, Any] | None = None,
         *,
         observe: Sequence[str] = (),
+        kind: Literal["me", "cs"] | None = None,
+        step: float | None = None,
+        open_loop: bool = False,
     ) -> None:
         digest, folder = read(path)
         description = read_description(folder, path)
-        chosen = _Chosen(description, dict(values or {}), tuple(observe))
+        of = interface(description, kind)
+        chosen = Chosen(description, of, dict(values or {}), tuple(observe))
         part = Part(
             str(Path(path).resolve()),
             digest,
@@ -76,11 +97,15 @@ class FMU(Component):
             tuple(v.name for v in chosen.parameters),
             tuple(v.name for v in chosen.inputs),
             tuple(v.name for v in chosen.results),
+            of,
+            communication_step(description, of, step),
+            open_loop,
         )
-        super().__init__(values=FMUFunction(part, "evaluate"), event=FMUFunction(part, "event"))
+        values_of, event = ("evaluate", "event") if of == "me" else ("step", "take")
+        super().__init__(values=FMUFunction(part, values_of), event=FMUFunction(part, event))
         self._node.title = description.model
         self._part = part
-        self._has_events = part.has_events()
+        self._has_events = part.kind == "me" and has_events(part)
         self._names: dict[str, str] = {}
         self._declare(chosen)
 
@@ -110,40 +135,62 @@ class FMU(Component):
 
     # -- declarations ------------------------------------------------------------------------------
 
-    def _declare(self, chosen: _Chosen) -> None:
+    def _declare(self, chosen: Chosen) -> None:
         constant = [v for v in chosen.inputs if v.name in chosen.values]
         for v in (*chosen.parameters, *constant):
-            name = _name(v)
-            low, high = (None if np.isinf(limit) else limit for limit in (v.minimum, v.maximum))
-            declared = Parameter(unit=v.unit, min=low, max=high, shape=v.shape, doc=v.text)
+            name = name_of(v)
+            limits = sorted(map(v.conversion.to_model, (v.minimum, v.maximum)))
+            low, high = (None if np.isinf(limit) else limit for limit in limits)
+            unit = v.conversion.unit
+            declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
             self._add_declaration(name, declared)
-            given = chosen.values.get(v.name, v.starts if v.shape is not None else v.starts[0])
+            starts = [v.conversion.to_model(s) for s in v.starts]
+            given = chosen.values.get(v.name, starts if v.shape is not None else starts[0])
             self.modify(**{self._names[name]: given})
         for v in chosen.inputs:
             if v.name not in chosen.values:
-                kind = "bool" if v.type == "Boolean" else "real" if v.type in REAL else "int"
-                self._add_declaration(
-                    v.name, Input(kind=kind, unit=v.unit, shape=v.shape, doc=v.text)
-                )
+                declared = Input(kind=_kind(v), unit=v.conversion.unit, shape=v.shape, doc=v.text)
+                self._add_declaration(v.name, declared)
+        if self._part.kind == "cs":
+            self._declare_held(chosen.results)
+        else:
+            self._declare_continuous(chosen.results)
+
+    def _declare_held(self, results: Iterable[FMUVariable]) -> None:
+        for v in results:
+            declared = _Held(
+                _nested(v.starts, v.shape or ()),
+                kind=_kind(v),
+                unit=v.conversion.unit,
+                shape=v.shape,
+                doc=v.text,
+            )
+            self._add_declaration(v.name, declared)
+        self._add_declaration(HISTORY, Discrete(0, kind="int", doc="number of the FMU's history"))
+        self._add_declaration(REACHED, Discrete(0, kind="int", doc="the same before new inputs"))
+
+    def _declare_continuous(self, results: Sequence[FMUVariable]) -> None:
         known = self.description.variables
-        first, seen = 0, {v.name for v in chosen.results}
+        first, seen = 0, {v.name for v in results}
         for v in (known[n] for n in self.description.states):
             start = f"fmu_start_{first}"
             vars(self)[start] = self._starts(first, v)
             kind = Output if v.name in seen else Variable
             declared = kind(
                 start=start,
-                unit=v.unit,
-                nominal=v.nominal,
+                unit=v.conversion.unit,
+                nominal=abs(v.conversion.factor) * v.nominal,
                 state="always",
                 shape=v.shape,
                 doc=v.text,
             )
             self._add_declaration(v.name, declared)
             first += v.size
-        for v in chosen.results:
+        for v in results:
             if v.name not in self._names:
-                self._add_declaration(v.name, Output(unit=v.unit, shape=v.shape, doc=v.text))
+                self._add_declaration(
+                    v.name, Output(unit=v.conversion.unit, shape=v.shape, doc=v.text)
+                )
         if self._has_events:
             self._add_declaration(
                 HISTORY, Discrete(0, kind="int", doc="number of the FMU's history")
@@ -166,34 +213,59 @@ class FMU(Component):
         return [e for n in names for e in np.ravel(np.asarray(self[n], dtype=object)).tolist()]
 
     def _arguments(self, history: Any, inputs: list[Any]) -> list[Any]:
-        known, part = self.description.variables, self._part
-        names = [_name(known[n]) for n in part.parameters]
-        return [
-            time,
-            history,
-            *self._elements(self.description.states),
-            *inputs,
-            *self._elements(names),
-        ]
+        part = self._part
+        states = self.description.states if part.n else ()
+        return [time, history, *self._given(states), *inputs, *self._parameters()]
+
+    def _units(self, names: Iterable[str]) -> list[Conversion]:
+        known = self.description.variables
+        return [v.conversion for v in (known[n] for n in names) for _ in range(v.size)]
+
+    def _given(self, names: Sequence[str]) -> list[Any]:
+        """The values that the FMU gets for some variables, in its own units."""
+        each = zip(self._units(names), self._elements(names), strict=True)
+        return [units.to_fmu(value) for units, value in each]
+
+    def _parameters(self) -> list[Any]:
+        known, names = self.description.variables, self._part.parameters
+        values = self._elements(name_of(known[n]) for n in names)
+        return [u.to_fmu(value) for u, value in zip(self._units(names), values, strict=True)]
 
     def equations(self) -> Iterable[Any]:
         """Rates of states, outputs, and what happens at events."""
         part, known = self._part, self.description.variables
-        inputs = self._elements(part.inputs)
+        inputs = self._given(part.inputs)
+        if part.kind == "cs":
+            yield self._communication(inputs)
+            return
         history = self[HISTORY] if self._has_events else 0
         states = self._elements(self.description.states)
         arguments = self._arguments(history, inputs)
-        for i, state in enumerate(states):
-            yield Eq(der(state), self.values(i, *arguments))
+        units = self._units(self.description.states)
+        for i, (state, u) in enumerate(zip(states, units, strict=True)):
+            yield Eq(der(state), Conversion(u.unit, u.factor).to_model(self.values(i, *arguments)))
         place = len(states)
         for name in part.results:
             given = self._arguments(history, self._needed(name, inputs))
             for i, result in enumerate(self._elements([name])):
                 if known[name].name not in self.description.states:
-                    yield Eq(result, self.values(place + i, *given))
+                    found = self.values(place + i, *given)
+                    yield Eq(result, known[name].conversion.to_model(found))
             place += known[name].size
         if self._has_events:
             yield from self._events(place, arguments, states, inputs)
+
+    def _communication(self, inputs: list[Any]) -> When:
+        """The step to a communication point, and the inputs that hold from there on."""
+        given = self._arguments(pre(self[HISTORY]), [0.0] * len(inputs))
+        reached, names = self[REACHED], self._part.results
+        results = zip(self._elements(names), self._units(names), strict=True)
+        return When(
+            initial() | sample(0, self._part.step),
+            Eq(reached, self.values(0, *given)),
+            *[Eq(y, u.to_model(self.values(1 + i, *given))) for i, (y, u) in enumerate(results)],
+            Eq(self[HISTORY], self.event(0, *self._arguments(reached, inputs))),
+        )
 
     def _needed(self, result: str, inputs: list[Any]) -> list[Any]:
         """The inputs with a number for those on which a result does not depend: so there is no algebraic loop."""
@@ -215,20 +287,27 @@ class FMU(Component):
         yield Eq(self[HISTORY], self.event(0, *given))
         yield Eq(self[NEXT], self.event(1, *given))
         if states:
-            jumps = [Reinit(x, self.event(2 + i, *given)) for i, x in enumerate(states)]
+            each = enumerate(zip(states, self._units(self.description.states), strict=True))
+            jumps = [Reinit(x, u.to_model(self.event(2 + i, *given))) for i, (x, u) in each]
             yield When(abs(self[HISTORY] - pre(self[HISTORY])) > HALF, *jumps)
 
     def _starts(self, first: int, variable: FMUVariable) -> Any:
         """The start values of a state, which the FMU's own initialization finds, by expressions of parameters."""
-        part, known = self._part, self.description.variables
+        part = self._part
         zeros = [0.0] * (2 + part.n + part.n_inputs)
-        parameters = self._elements(_name(known[n]) for n in part.parameters)
+        parameters = self._parameters()
         function = GivenModule(f"start#{part.key}", FMUFunction(part, "begin"))
         places = range(1 + first, 1 + first + variable.size)
         each = [function(place, *zeros, *parameters) for place in places]
         if not parameters:  # they are numbers
-            each = part.first_states()[first : first + variable.size]
-        return _nested(each, variable.shape or ())
+            found = evaluated(part)
+            states = found.first_states if found is not None else [0.0] * part.n
+            each = states[first : first + variable.size]
+        return _nested([variable.conversion.to_model(e) for e in each], variable.shape or ())
+
+
+def _kind(variable: FMUVariable) -> Literal["bool", "real", "int"]:
+    return "bool" if variable.type == "Boolean" else "real" if variable.type in REAL else "int"
 
 
 def _nested(values: list[Any], shape: tuple[int, ...]) -> Any:
@@ -236,54 +315,3 @@ def _nested(values: list[Any], shape: tuple[int, ...]) -> Any:
     size = len(values) // shape[0] if shape else 1
     parts = (values[i : i + size] for i in range(0, len(values), size))
     return tuple(_nested(part, shape[1:]) for part in parts) if shape else values[0]
-
-
-class _Chosen:
-    """What a user wants of an FMU, sorted.
-
-    Attributes:
-        values: by name. settings: those of no real parameters. parameters, inputs, results: variables, in order.
-    """
-
-    def __init__(
-        self, description: Description, values: dict[str, Any], observe: tuple[str, ...]
-    ) -> None:
-        known = description.variables
-        for name in (*values, *observe):
-            if name not in known:
-                raise DeclarationError(
-                    f"FMU: '{description.model}' has no variable {shown(name)}: {nearest(str(name), list(known))}"
-                )
-        if not description.exchange:
-            raise DeclarationError(
-                f"FMU: '{description.model}' is for co-simulation only, which is not supported yet; export it for "
-                "model exchange."
-            )
-        self.values = values
-        self.settings = {n: v for n, v in values.items() if _is_setting(known[n])}
-        starts = [known[n] for n in values if known[n] not in description.parameters]
-        starts = [v for v in starts if v.name not in self.settings and v.causality != "input"]
-        for v in starts:
-            if v.initial != "exact" or v.type not in REAL[:2] or v.variability == "constant":
-                raise DeclarationError(
-                    f"FMU: '{v.name}' of '{description.model}' is computed by the FMU and takes no value."
-                )
-        self.parameters = [*description.parameters, *starts]
-        self.inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
-        results = [known[n] for n in dict.fromkeys((*description.outputs, *observe))]
-        self.results = [v for v in results if v.type in NUMBERS]
-
-
-def _is_setting(variable: FMUVariable) -> bool:
-    """Whether a value is fixed when the FMU is made."""
-    if variable.causality == "structuralParameter":
-        raise DeclarationError(
-            f"FMU: '{variable.name}' is a structural parameter, which is not supported yet."
-        )
-    return variable.causality == "parameter" and variable.type not in REAL[:2]
-
-
-def _name(variable: FMUVariable) -> str:
-    """The name of a value that a model gives: a start value is not the variable itself."""
-    own = variable.causality in ("parameter", "input")
-    return variable.name if own else f"{variable.name}.start"

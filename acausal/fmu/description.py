@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, Literal
 
 from acausal.errors import DeclarationError, shortened
-from acausal.fmu.archive import DESCRIPTION
+from acausal.fmu.archive import DESCRIPTION, Folder
+from acausal.fmu.conversion import Conversion, conversion, definitions
 from acausal.modeling import element_names
+from acausal.units import InSI
 
-Interface = Literal["model exchange", "co-simulation"]
+Interface = Literal["me", "cs"]
+"""Model exchange, or co-simulation."""
 
 REAL = ("Real", "Float64", "Float32")
 WHOLE = (
     "Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64",
 )  # fmt: skip
 NUMBERS = (*REAL, *WHOLE, "Boolean")
+
+STEPS = 500
+"""Communication steps in an experiment of which only the length is known."""
 
 DIRECTIONAL = re.compile(rb"<ModelExchange[^>]*providesDirectionalDerivatives\s*=\s*.(?:true|1)")
 """What fmpy does not read of FMI 3."""
@@ -32,6 +37,7 @@ class FMUVariable:
 
     Attributes:
         type: as FMI calls it. causality, variability, initial: as FMI has them; ``initial`` may be empty.
+        conversion: to the unit that it has in a model; all else is in its own ``unit``.
         start: as a text, or None. shape: of an array. minimum, maximum: infinite where none is given.
     """
 
@@ -43,6 +49,7 @@ class FMUVariable:
     initial: str
     start: str | None
     unit: str
+    conversion: Conversion
     shape: tuple[int, ...] | None
     minimum: float
     maximum: float
@@ -79,7 +86,8 @@ class Description:
         depends: for outputs and rates the variables that each depends on; None: all.
         indicators: how many event indicators there are.
         once: whether it can be instantiated only once in a process. directional: whether it has derivatives.
-        step: the size of steps that it suggests for co-simulation, or 0.
+        step: the size of communication steps that it suggests for co-simulation.
+        returns_early: whether a communication step may end before its end.
     """
 
     version: str
@@ -98,9 +106,14 @@ class Description:
     once: bool
     directional: bool
     step: float
+    returns_early: bool
 
     def __hash__(self) -> int:
         return hash((self.token, self.model, self.version))
+
+    def library(self, kind: Interface) -> str:
+        """The name of its library for model exchange or for co-simulation; empty where it has none."""
+        return self.exchange if kind == "me" else self.cosimulation
 
     def of(self, causality: str, types: Sequence[str] = NUMBERS) -> list[FMUVariable]:
         """The variables of a causality and of some types."""
@@ -113,14 +126,13 @@ class Description:
         return [v for v in self.of("parameter", REAL[:2]) if v.variability in ("fixed", "tunable")]
 
 
-def read_description(folder: Path, file: object) -> Description:
+def read_description(folder: Folder, file: object) -> Description:
     """The description in the folder of an FMU.
 
     Raises:
         DeclarationError: for one that is not sound, or that this package cannot use.
     """
-    path = folder / DESCRIPTION
-    content = path.read_bytes()
+    content = (folder.path / DESCRIPTION).read_bytes()
     if b"\0" in content or b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         raise DeclarationError(
             f"FMU: the {DESCRIPTION} of '{file}' has entities or is not in UTF-8; it is not read."
@@ -132,7 +144,7 @@ def read_description(folder: Path, file: object) -> Description:
             "FMU needs the package 'fmpy'; install it: pip install 'acausal[fmu]'"
         ) from None
     try:
-        return _described(read_model_description(folder), bool(DIRECTIONAL.search(content)))
+        return _described(read_model_description(folder.path), bool(DIRECTIONAL.search(content)))
     except DeclarationError:
         raise
     except Exception as error:  # the reader of another, on a file of a third
@@ -147,7 +159,8 @@ def _described(read: Any, directional: bool) -> Description:
         raise DeclarationError(
             f"FMU: FMI {read.fmiVersion} is not supported; export it by FMI 2.0 or 3.0."
         )
-    variables = {v.name: _variable(v) for v in read.modelVariables}
+    units = definitions(read.unitDefinitions)
+    variables = {v.name: _variable(v, units) for v in read.modelVariables}
     if len(variables) != len(read.modelVariables):
         raise ValueError("two variables have one name")
     exchange, cosimulation = read.modelExchange, read.coSimulation
@@ -189,13 +202,28 @@ def _described(read: Any, directional: bool) -> Description:
         indicators=indicators,
         once=bool(can.canBeInstantiatedOnlyOncePerProcess),
         directional=directional or bool(exchange and exchange.providesDirectionalDerivative),
-        step=float((experiment and experiment.stepSize) or 0.0),
+        step=_step(experiment, cosimulation),
+        returns_early=bool(getattr(cosimulation, "mightReturnEarlyFromDoStep", False)),
     )
 
 
-def _variable(read: Any) -> FMUVariable:
+def _step(experiment: Any, cosimulation: Any) -> float:
+    """The communication step: as the FMU suggests, else its own steps, else a part of its experiment, or of 1 s."""
+    begin, end, step = (
+        float(getattr(experiment, name, None) or 0.0)
+        for name in ("startTime", "stopTime", "stepSize")
+    )
+    own = float(getattr(cosimulation, "fixedInternalStepSize", None) or 0.0)
+    found = step or own or (end - begin) / STEPS
+    return found if 0 < found < math.inf else 1 / STEPS
+
+
+def _variable(read: Any, units: Mapping[str, InSI]) -> FMUVariable:
     declared = read.declaredType
     unit = read.unit or (declared.unit if declared is not None else None) or ""
+    is_difference = read.relativeQuantity
+    if is_difference is None:
+        is_difference = declared is not None and declared.relativeQuantity
     limits = [read.min, read.max, read.nominal]
     if declared is not None:
         of_type = (declared.min, declared.max, declared.nominal)
@@ -214,6 +242,7 @@ def _variable(read: Any) -> FMUVariable:
         initial=read.initial or "",
         start=read.start,
         unit=unit,
+        conversion=conversion(unit if is_real else "", units, is_difference=bool(is_difference)),
         shape=shape,
         minimum=-math.inf if low is None else low,
         maximum=math.inf if high is None else high,

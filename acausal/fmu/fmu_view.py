@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
-from acausal.fmu.description import WHOLE, Description, FMUVariable
+from acausal.fmu.description import WHOLE, FMUVariable
 from acausal.fmu.part import Part
 
 MOST = 12
@@ -34,27 +34,40 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
         yield "about", " ".join(d.text.split())
     yield "tool", d.tool or "unknown"
     known = d.variables
-    for what, names in (("states", d.states), ("inputs", part.inputs), ("outputs", part.results)):
+    states = d.states if part.n else ()
+    for what, names in (("states", states), ("inputs", part.inputs), ("outputs", part.results)):
         yield what, _listed([known[n] for n in names], with_values=what == "inputs")
     yield "parameters", _listed([known[n] for n in part.parameters], with_values=True)
     settings = d.of("parameter", ("String", "Boolean", "Float32", *WHOLE))
     if settings:
         yield "settings", _listed(settings, with_values=True)
-    if d.indicators:
+    if d.indicators and part.kind == "me":
         yield "events", f"{d.indicators} event indicators"
-    yield "derivatives", _derivatives(d)
+    if part.kind == "cs":
+        yield "used by", f"co-simulation, in steps of {part.step:g} s"
+    yield "derivatives", _derivatives(part)
 
 
 def _listed(variables: list[FMUVariable], *, with_values: bool) -> str:
     def one(v: FMUVariable) -> str:
         sizes = f"[{','.join(map(str, v.shape))}]" if v.shape is not None else ""
-        value = f" = {' '.join(v.start.split()[:4])}" if with_values and v.start else ""
-        return f"{v.name}{sizes}{value}{' ' * bool(v.unit)}{v.unit}"
+        starts = (v.start or "").split()[:4]
+        if v.conversion.unit != v.unit:
+            starts = [f"{v.conversion.to_model(float(s)):g}" for s in starts]
+        value = f" = {' '.join(starts)}" if with_values and starts else ""
+        unit = v.conversion.unit or v.unit
+        return f"{v.name}{sizes}{value}{' ' * bool(unit)}{unit}"
 
     more = f", and {len(variables) - MOST} more" if len(variables) > MOST else ""
     return ", ".join(map(one, variables[:MOST])) + more or "none"
 
 
-def _derivatives(d: Description) -> str:
-    own = "the FMU's directional derivatives" if d.directional else "difference quotients"
+def _derivatives(part: Part) -> str:
+    if part.kind == "cs":
+        return "with respect to parameters by difference quotients of instances"
+    own = (
+        "the FMU's directional derivatives"
+        if part.description.directional
+        else "difference quotients"
+    )
     return f"with respect to states and inputs by {own}, to parameters by difference quotients of instances"

@@ -12,7 +12,9 @@ import numpy as np
 from jax.custom_derivatives import SymbolicZero
 from jaxtyping import Array, Float
 
+from acausal.errors import SimulationError
 from acausal.fmu.handlers import FAILURES, called
+from acausal.fmu.loaded import computed
 from acausal.fmu.part import Part
 
 
@@ -22,11 +24,11 @@ class FMUFunction(eqx.Module):
     Programs call an FMU once for all numbers with the same arguments: the compiler merges equal calls.
 
     Attributes:
-        part: the FMU. kind: what is computed, see `acausal.fmu.part.Computed`.
+        part: the FMU. kind: what is computed: a function of `Evaluated` or `Stepped`.
     """
 
     part: Part = eqx.field(static=True)
-    kind: Literal["evaluate", "event", "begin"] = eqx.field(static=True)
+    kind: Literal["evaluate", "event", "begin", "step", "take"] = eqx.field(static=True)
 
     is_fixed: ClassVar[bool] = True
     """It is a part of the model and no parameter."""
@@ -34,16 +36,48 @@ class FMUFunction(eqx.Module):
     def __call__(self, which: Any, *values: Any) -> Float[Array, ""]:
         """The number at a place, counted from 0."""
         part = self.part
-        rows = {"evaluate": part.n_values, "event": 2 + part.n, "begin": 1 + part.n}[self.kind]
-        number = getattr(part.computed, self.kind)
+        rows = {
+            "evaluate": part.n_values,
+            "event": 2 + part.n,
+            "begin": 1 + part.n,
+            "step": 1 + part.n_values,
+            "take": 1,
+        }[self.kind]
+        number = getattr(computed(part), self.kind)
         kind = jnp.result_type(*values, np.float32)
-        found = _found(number, rows, *[jnp.asarray(v, kind) for v in values])
+        given = [jnp.asarray(v, kind) for v in values]
+        if self.kind == "take":
+            inputs = slice(2, 2 + part.n_inputs)
+            held = (
+                jax.lax.stop_gradient if part.open_loop else partial(_held, part.description.model)
+            )
+            given[inputs] = [held(u) for u in given[inputs]]
+        found = _found(number, rows, *given)
         return jnp.take(found, jnp.asarray(which).astype(int))
 
     def why_nonfinite(self) -> str | None:
         """Why the FMU last gave no finite numbers, if it said so."""
-        found = [FAILURES.pop(n) for n in self.part.computed.numbers if n in FAILURES]
+        found = [FAILURES.pop(n) for n in computed(self.part).numbers if n in FAILURES]
         return found[0] if found else None
+
+
+@partial(jax.custom_jvp, nondiff_argnums=(0,))
+def _held(model: str, u: Float[Array, ""]) -> Float[Array, ""]:
+    return u
+
+
+def _refuse(model: str, at: tuple[Array], along: tuple[Any]) -> tuple[Array, Array]:
+    """How an FMU for co-simulation depends on earlier inputs is inside of it."""
+    if not isinstance(along[0], SymbolicZero):
+        raise SimulationError(
+            f"FMU: the gradient goes through the inputs of '{model}', and a co-simulation has no derivatives with "
+            "respect to its inputs: use it by model exchange, or, if nothing that is trained acts on them, say so: "
+            "ac.FMU(..., open_loop=True)."
+        )
+    return at[0], jnp.zeros_like(at[0])
+
+
+_held.defjvp(_refuse, symbolic_zeros=True)
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0, 1))

@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from acausal.fmu.instance import BYTES
+from acausal.fmu.library import BYTES
 
 Call = Callable[[int, int], object]
 """A function of two addresses: of the numbers that it takes, and of those that it gives."""

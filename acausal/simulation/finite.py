@@ -15,7 +15,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal._jax import traced
-from acausal.codegen import Values
+from acausal.codegen import Values, said_by_modules
 from acausal.errors import user_level
 
 if TYPE_CHECKING:
@@ -90,6 +90,8 @@ def _reason(system: System, values: Values, name: str, k: int) -> str:
         )
     else:
         reason = system.explain_nonfinite(_at(values, k), name)
+    if reason is None and (said := said_by_modules(values.packed.modules)):
+        return said
     if reason is None:
         return "The model may diverge there: check its parameters, initial values and inputs, or take a smaller dt."
     return f"{'On the way there' if broken else 'There'} {reason}"

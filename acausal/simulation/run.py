@@ -67,10 +67,8 @@ class Run(NamedTuple):
                 continue
             bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
             if len(bad):
-                said = said_by_modules(self.start.packed.modules)
-                reason = f" {said}" if said else ""
                 raise SimulationError(
-                    f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.{reason}"
+                    f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.{self._said()}"
                 )
 
         d = self.start.d
@@ -78,8 +76,14 @@ class Run(NamedTuple):
             place = int(np.argmin(np.isfinite(np.asarray(d))))
             what = self.system.describe_discrete(place)
             period = ", as its period is not above zero" if "sample(" in what else ""
-            raise SimulationError(f"At the start '{what}' is {float(d[place])}{period}.")
+            raise SimulationError(
+                f"At the start '{what}' is {float(d[place])}{period}.{self._said()}"
+            )
         self._check_clocks()
+
+    def _said(self) -> str:
+        said = said_by_modules(self.start.packed.modules)
+        return f" {said}" if said else ""
 
     def _check_clocks(self) -> None:
         """Refuse clocks whose instants count as one: events miss those behind the first."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
+import gc
 import stat
 import zipfile
 from collections.abc import Callable
@@ -105,11 +105,12 @@ def test_what_grows_without_end_is_refused(ball: Path, tmp_path: Path) -> None:
     assert "so much is not unpacked" in sentence(path)
 
 
+@pytest.mark.parametrize("seed", [7, *(pytest.param(s, marks=pytest.mark.slow) for s in range(5))])
 def test_mutated_archives_are_read_or_refused(
-    ball: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ball: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seed: int
 ) -> None:
     monkeypatch.setattr(archive.tempfile, "tempdir", str(tmp_path))
-    kept, key = ball.read_bytes(), np.random.default_rng(7)
+    kept, key = ball.read_bytes(), np.random.default_rng(seed)
     with zipfile.ZipFile(ball) as source:
         description = source.read("modelDescription.xml")
     for k in range(60):
@@ -127,10 +128,8 @@ def test_mutated_archives_are_read_or_refused(
             changed(ball, path, lambda n, c, new=bytes(content): new if n.endswith(".xml") else c)
         with suppress(ac.AcausalError):  # any other error is a defect
             _shown(path)
-    folders = [p for p in tmp_path.iterdir() if p.is_dir()]
-    assert all(f.name.startswith("acausal-fmu-") for f in folders)
-    for folder in folders:
-        shutil.rmtree(folder)
+    gc.collect()  # errors refer to the frames that they went through
+    assert not any(p.is_dir() for p in tmp_path.iterdir())  # none is left
 
 
 def _shown(path: Path) -> None:

@@ -95,8 +95,6 @@ def test_instants_of_events_have_derivatives() -> None:
 
 
 def test_what_is_not_supported_is_refused() -> None:
-    with pytest.raises(ac.DeclarationError, match="for co-simulation only"):
-        ac.FMU(foreign_fmu("FMU3Model"))
     with pytest.raises(ac.DeclarationError, match=r"'mass\.s' of 'Mass_Damper' is computed"):
         ac.FMU(foreign_fmu("Mass_Damper"), {"mass.s": 1.0})
 

@@ -14,7 +14,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import blocks
-from acausal.fmu.part import Computed
+from acausal.fmu.derivatives import Differentiated
 from tests.export.test_c import Chain
 from tests.support.fmus import need_fmpy
 from tests.support.hybrid import Ball, Sampled, Thermostat
@@ -100,13 +100,13 @@ def test_only_what_is_differentiated_costs_evaluations(
     exported: Exported, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     columns: list[int] = []
-    quotient = Computed._quotient
+    quotient = Differentiated.quotient
 
-    def counted(self: Computed, *given: Any) -> Any:
-        columns.append(given[3])
+    def counted(self: Differentiated, *given: Any) -> Any:
+        columns.append(given[2])
         return quotient(self, *given)
 
-    monkeypatch.setattr(Computed, "_quotient", counted)
+    monkeypatch.setattr(Differentiated, "quotient", counted)
     system = ac.compile(FedBack(exported(Mass)))
     x, known = jnp.array([0.1, 0.3]), system.parameters()
 

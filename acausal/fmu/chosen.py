@@ -1,0 +1,96 @@
+"""What a user wants of an FMU: which of its variables are parameters, inputs and results of the model."""
+
+from __future__ import annotations
+
+import math
+from numbers import Real
+from typing import Any
+
+from acausal.errors import DeclarationError, nearest, shown
+from acausal.fmu.description import NUMBERS, REAL, Description, FMUVariable, Interface
+
+
+def interface(description: Description, kind: Any) -> Interface:
+    """Model exchange where the FMU has it, else co-simulation, or what the user wants.
+
+    Raises:
+        DeclarationError: for a kind that the FMU has not.
+    """
+    has: list[Interface] = [k for k in ("me", "cs") if description.library(k)]
+    if kind is not None and kind not in has:
+        raise DeclarationError(
+            f"FMU: '{description.model}' has {' and '.join(map(repr, has))}, not kind={shown(kind)}; "
+            "'me' is model exchange, 'cs' co-simulation."
+        )
+    return kind or has[0]
+
+
+def communication_step(description: Description, kind: Interface, step: Any) -> float:
+    """The communication step of co-simulation [s]; 0 for model exchange.
+
+    Raises:
+        DeclarationError: for what is not a time above zero, or for model exchange.
+    """
+    if step is None:
+        return description.step if kind == "cs" else 0.0
+    if kind == "me":
+        raise DeclarationError(
+            f"FMU: '{description.model}' is used by model exchange, which has no communication step; leave step= out, "
+            "or give kind='cs'."
+        )
+    if not isinstance(step, Real) or not 0 < float(step) < math.inf:
+        raise DeclarationError(f"FMU: step={shown(step)} must be a time above zero, in seconds.")
+    return float(step)
+
+
+class Chosen:
+    """The variables of an FMU, sorted.
+
+    Attributes:
+        values: by name. settings: those of no real parameters. parameters, inputs, results: variables, in order.
+    """
+
+    def __init__(
+        self,
+        description: Description,
+        kind: Interface,
+        values: dict[str, Any],
+        observe: tuple[str, ...],
+    ) -> None:
+        known = description.variables
+        for name in (*values, *observe):
+            if name not in known:
+                raise DeclarationError(
+                    f"FMU: '{description.model}' has no variable {shown(name)}: {nearest(str(name), list(known))}"
+                )
+        self.values = values
+        self.settings = {n: v for n, v in values.items() if _is_setting(known[n])}
+        starts = [known[n] for n in values if known[n] not in description.parameters]
+        starts = [v for v in starts if v.name not in self.settings and v.causality != "input"]
+        for v in starts:
+            if v.initial != "exact" or v.type not in REAL[:2] or v.variability == "constant":
+                raise DeclarationError(
+                    f"FMU: '{v.name}' of '{description.model}' is computed by the FMU and takes no value."
+                )
+        self.parameters = [*description.parameters, *starts]
+        self.inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
+        if kind == "cs":  # an input with a value is what a parameter is: it holds from the start
+            self.parameters += [v for v in self.inputs if v.name in values]
+            self.inputs = [v for v in self.inputs if v.name not in values]
+        results = [known[n] for n in dict.fromkeys((*description.outputs, *observe))]
+        self.results = [v for v in results if v.type in NUMBERS]
+
+
+def _is_setting(variable: FMUVariable) -> bool:
+    """Whether a value is fixed when the FMU is made."""
+    if variable.causality == "structuralParameter":
+        raise DeclarationError(
+            f"FMU: '{variable.name}' is a structural parameter, which is not supported yet."
+        )
+    return variable.causality == "parameter" and variable.type not in REAL[:2]
+
+
+def name_of(variable: FMUVariable) -> str:
+    """The name of a value that a model gives: a start value is not the variable itself."""
+    own = variable.causality in ("parameter", "input")
+    return variable.name if own else f"{variable.name}.start"

@@ -1,0 +1,96 @@
+"""What computes one FMU of a model in this process: its library, its instances, and its functions by their numbers."""
+
+from __future__ import annotations
+
+import ctypes as C
+from threading import RLock
+from typing import ClassVar
+
+import numpy as np
+
+from acausal.errors import DeclarationError
+from acausal.fmu.archive import read
+from acausal.fmu.histories import KEPT, After, Event, Histories
+from acausal.fmu.instance import Instance
+from acausal.fmu.library import BYTES, DiscardError, Library, Variables
+from acausal.fmu.part import Part
+
+
+class Computed:
+    """The functions of one part, by address, and their instances.
+
+    The arguments of all are: time, history, states, inputs, parameters; some take more behind them. What they give is a
+    pure function of these, so that steps may be tried, repeated and gone through backwards.
+
+    Attributes:
+        numbers: of all functions.
+    """
+
+    make: ClassVar[type[Instance]]
+
+    def __init__(self, part: Part) -> None:
+        digest, folder = read(part.path)
+        if digest != part.digest:
+            raise DeclarationError(
+                f"FMU: '{part.path}' is no longer the file that the model was made of."
+            )
+        self.part, self.description = part, part.description
+        known = self.description.variables
+        self._parameters = self._variables(part.parameters)
+        self._inputs, self._results = self._variables(part.inputs), self._variables(part.results)
+        self._settings = tuple((known[n], v) for n, v in part.settings)
+        key = part.digest, part.kind
+        if key not in _LIBRARIES:
+            _LIBRARIES[key] = Library(self.description, folder, part.kind)
+        self._library = _LIBRARIES[key]
+        self._lock = RLock()
+        most = 1 if self.description.once else max(KEPT, 4 * (part.n_parameters + 1))
+        self._histories = Histories(most, self._first, self._go)
+        n, k, m = part.n, part.n_inputs, part.n_parameters
+        self._at_states, self._at_inputs = 2 * BYTES, (2 + n) * BYTES
+        self._at_parameters, self._behind = (2 + n + k) * BYTES, (2 + n + k + m) * BYTES
+        names = (*(self.description.states if n else ()), *part.inputs, *part.parameters)
+        each = [[v.nominal] * v.size for v in (known[n] for n in names)]
+        self._scales = np.asarray([1.0, 0.0, *(s for sizes in each for s in sizes)])
+        self._new().free()  # an FMU that cannot be used says so before it is needed
+        self.numbers: tuple[int, ...] = ()
+
+    def _variables(self, names: tuple[str, ...]) -> Variables:
+        known = self.description.variables
+        return Variables(self.description.version, [known[n] for n in names])
+
+    def _new(self) -> Instance:
+        return self.make(
+            self._library, self._settings, self._parameters, self._inputs, self._results
+        )
+
+    def _first(self, parameters: bytes, old: Instance | None) -> Instance:
+        """An instance without a history."""
+        raise NotImplementedError
+
+    def _go(self, instance: Instance, event: Event) -> After:
+        """What is behind an event."""
+        raise NotImplementedError
+
+    def defaults(self) -> bytes:
+        """The parameters as the FMU has them."""
+        known = self.description.variables
+        starts = [s for name in self.part.parameters for s in known[name].starts]
+        return np.asarray(starts, float).tobytes()
+
+    # -- arguments ---------------------------------------------------------------------------------
+
+    def _values_of_inputs(self, at: int) -> bytes:
+        return C.string_at(at + self._at_inputs, self._at_parameters - self._at_inputs)
+
+    def _values_of_parameters(self, at: int) -> bytes:
+        return C.string_at(at + self._at_parameters, self._behind - self._at_parameters)
+
+    def _history(self, at: int) -> int:
+        history = C.c_double.from_address(at + BYTES).value
+        if not history >= 0:  # behind a failure there is none
+            raise DiscardError
+        return int(history)
+
+
+_LIBRARIES: dict[tuple[str, str], Library] = {}

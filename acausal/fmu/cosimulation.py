@@ -1,0 +1,204 @@
+"""An FMU for co-simulation in a model: it goes from one communication point to the next by itself.
+
+Its inputs are set at these points and held; its outputs are read there. A step, and the setting of inputs behind it,
+are events of its history, so that a step that is tried again, or another simulation, finds an instance of its own.
+"""
+
+from __future__ import annotations
+
+import ctypes as C
+from typing import Any
+
+import numpy as np
+
+from acausal.fmu.computed import Computed
+from acausal.fmu.derivatives import Differentiated
+from acausal.fmu.histories import After, Event
+from acausal.fmu.instance import Instance
+from acausal.fmu.library import BYTES, DISCARD, ERROR, FMUError
+from acausal.fmu.part import Part
+
+EXPLODED = 1e30
+"""An output of this size, in units of its nominal value, is no result."""
+
+RETURNS = 10_000
+"""So many early returns within one step are endless."""
+
+LAST_SUCCESSFUL_TIME, TERMINATED = 2, 3
+"""What FMI 2.0 calls these when a step has failed."""
+
+
+class Slave(Instance):
+    """An instance at a communication point.
+
+    Attributes:
+        values: its parameters. time: where it is. steps: how many it has gone. started: whether it is initialized.
+    """
+
+    values = b""
+    time = 0.0
+    steps = 0
+    started = False
+
+    def free(self) -> None:
+        """End its simulation, and give it back."""
+        if self.address and self.started:
+            self.library.function("Terminate", C.c_void_p)(self.address)
+        super().free()
+        self.started = False
+
+    def start(self, time: float, parameters: bytes, inputs: bytes) -> None:
+        """Begin a simulation; without inputs the FMU's own hold at the start."""
+        held, given = (np.frombuffer(b).copy() for b in (parameters, inputs))
+        self.initialize(time, held.ctypes.data, given.ctypes.data if inputs else 0, again=False)
+        self.time, self.started = time, True
+
+    def take(self, inputs: bytes) -> None:
+        """Set the inputs that hold from now on."""
+        given = np.frombuffer(inputs).copy()
+        self._write(self._writes, given.ctypes.data, "an input")
+
+    def advance(self, end: float) -> None:
+        """Go to the next communication point.
+
+        Raises:
+            FMUError: where the FMU does not get there.
+        """
+        step = self._step_2 if self.library.is_2 else self._step_3
+        for _ in range(RETURNS):
+            self.time = step(self.time, end - self.time)
+            if not self.time < end - 1e-9 * abs(end):
+                self.time, self.steps = end, self.steps + 1
+                return
+        raise self._failure(end, "returns early for ever")
+
+    def _failure(self, time: float, what: str) -> FMUError:
+        said = self.library.said()
+        return FMUError(
+            f"FMU: '{self.library.description.model}' {what} at {time:g} s{said}; try a smaller step=."
+        )
+
+    def _step_2(self, time: float, size: float) -> float:
+        step = self.library.function("DoStep", C.c_void_p, C.c_double, C.c_double, C.c_int)
+        status = step(self.address, time, size, 1)
+        if status == DISCARD:
+            ended, last = C.c_int(), C.c_double(time)
+            kinds = (C.c_void_p, C.c_int, C.c_void_p)
+            ask = self.library.function
+            ask("GetBooleanStatus", *kinds)(self.address, TERMINATED, C.addressof(ended))
+            ask("GetRealStatus", *kinds)(self.address, LAST_SUCCESSFUL_TIME, C.addressof(last))
+            if ended.value:
+                raise self._failure(last.value, "ends the simulation")
+            if not last.value > time:
+                raise self._failure(time, "refuses the step")
+            return last.value
+        if status > ERROR + 1:
+            raise self._failure(time, "computes a step in the background, which is not supported,")
+        self.check(status, f"the step at {time:g} s")
+        return time + size
+
+    def _step_3(self, time: float, size: float) -> float:
+        flags, last = [C.c_bool() for _ in range(3)], C.c_double(time + size)
+        kinds = (C.c_void_p, C.c_double, C.c_double, C.c_bool, *[C.c_void_p] * 4)
+        step = self.library.function("DoStep", *kinds)
+        status = step(
+            self.address, time, size, True, *map(C.addressof, flags), C.addressof(last)
+        )  # fmt: skip
+        _, ended, early = (flag.value for flag in flags)
+        if ended:
+            raise self._failure(last.value, "ends the simulation")
+        if status == DISCARD:
+            raise self._failure(time, "refuses the step")
+        self.check(status, f"the step at {time:g} s")
+        return last.value if early else time + size
+
+
+class Stepped(Computed):
+    """The functions of co-simulation: ``step`` to a communication point, and ``take`` the inputs that hold from there.
+
+    Attributes:
+        step, take: numbers of the functions; `step` has derivatives with respect to parameters behind it.
+    """
+
+    make = Slave
+
+    def __init__(self, part: Part) -> None:
+        super().__init__(part)
+        known = self.description.variables
+        nominal = [[known[n].nominal] * known[n].size for n in part.results]
+        self._sizes = np.asarray([s for sizes in nominal for s in sizes])
+        first = 2 + part.n_inputs
+        width = first + part.n_parameters
+        of_step = Differentiated(
+            self._step, width, 1 + part.n_values, range(first, width), self._scales, self._lock
+        )
+        of_taking = Differentiated(self._take, width, 1, (), self._scales, self._lock)
+        self.step, self.take = of_step.register(), of_taking.register()
+        self.numbers = tuple(range(self.step, self.take + 1))
+
+    def _first(self, parameters: bytes, old: Instance | None) -> Slave:
+        """A new instance: FMUs that are reset have been seen to keep what they knew."""
+        if old is not None:
+            old.free()
+        made = self._new()
+        assert isinstance(made, Slave)
+        made.values = parameters
+        return made
+
+    def _go(self, instance: Instance, event: Event) -> After:
+        """A communication step, or new inputs; those of the start are initial values, too."""
+        assert isinstance(instance, Slave)
+        if not event.timed:
+            if instance.steps or not event.inputs:
+                instance.take(event.inputs)
+            else:
+                instance.free()
+                instance.make()
+                instance.start(event.time, instance.values, event.inputs)
+            return After(0, np.inf, b"", 0)
+        if instance.started:
+            instance.advance(event.time)
+        else:
+            instance.start(event.time, instance.values, b"")
+        return After(0, np.inf, self._outputs(instance, event.time).tobytes(), 0)
+
+    def _outputs(self, instance: Slave, time: float) -> Any:
+        found = np.zeros(self._results.size)
+        instance.read_results(found.ctypes.data)
+        bad = ~(np.abs(found) < EXPLODED * self._sizes)
+        if bad.any():
+            name = self.part.elements(self.part.results)[int(np.argmax(bad))]
+            other = " or kind='me', which has our steps" if self.description.exchange else ""
+            raise FMUError(
+                f"FMU: the co-simulation of '{self.description.model}' explodes: '{name}' is "
+                f"{found[bad][0]:g} at {time:g} s; use a smaller step= than {self.part.step:g} s{other}."
+            )
+        return found
+
+    # -- functions ---------------------------------------------------------------------------------
+
+    def _step(self, at: int, into: int) -> int:
+        """The number of the history behind the step, and the outputs."""
+        with self._lock:
+            before, time = self._history(at), C.c_double.from_address(at).value
+            known = self._histories.events
+            event = Event(before, time, b"", b"", b"", timed=True)
+            there = known[before].time == time
+            if there:  # the step that led there
+                event = known[before]
+                while not event.timed:
+                    event = known[event.before]
+            after = self._histories.after(self._values_of_parameters(at), event)
+            history, outputs = before if there else after.history, after.numbers
+            C.c_double.from_address(into).value = history
+            C.memmove(into + BYTES, outputs, len(outputs))
+        return 0
+
+    def _take(self, at: int, into: int) -> int:
+        """The number of the history behind new inputs."""
+        with self._lock:
+            before, time = self._history(at), C.c_double.from_address(at).value
+            event = Event(before, time, b"", self._values_of_inputs(at), b"", timed=False)
+            after = self._histories.after(self._values_of_parameters(at), event)
+            C.c_double.from_address(into).value = after.history
+        return 0

@@ -1,0 +1,144 @@
+"""The instances of one FMU in a model, found by their parameters and by their *history*: what they have gone through.
+
+What an FMU remembers follows from these two. The model keeps the history's number as a discrete variable; where there
+is no instance with that history, a new one goes through the same events.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+from weakref import finalize
+
+from acausal.fmu.instance import Instance
+
+KEPT = 128
+"""Instances of an FMU, for different parameters and histories, that are kept; the least used one goes."""
+
+RESULTS = 65_536
+"""Events of which what is behind them is kept."""
+
+
+class Event(NamedTuple):
+    """An event that an FMU has gone through.
+
+    Attributes:
+        before: the history before it. time, states, inputs: what held. signs: which indicators were positive.
+        timed: whether its time was known: a time event, or the end of a communication step.
+    """
+
+    before: int
+    time: float
+    states: bytes
+    inputs: bytes
+    signs: bytes
+    timed: bool
+
+
+class After(NamedTuple):
+    """What is behind an event: number of the history, next time event, numbers; and how often it was shifted.
+
+    Attributes:
+        numbers: the states, or the outputs of a communication step.
+    """
+
+    history: int
+    next: float
+    numbers: bytes
+    nudges: int
+
+
+class Histories:
+    """The instances of an FMU, and the events that they have gone through; history 0 has none.
+
+    Arguments:
+        most: so many instances are kept.
+        begin: a new instance with these parameters; it may be made of one that is no longer needed.
+        go: leads an instance through an event.
+    """
+
+    def __init__(
+        self,
+        most: int,
+        begin: Callable[[bytes, Instance | None], Instance],
+        go: Callable[[Instance, Event], After],
+    ) -> None:
+        self._most, self._begin, self._go = most, begin, go
+        self._instances: OrderedDict[tuple[bytes, int], Instance] = OrderedDict()
+        self.events: list[Event] = [Event(-1, -float("inf"), b"", b"", b"", False)]
+        self._numbers: dict[Event, int] = {}
+        self._afters: OrderedDict[tuple[bytes, Event], After] = OrderedDict()
+        finalize(self, _free_all, self._instances)
+
+    def instance(self, parameters: bytes, history: int) -> Instance:
+        """The instance with these parameters that has gone through a history."""
+        key = parameters, history
+        found = self._instances.get(key)
+        if found is None:
+            found = self._again(parameters, history)
+            self._instances[key] = found
+        elif len(self._instances) > 1:
+            self._instances.move_to_end(key)
+        return found
+
+    def _again(self, parameters: bytes, history: int) -> Instance:
+        """An instance that goes through a history, from where one has come already if possible."""
+        chain: list[Event] = []
+        while history > 0 and (parameters, history) not in self._instances:
+            chain.append(self.events[history])
+            history = self.events[history].before
+        instance = self._instances.pop((parameters, history), None) if chain else None
+        if instance is None:
+            again = len(self._instances) >= self._most
+            instance = self._begin(
+                parameters, self._instances.popitem(last=False)[1] if again else None
+            )
+        return self._through(parameters, instance, reversed(chain))[0]
+
+    def _through(
+        self, parameters: bytes, instance: Instance, events: Iterable[Event]
+    ) -> tuple[Instance, int]:
+        """The instance behind some events, and the number of its history; what is behind each of them is kept."""
+        history = 0
+        try:
+            for event in events:
+                after = self._go(instance, event)
+                instance.due = after.next
+                history = self._numbers.setdefault(event, len(self.events))
+                if history == len(self.events):
+                    self.events.append(event)
+                self._keep((parameters, event), after._replace(history=history))
+        except BaseException:
+            instance.free()
+            raise
+        return instance, history
+
+    def after(self, parameters: bytes, event: Event) -> After:
+        """What is behind an event. The instance before it goes through it."""
+        key = parameters, event
+        if (known := self._afters.get(key)) is not None:
+            return known
+        last = self.events[event.before]
+        same = (last.time, last.inputs, last.signs) == (event.time, event.inputs, event.signs)
+        instance = self.instance(parameters, event.before)
+        if same:  # it has gone through this event
+            return self._keep(key, After(event.before, instance.due, event.states, 0))
+        del self._instances[parameters, event.before]
+        _, history = self._through(parameters, instance, [event])
+        if (old := self._instances.pop((parameters, history), None)) is not None:
+            old.free()
+        self._instances[parameters, history] = instance
+        return self._afters[key]
+
+    def _keep(self, key: tuple[bytes, Event], after: After) -> After:
+        self._afters[key] = after
+        if len(self._afters) > RESULTS:
+            self._afters.popitem(last=False)
+        return after
+
+
+def _free_all(instances: OrderedDict[Any, Instance]) -> None:
+    for instance in instances.values():
+        instance.free()
+    instances.clear()

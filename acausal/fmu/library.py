@@ -1,0 +1,220 @@
+"""The library of an FMU, loaded by ctypes: its functions, its log messages, and how its variables are read and set."""
+
+from __future__ import annotations
+
+import ctypes as C
+from collections import deque
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+from acausal.errors import SimulationError, shortened
+from acausal.fmu.archive import Folder, binary
+from acausal.fmu.description import Description, FMUVariable, Interface
+
+OK, WARNING, DISCARD, ERROR, FATAL = range(5)
+BYTES = C.sizeof(C.c_double)
+
+KINDS: dict[str, tuple[str, Any]] = {
+    "Real": ("Real", C.c_double),
+    "Float64": ("Float64", C.c_double),
+    "Float32": ("Float32", C.c_float),
+    "Int8": ("Int8", C.c_int8),
+    "UInt8": ("UInt8", C.c_uint8),
+    "Int16": ("Int16", C.c_int16),
+    "UInt16": ("UInt16", C.c_uint16),
+    "Int32": ("Int32", C.c_int32),
+    "UInt32": ("UInt32", C.c_uint32),
+    "Int64": ("Int64", C.c_int64),
+    "UInt64": ("UInt64", C.c_uint64),
+    "Integer": ("Integer", C.c_int),
+}
+"""By type of FMI, the word in the names of its functions and the type in C."""
+
+MESSAGES = 5
+"""The last log messages of an FMU are kept for errors."""
+
+
+class FMUError(SimulationError):
+    """An FMU has refused a call."""
+
+
+class DiscardError(Exception):
+    """An FMU cannot compute anything at these values; a shorter step may do."""
+
+
+class Variables:
+    """Variables that are read and written by one call for each type.
+
+    Arguments:
+        kinds: of this version of FMI. variables: in order.
+    """
+
+    def __init__(self, version: str, variables: Sequence[FMUVariable]) -> None:
+        self.size = sum(v.size for v in variables)
+        self.blocks: list[tuple[str, Any, Any, int, int, int]] = []
+        first = 0
+        for v in variables:
+            word, kind = kind_of(version, v.type)
+            last = self.blocks[-1] if self.blocks else None
+            if last is not None and last[0] == word:
+                references = (*last[2], v.reference)
+                self.blocks[-1] = (word, kind, references, last[3], last[4] + v.size, 0)
+            else:
+                self.blocks.append((word, kind, (v.reference,), first, v.size, 0))
+            first += v.size
+        self.blocks = [
+            (word, kind, (C.c_uint32 * len(r))(*r), start, size, len(r))
+            for word, kind, r, start, size, _ in self.blocks
+        ]
+
+
+def kind_of(version: str, name: str) -> tuple[str, Any]:
+    """The word in the names of functions, and the type in C, of a type of FMI."""
+    if name == "Boolean":
+        return ("Boolean", C.c_int if version == "2.0" else C.c_bool)
+    if name == "Enumeration":
+        return ("Integer", C.c_int) if version == "2.0" else ("Int64", C.c_int64)
+    return KINDS[name]
+
+
+_MESSAGES: dict[bytes, deque[str]] = {}
+"""What instances have logged, by their name: fmpy's proxy calls the logger that was registered last."""
+
+
+class Library:
+    """The loaded library of an FMU.
+
+    Attributes:
+        messages: the last ones that its instances have logged. instances: how many there are.
+    """
+
+    instances = 0
+
+    def __init__(self, description: Description, folder: Folder, kind: Interface) -> None:
+        self.description, self.folder, self.kind = description, folder, kind
+        self.name = description.model.encode()
+        self.messages = _MESSAGES.setdefault(self.name, deque(maxlen=MESSAGES))
+        path = binary(folder.path, description.library(kind), description.model)
+        try:
+            self._library = C.PyDLL(str(path))
+        except OSError as error:
+            why = str(error).replace(str(path.parent), "").replace(str(path), path.name)
+            raise FMUError(
+                f"FMU: the library of '{description.model}' does not load: {shortened(why, 200)}; "
+                "install what it needs, or export it for this system."
+            ) from None
+        self.prefix = f"fmi{description.version[0]}"
+        self._log = self._logger()
+
+    @property
+    def is_2(self) -> bool:
+        """Whether it is of FMI 2.0."""
+        return self.prefix == "fmi2"
+
+    def function(self, name: str, *kinds: Any, result: Any = C.c_int) -> Any:
+        """A function of the library.
+
+        Raises:
+            FMUError: where it lacks one.
+        """
+        try:
+            found = self._library[self.prefix + name]
+        except AttributeError:
+            raise FMUError(
+                f"FMU: the library of '{self.description.model}' lacks '{self.prefix}{name}'; export it again."
+            ) from None
+        found.argtypes, found.restype = kinds, result
+        return found
+
+    def _logger(self) -> Any:
+        def keep(name: bytes, status: int, message: bytes | None) -> None:
+            if status > OK and message and name in _MESSAGES:
+                _MESSAGES[name].append(message.decode(errors="replace").strip())
+
+        if not self.is_2:
+            kind = C.CFUNCTYPE(None, C.c_void_p, C.c_int, C.c_char_p, C.c_char_p)
+            return kind(lambda _, status, __, message: keep(self.name, status, message))
+        from fmpy import fmi2
+
+        callbacks = fmi2.fmi2CallbackFunctions()
+        callbacks.logger = fmi2.fmi2CallbackLoggerTYPE(
+            lambda _, name, s, __, text: keep(name, s, text)
+        )
+        callbacks.allocateMemory = fmi2.defaultCallbacks.allocateMemory
+        callbacks.freeMemory = fmi2.defaultCallbacks.freeMemory
+        try:
+            from fmpy.logging import addLoggerProxy
+
+            addLoggerProxy(C.byref(callbacks))
+        except (ImportError, OSError):  # messages then lack their numbers
+            pass
+        return callbacks
+
+    def instantiate(self) -> int:
+        """The address of a new instance.
+
+        Raises:
+            FMUError: if the FMU refuses, as it does for a wrong GUID.
+        """
+        d, resources = self.description, self.folder.path / "resources"
+        name, token = self.name, d.token.encode()
+        text, boolean = C.c_char_p, C.c_int if self.is_2 else C.c_bool
+        if self.is_2:
+            make = self.function(
+                "Instantiate", text, C.c_int, text, text, C.c_void_p, boolean, boolean, result=C.c_void_p
+            )  # fmt: skip
+            place = resources.as_uri().encode()
+            made = make(name, int(self.kind == "cs"), token, place, C.addressof(self._log), 0, 1)
+        elif self.kind == "cs":
+            more = (boolean, boolean, C.c_void_p, C.c_size_t, C.c_void_p, C.c_void_p, C.c_void_p)
+            make = self.function(
+                "InstantiateCoSimulation", text, text, text, boolean, boolean, *more, result=C.c_void_p
+            )  # fmt: skip
+            log = C.cast(self._log, C.c_void_p)
+            early = d.returns_early
+            place = f"{resources}/".encode()
+            made = make(name, token, place, False, True, False, early, None, 0, None, log, None)
+        else:
+            make = self.function(
+                "InstantiateModelExchange", text, text, text, boolean, boolean, C.c_void_p, C.c_void_p,
+                result=C.c_void_p,
+            )  # fmt: skip
+            place = f"{resources}/".encode()
+            made = make(name, token, place, False, True, None, C.cast(self._log, C.c_void_p))
+        if not made:
+            raise FMUError(f"FMU: '{d.model}' gives no instance{self.said()}.")
+        return int(made)
+
+    def said(self) -> str:
+        """The last messages, as a clause."""
+        found = "; ".join(dict.fromkeys(self.messages))
+        return f": it says '{shortened(' '.join(found.split()), 300)}'" if found else ""
+
+    @cached_property
+    def calls(self) -> dict[str, Any]:
+        """The functions of model exchange that all steps need."""
+        p, n, size = C.c_void_p, C.c_double, C.c_size_t
+        rates = "GetDerivatives" if self.is_2 else "GetContinuousStateDerivatives"
+        found = {"SetTime": self.function("SetTime", p, n)}
+        names = ("SetContinuousStates", "GetContinuousStates", rates, "GetEventIndicators")
+        for name in names:
+            found[name] = self.function(name, p, p, size)
+        found["rates"] = found[rates]
+        for name in ("EnterEventMode", "EnterContinuousTimeMode"):
+            found[name] = self.function(name, p)
+        return found
+
+    @cached_property
+    def directional(self) -> Any:
+        """``fmi2GetDirectionalDerivative`` and its like."""
+        p, size = C.c_void_p, C.c_size_t
+        count = () if self.is_2 else (size,)
+        kinds = (p, p, size, p, size, p, *count, p, *count)
+        return self.function("GetDirectionalDerivative", *kinds)
+
+    def accessor(self, verb: str, word: str) -> Any:
+        """``fmi2GetReal`` and its like."""
+        p, size = C.c_void_p, C.c_size_t
+        count = () if self.is_2 else (size,)
+        return self.function(verb + word, p, p, size, p, *count)
