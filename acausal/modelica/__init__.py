@@ -1,10 +1,12 @@
-"""Modelica text: tokens with their places, and a syntax tree of classes, equations and algorithms.
+"""Modelica text: a file's classes become components, one Python class each.
 
-In: the text of a file. Out: its classes, as a tree whose nodes know where they stand.
-It knows neither components nor JAX. Text is parsed, never run.
+In: the text of files, and values of their parameters. Out: a `Component`, as a netlist gives one.
+It knows declarations and netlists; neither flattening nor JAX. Text is parsed, never run.
 """
 
+from acausal.modelica.build import Model as Model
 from acausal.modelica.grammar import parse as parse
+from acausal.modelica.load import load as load
 from acausal.modelica.tokens import (
     ModelicaError as ModelicaError,
     Source as Source,

@@ -110,6 +110,11 @@ class Library:
         return getattr(self.module, "MODELICA", {})
 
     @cached_property
+    def packages(self) -> tuple[str, ...]:
+        """Packages of Modelica whose classes it has."""
+        return (*self._packages, *dict.fromkeys(n.rpartition(".")[0] for n in self._listed))
+
+    @cached_property
     def _listed(self) -> dict[str, str]:
         """Modelica's name of a class -> its Python path, from the module itself."""
         return self._paths(self.module)

@@ -43,12 +43,13 @@ def is_count(cls: Any, key: str) -> bool:
 
 
 def make(
-    scope: Scope, cls: Any, given: Mapping[str, Any], place: str, where: str
+    scope: Scope, cls: Any, given: Mapping[str, Any], place: str, where: str, by: Any = None
 ) -> tuple[Any, dict[str, Any]]:
     """An instance of a class, with those of the modifiers that it must be made with; and these, as arguments.
 
     Arguments:
         place: of the modifiers, for messages; ``where``: of the part.
+        by: what is called in place of the class, such as its constructor for an instance of a class derived from it.
 
     Raises:
         NetlistError: in one sentence, with the place.
@@ -62,7 +63,7 @@ def make(
         if isinstance(value, int | float) and is_count(cls, name):
             label = f"{cls.__name__} with {name}={value:g}"
             within(where, lambda n=int(value), label=label: check_size(n, label))
-    return within(where, lambda: _made(cls, arguments)), arguments
+    return within(where, lambda: _made(cls, by or cls, arguments)), arguments
 
 
 def _argument(scope: Scope, declared: Any, raw: Any, where: str) -> Any:
@@ -75,10 +76,10 @@ def _argument(scope: Scope, declared: Any, raw: Any, where: str) -> Any:
             return scope.value(raw, where)
 
 
-def _made(cls: Any, arguments: Mapping[str, Any]) -> Any:
+def _made(cls: Any, by: Any, arguments: Mapping[str, Any]) -> Any:
     """An instance; an exception of its constructor becomes one sentence."""
     try:
-        return cls(**arguments)
+        return by(**arguments)
     except DeclarationError:
         raise
     except Exception as error:  # a library's own code, with values that it was not written for
