@@ -11,7 +11,7 @@ from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
 from acausal.modelica.evaluate import Frame
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.given import Bound, Given, Modification, given_by, modification
+from acausal.modelica.given import Bound, Given, Index, Modification, given_by, modification
 from acausal.modelica.library_parts import make_part, modify_connector, modify_part
 from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
 from acausal.modelica.tokens import ModelicaError
@@ -300,9 +300,10 @@ class Build:
     ) -> Any:
         """A part or connector, or nested lists of them."""
 
-        def nested(index: tuple[int, ...]) -> Any:
+        def nested(index: Index) -> Any:
             if len(index) < len(sizes):
-                return [nested((*index, i)) for i in range(sizes[len(index)])]
+                size = sizes[len(index)]
+                return [nested((*index, (i, size))) for i in range(size)]
             inner = [g.element(index) for g in mod.inner]
             value = mod.value and mod.value.element(index)
             return self._part(element_name(name, index), entry, found, inner, value)
@@ -405,6 +406,6 @@ def _plain(value: Any) -> Any:
     return value if isinstance(value, bool | int | float | str | list) else str(id(value))
 
 
-def element_name(name: str, index: tuple[int, ...]) -> str:
-    """The name of an element of a list of parts; ``index`` counts from 0."""
-    return f"{name}[{','.join(str(i + 1) for i in index)}]" if index else name
+def element_name(name: str, index: Index) -> str:
+    """The name of an element of a list of parts."""
+    return f"{name}[{','.join(str(i + 1) for i, _ in index)}]" if index else name

@@ -38,7 +38,15 @@ from acausal.modelica.values import (
     of,
     type_of,
 )
-from acausal.modeling import Parameter, check_size, condition, floor, references, time, where
+from acausal.modeling import (
+    Parameter,
+    Reference,
+    check_size,
+    condition,
+    floor,
+    time,
+    where,
+)
 from acausal.netlist import Arithmetic, evaluated
 
 MAX_OPERATIONS = 20_000
@@ -266,6 +274,14 @@ class Evaluator(Arithmetic):
             return self._number_of(value, what)
         return value
 
+    @staticmethod
+    def varies(value: Any) -> bool:
+        """Whether a value changes with time."""
+        return any(
+            not (isinstance(s, Reference) and isinstance(s.declaration, Parameter))
+            for s in value.free_symbols
+        )
+
     def _number_of(self, value: Any, what: str) -> Any:
         try:
             found = evaluated(value, what, {})
@@ -303,10 +319,7 @@ class Evaluator(Arithmetic):
                 value, otherwise = value.number, otherwise.number
             else:
                 return value if self.known(holds, "the condition of a text") else otherwise
-        events = (
-            self.frame.events
-            and any(not isinstance(r.declaration, Parameter) for r in references(holds))
-        ) or (self.frame.events and holds.has(time))
+        events = self.frame.events and self.varies(holds)
         both = "Boolean" in (type_of(value), type_of(otherwise))
 
         def one(a: Any, b: Any) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
@@ -391,20 +392,22 @@ class Interpreter(Evaluator):
         self.checked(call)
 
     def checked(self, call: Call) -> None:
-        """Refuse a model whose assertion is known to be violated."""
+        """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""
         arguments = [*call.arguments, *call.named.values()]
         if len(arguments) < 2:
             raise self.wrong("assert takes a condition and a text")
-        holds = self.truth(self.value(arguments[0]))
-        if holds is False:
-            level = arguments[2] if len(arguments) > 2 else None
-            if isinstance(level, Name) and level.words[-1] == "warning":
-                return
-            text = (
-                arguments[1].value
-                if isinstance(arguments[1], Constant)
-                else "its condition is false"
-            )
+        holds, node = self.truth(self.value(arguments[0])), self.frame.node
+        level = arguments[2] if len(arguments) > 2 else None
+        if isinstance(level, Name) and level.words[-1] == "warning":
+            return
+        if isinstance(holds, sp.Basic) and self.varies(holds):
+            if call.at not in node.unwatched:
+                node.unwatched.add(call.at)
+                found = node.wrong(call.at, "this assertion is not watched while the model runs")
+                warnings.warn(str(found).partition("\n")[0], stacklevel=2)
+            return
+        if self.known(holds, "this assertion") is False:
+            text = arguments[1].value if isinstance(arguments[1], Constant) else "it is false"
             raise self.wrong(f"this assertion is violated: {text}")
 
 

@@ -14,6 +14,9 @@ from acausal.modelica.functions import Interpreter
 from acausal.modelica.syntax import Argument, Declared, Expression, Modifier
 from acausal.modelica.tokens import ModelicaError
 
+Index = tuple[tuple[int, int], ...]
+"""Of an element of an array of parts: for each dimension its position from 0, and the size."""
+
 
 @dataclass(frozen=True, eq=False)
 class Given:
@@ -24,7 +27,7 @@ class Given:
         modifier: what it gives to that.
         frame: where its expressions are looked up.
         at: its place in the file of the frame.
-        index: of the element of an array that it goes to, from 0; without ``each`` its value is an array.
+        index: of the element of an array that it goes to; without ``each`` its value is an array.
         final: whether nothing further out may change it.
         redeclared: the declaration that replaces one.
         each: whether every element of an array gets the same.
@@ -34,12 +37,12 @@ class Given:
     modifier: Modifier
     frame: Frame
     at: int
-    index: tuple[int, ...] = ()
+    index: Index = ()
     final: bool = False
     redeclared: Any = None
     each: bool = False
 
-    def element(self, index: tuple[int, ...]) -> Given:
+    def element(self, index: Index) -> Given:
         """What one element of an array of parts gets of it."""
         return self if self.each else replace(self, index=(*self.index, *index))
 
@@ -54,7 +57,7 @@ class Bound:
 
     expression: Expression
     frame: Frame
-    index: tuple[int, ...] = ()
+    index: Index = ()
 
     def __deepcopy__(self, memo: Any) -> Bound:
         """The same text, in a copy of the model."""
@@ -63,15 +66,15 @@ class Bound:
     def value(self) -> Any:
         """Its value."""
         found = Interpreter(self.frame).value(self.expression)
-        for i in self.index:
+        for i, size in self.index:
             if not isinstance(found, np.ndarray):
                 return found
-            if i >= len(found):
-                raise self.wrong(f"an array of {len(found)} elements is too short")
+            if len(found) != size:
+                raise self.wrong(f"{size} elements are needed here, not {len(found)}")
             found = found[i]
         return found
 
-    def element(self, index: tuple[int, ...]) -> Bound:
+    def element(self, index: Index) -> Bound:
         """What is meant for one element of an array."""
         return replace(self, index=(*self.index, *index))
 
@@ -94,16 +97,14 @@ class Modification:
     inner: list[Given] = field(default_factory=list[Given])
     redeclared: Given | None = None
 
-    def add(self, modifier: Modifier, frame: Frame, index: tuple[int, ...] = ()) -> None:
+    def add(self, modifier: Modifier, frame: Frame, index: Index = ()) -> None:
         """Add a modifier that stands further in."""
         if modifier.value is not None:
             self.value = self.value or Bound(modifier.value, frame, index)
         self.inner += given_by(modifier.arguments, frame, index)
 
 
-def given_by(
-    arguments: Iterable[Argument], frame: Frame, index: tuple[int, ...] = ()
-) -> list[Given]:
+def given_by(arguments: Iterable[Argument], frame: Frame, index: Index = ()) -> list[Given]:
     """The arguments of a modifier; those of a dotted name are nested."""
     found: list[Given] = []
     for argument in arguments:
@@ -140,6 +141,8 @@ def modification(declared: Declared, given: Sequence[Given], frame: Frame) -> Mo
             found.redeclared, modifier = found.redeclared or one, element.modifier
         if one.final and outer is not None:
             raise outer.wrong(f"'{name}' is final")
+        if declared.prefixes.protected and one.frame.build is not frame.build:
+            raise one.wrong(f"'{name}' is protected; it cannot be modified from outside")
         outer = outer or one
         found.add(modifier, one.frame, one.index)
     if declared.prefixes.final and outer is not None:

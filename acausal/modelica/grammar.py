@@ -291,7 +291,11 @@ class _Reader(Expressions):
         self.take("(")
         found: list[Argument] = []
         while self.peek != ")":
+            here = self.position
             found.append(self._modifier_argument())
+            if found[-1].name in [other.name for other in found[:-1]]:
+                self.position = here
+                raise self.wrong(f"'{found[-1].name}' is modified twice")
             if not self.accept(","):
                 break
         self.take(")")

@@ -16,21 +16,21 @@ from acausal.modeling import Budget, Component, spending
 
 
 def load(
-    path: str | Path,
+    file: str | Path,
     model: str | None = None,
     *,
     libraries: Sequence[ModuleType] = (),
-    modelica_path: Sequence[str | Path] = (),
+    path: Sequence[str | Path] = (),
     budget: Budget | None = None,
 ) -> Component:
     """Read a model from Modelica text, ``….mo``, or from a JSON netlist.
 
     Arguments:
-        path: the file; of a package that is a folder the folder, or its ``package.mo``.
+        file: the file; of a package that is a folder the folder, or its ``package.mo``.
         model: name of a class in the file, such as ``"Package.Model"``; by default the last model of the file that is
             not partial. A netlist is one model.
         libraries: further libraries of components besides the installed ones, see `acausal.netlist.library`.
-        modelica_path: folders with further packages of Modelica text, before those in ``MODELICAPATH``.
+        path: folders with further packages of Modelica text, before those in ``MODELICAPATH``.
         budget: how large the model may become, here and when it is compiled; by default ``ac.Budget()``.
 
     Returns:
@@ -39,31 +39,31 @@ def load(
     Raises:
         ModelError: for a file that cannot be read, is wrong, or states what is not supported; with its place.
     """
-    path = need_path(path, "load", ModelError)
+    file = need_path(file, "load", ModelError)
     if not isinstance(model, str | None):
         raise ModelError(
             f"load(file, model) takes the name of a model, not {shown(model)}; libraries=[...] lists modules"
         )
-    if path.suffix != ".mo" and not path.is_dir():
+    if file.suffix != ".mo" and not file.is_dir():
         if model is not None:
-            raise ModelError(f"{path.name} is a netlist, which is one model; leave out '{model}'")
-        return netlist.load(path, libraries, budget=budget)
+            raise ModelError(f"{file.name} is a netlist, which is one model; leave out '{model}'")
+        return netlist.load(file, libraries, budget=budget)
     allowed = Budget() if budget is None else budget
-    tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in modelica_path])
+    tree = Tree(netlist.libraries_of(libraries), [Path(p) for p in path])
     with spending(allowed):
-        nodes = tree.add(path / "package.mo" if path.is_dir() else path)
-        found = class_of(_wanted(path, tree, nodes, model))()
+        nodes = tree.add(file / "package.mo" if file.is_dir() else file)
+        found = class_of(_wanted(file, tree, nodes, model))()
         netlist.check_sizes(found)
     found._node.budget = allowed
     return found
 
 
-def _wanted(path: Path, tree: Tree, nodes: list[ClassNode], name: str | None) -> ClassNode:
+def _wanted(file: Path, tree: Tree, nodes: list[ClassNode], name: str | None) -> ClassNode:
     """The class that is meant."""
     models = [inner for node in nodes for inner in node.models()]
     if name is None:
         if not models:
-            raise ModelicaError(f"{path.name}: there is no model in it that is not partial")
+            raise ModelicaError(f"{file.name}: there is no model in it that is not partial")
         return models[-1]
     found = tree.resolve(name)
     if not isinstance(found, ClassNode):
@@ -71,6 +71,6 @@ def _wanted(path: Path, tree: Tree, nodes: list[ClassNode], name: str | None) ->
         if len(same) != 1:
             known = [m.full for m in models]
             hint = nearest(name, known) if len(known) > 6 else f"it has {listing(known)}"
-            raise ModelicaError(f"{path.name}: there is no model '{name}'; {hint}")
+            raise ModelicaError(f"{file.name}: there is no model '{name}'; {hint}")
         return same[0]
     return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -38,7 +37,7 @@ from acausal.modelica.values import (
     of,
     type_of,
 )
-from acausal.modeling import Component, Discrete, Eq, Parameter, Reference, Reinit, When, pre
+from acausal.modeling import Component, Discrete, Eq, Reference, Reinit, When, pre
 from acausal.netlist import attribute
 
 
@@ -369,23 +368,6 @@ class _Reader(Interpreter):
         else:
             super().perform(call)
 
-    def checked(self, call: Call) -> None:
-        """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""
-        arguments = [*call.arguments, *call.named.values()]
-        holds = self.truth(self.value(arguments[0])) if len(arguments) > 1 else True
-        if isinstance(holds, sp.Basic) and self.varies(holds):
-            seen: set[int] = self.frame.node.__dict__.setdefault("unwatched", set())
-            if call.at not in seen:
-                seen.add(call.at)
-                place = str(
-                    self.frame.node.wrong(
-                        call.at, "this assertion is not watched while the model runs"
-                    )
-                )
-                warnings.warn(place.partition("\n")[0], stacklevel=2)
-            return
-        super().checked(call)
-
     # -- algorithms ----------------------------------------------------------------------------------------
 
     def algorithm(self, stated: list[Statement]) -> Iterator[Any]:
@@ -437,13 +419,6 @@ class _Reader(Interpreter):
         found += self.jumps
         self.frame, self.jumps = frame, jumps
         return found
-
-    def varies(self, value: Any) -> bool:
-        """Whether a value changes with time."""
-        return any(
-            not (isinstance(s, Reference) and isinstance(s.declaration, Parameter))
-            for s in value.free_symbols
-        )
 
 
 def _before(variable: Any) -> Any:

@@ -26,12 +26,18 @@ from acausal.modelica.syntax import (
     Statement,
 )
 from acausal.modelica.tokens import ModelicaError, Source, read_source
-from acausal.netlist import CONSTANTS, Library, function
+from acausal.netlist import CONSTANTS, Library, find_class, function
 
 PREDEFINED = ("Real", "Integer", "Boolean", "String", "Clock", "ExternalObject")
 SI = re.compile(r"Modelica\.(?:Units\.(?:SI|NonSI)|SIunits(?:\.Conversions\.NonSIunits)?)\.(\w+)")
-ALIASES = ("Interfaces.RealVectorInput", "Interfaces.RealVectorOutput")
-MAX_BASES = 40
+PACKAGES = frozenset(
+    f"Modelica.{name}"
+    for name in (
+        *("Icons", "Constants", "Math", "Units", "Units.SI", "Units.NonSI", "Units.Conversions"),
+        *("SIunits", "SIunits.Conversions", "SIunits.Conversions.NonSIunits"),
+    )
+)
+"""Packages without components, which need no text."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,26 +143,12 @@ class Tree:
         Raises:
             ModelicaError: if it is wrong.
         """
-        folder = file.parent if file.name == "package.mo" else None
         within, definitions = parse(read_source(file))
-        top = folder or file.parent
-        while folder is not None and (folder.parent / "package.mo").exists():
-            folder = folder.parent
         words = within.split(".") if within else []
-        outside = top.parents[len(words) - 1] if words and len(top.parents) >= len(words) else None
-        if file.name != "package.mo" and words:
-            outside = (
-                file.parent.parents[len(words) - 1]
-                if len(file.parent.parents) >= len(words)
-                else None
-            )
-        if (
-            outside is not None
-            and words
-            and words[0] not in self.roots
-            and outside not in self.path
-        ):
-            self.path.append(outside)
+        above = file.resolve().parents  # the folder of the outermost package is searched, too
+        depth = len(words) + (file.name == "package.mo")
+        if depth < len(above) and above[depth] not in self.path:
+            self.path.append(above[depth])
         parent = self.package(words)
         found: list[ClassNode] = []
         for definition in definitions:
@@ -256,23 +248,13 @@ class Tree:
 
     def knows(self, full: str) -> bool:
         """Whether a name may be that of a package whose text is not given."""
-        if full.startswith(
-            (
-                "Modelica.Icons",
-                "Modelica.Units",
-                "Modelica.SIunits",
-                "Modelica.Constants",
-                "Modelica.Math",
-            )
-        ):
+        above, _, word = full.rpartition(".")
+        if full in PACKAGES or above == "Modelica.Icons":
             return True
-        return (
-            any(
-                f"{name}.".startswith(f"{full}.") or f"{full}.".startswith(f"{name}.")
-                for library in self.libraries
-                for name in library.packages
-            )
-            and full.rpartition(".")[2][:1].isupper()
+        return word[:1].isupper() and any(
+            f"{name}.".startswith(f"{full}.") or f"{full}.".startswith(f"{name}.")
+            for library in self.libraries
+            for name in library.packages
         )
 
 
@@ -294,6 +276,7 @@ class ClassNode:
         self.definition, self.parent, self.tree, self.folder = definition, parent, tree, folder
         self.children: dict[str, Any] = {}
         self.python: type | None = None
+        self.unwatched: set[int] = set()
         self._viewed = False
         self._searching: set[str] = set()
 
@@ -470,7 +453,11 @@ class ClassNode:
             ]
             hint = f"{nearest(words[-1], known)} {PATH_HINT}" if known else PATH_HINT
         else:
-            hint = f"the library does not cover it; {PATH_HINT}"
+            try:
+                find_class(self.tree.libraries, name.text)
+                hint = PATH_HINT
+            except KeyError as error:
+                hint = f"{error.args[0].rstrip('.')}; {PATH_HINT}"
         return self.wrong(
             name.at, f"there is no {what} '{shortened(name.text)}'; {hint}", len(name.text)
         )

@@ -75,6 +75,8 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
             return type_of_class(found)
         case Value() if is_dataclass(found.value):
             return Type(predefined=declared.type.text, record=found.value)
+        case Prefix():
+            raise frame.node.unknown(declared.type)
         case _:
             what = "a package" if isinstance(found, Prefix) else "not a class"
             raise frame.node.wrong(

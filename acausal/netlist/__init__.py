@@ -7,7 +7,11 @@ It knows declarations and names of classes; no JAX, no flattening. Text is parse
 from acausal.netlist.arithmetic import Arithmetic as Arithmetic
 from acausal.netlist.file import MAX_BYTES as MAX_BYTES, NetlistError as NetlistError
 from acausal.netlist.finding import Found as Found, find as find
-from acausal.netlist.library import Library as Library, installed as installed
+from acausal.netlist.library import (
+    Library as Library,
+    find_class as find_class,
+    installed as installed,
+)
 from acausal.netlist.load_save import (
     check_sizes as check_sizes,
     libraries_of as libraries_of,

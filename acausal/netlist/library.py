@@ -149,7 +149,7 @@ def is_element(value: Any) -> bool:
     )
 
 
-def find(libraries: Sequence[Library], name: str) -> Any:
+def find_class(libraries: Sequence[Library], name: str) -> Any:
     """The class of a full name.
 
     Raises:

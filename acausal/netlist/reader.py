@@ -128,7 +128,7 @@ def _structural(scope: Scope, entry: Any) -> Mapping[str, Any]:
     if not isinstance(name, str) or not isinstance(given, Mapping):
         return {}
     try:
-        cls = library.find(scope.libraries, name)
+        cls = library.find_class(scope.libraries, name)
     except KeyError:
         return {}
     if not issubclass(cls, Component):

@@ -65,7 +65,7 @@ class Scope:
         if not isinstance(name, str):
             raise NetlistError(f"{where}: the name of a class is needed, not {kind(name)}")
         try:
-            return library.find(self.libraries, name)
+            return library.find_class(self.libraries, name)
         except KeyError as error:
             hint = f"there is no class '{shortened(name)}'; {error.args[0]}"
             raise NetlistError(f"{where}: {hint}") from None
@@ -104,7 +104,7 @@ class Scope:
             return [self.argument(item, f"{where}[{i}]") for i, item in enumerate(items)]
         if isinstance(raw, str):
             try:
-                return library.find(self.libraries, raw)
+                return library.find_class(self.libraries, raw)
             except KeyError:
                 pass
         return self.value(raw, where)
