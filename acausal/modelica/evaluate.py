@@ -485,7 +485,9 @@ class Evaluator(Arithmetic):
                     node = node.parent
             case _:
                 pass
-        for library in frame.node.tree.libraries if found is None else ():
+        for library in (
+            frame.node.tree.libraries if found is None or isinstance(found, Prefix) else ()
+        ):
             value = library.constant(name.text)
             if value is not None:
                 return value, len(name.words)

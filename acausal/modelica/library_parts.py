@@ -11,7 +11,7 @@ from acausal.errors import ModelError
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.given import Given, Modification
 from acausal.modelica.values import nested, of
-from acausal.modeling import Component, Eq, Input, Option, Variable, check_nested
+from acausal.modeling import Component, Eq, Option, Variable, check_nested
 from acausal.netlist import NetlistError, Scope, is_structural, make, modify
 
 
@@ -75,8 +75,6 @@ def modify_part(build: Any, part: Component, given: Sequence[Given]) -> None:
         if is_structural(native, name):
             continue
         if isinstance(declared, Variable) and mod.value is not None:
-            if isinstance(declared, Input):
-                raise one.wrong(f"'{name}' is an input; connect a source to it")
             bind(build, part, name, mod)
             if not mod.inner:
                 continue

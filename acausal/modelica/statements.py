@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -37,7 +38,18 @@ from acausal.modelica.values import (
     of,
     type_of,
 )
-from acausal.modeling import Component, Discrete, Eq, Reference, Reinit, When, pre
+from acausal.modeling import (
+    Component,
+    Discrete,
+    Eq,
+    Input,
+    Output,
+    Reference,
+    Reinit,
+    When,
+    pre,
+    references,
+)
 from acausal.netlist import attribute
 
 
@@ -69,9 +81,22 @@ def connect(build: Any) -> None:
 
 
 def check(build: Any) -> None:
-    """Read all that a component states, so that what is wrong is refused with its place."""
-    for _ in (*equations(build), *initial_equations(build)):
-        pass
+    """Read all that a component states, so that what is wrong is refused with its place.
+
+    Inputs of parts that its equations give a value, as in ``block.u = 2*x``, are connected to outputs of its own.
+    """
+    component, node = build.component, build.component._node
+    stated, _ = [s for s in equations(build) if isinstance(s, Eq)], [*initial_equations(build)]
+    ends = {end for pair in node.connections for end in pair}
+    symbols = [
+        s for equation in stated for side in (equation.lhs, equation.rhs) for s in references(side)
+    ]
+    for symbol in dict.fromkeys(symbols):
+        given = isinstance(symbol.declaration, Input) and symbol.owner is not node
+        if given and symbol not in ends:
+            name = re.sub(r"\W+", "_", f"{'.'.join(symbol.owner.route_from(node))}.{symbol.path}")
+            setattr(component, f"{name}_given", Output(unit=symbol.declaration.unit))
+            component.connect(getattr(component, f"{name}_given"), symbol)
 
 
 def is_open(subscript: Any) -> bool:

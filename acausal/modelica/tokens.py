@@ -31,6 +31,9 @@ KEYWORDS = frozenset((
 ))  # fmt: skip
 
 
+PREDEFINED = frozenset(("Real", "Integer", "Boolean", "String", "Clock", "ExternalObject"))
+
+
 class ModelicaError(NetlistError):
     """Modelica text is wrong, or says what is not supported; the message begins with file, line and column."""
 
@@ -78,6 +81,12 @@ def read_source(path: Path) -> Source:
         raise ModelicaError(f"{path}: cannot be read ({error.strerror})") from None
     except UnicodeDecodeError:
         raise ModelicaError(f"{path.name}: not a text file in UTF-8") from None
+
+
+def unquoted(text: str) -> str:
+    """A name in quotes as a name of Python's where it is one; ``'{U+03C9}'`` stands for a letter as in an export."""
+    word = re.sub(r"\{U\+([0-9A-F]{4,6})\}", lambda found: chr(int(found[1], 16)), text[1:-1])
+    return word if word.isidentifier() and word not in KEYWORDS | PREDEFINED else text
 
 
 class Tokens:
@@ -147,7 +156,7 @@ class Tokens:
         if not (text[:1].isalpha() or (text[:1] in ("_", "'") and text)) or text in KEYWORDS:
             raise self.wrong(f"a name expected, {self.found} found")
         self.position += 1
-        return text
+        return unquoted(text) if text[0] == "'" else text
 
     @property
     def found(self) -> str:

@@ -25,10 +25,9 @@ from acausal.modelica.syntax import (
     Name,
     Statement,
 )
-from acausal.modelica.tokens import ModelicaError, Source, read_source
+from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
 from acausal.netlist import CONSTANTS, Library, find_class, function
 
-PREDEFINED = ("Real", "Integer", "Boolean", "String", "Clock", "ExternalObject")
 SI = re.compile(r"Modelica\.(?:Units\.(?:SI|NonSI)|SIunits(?:\.Conversions\.NonSIunits)?)\.(\w+)")
 PACKAGES = frozenset(
     f"Modelica.{name}"

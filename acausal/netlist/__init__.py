@@ -21,5 +21,9 @@ from acausal.netlist.load_save import (
 from acausal.netlist.model import attribute as attribute, member as member
 from acausal.netlist.modifiers import is_structural as is_structural, make as make, modify as modify
 from acausal.netlist.scope import Scope as Scope, evaluated as evaluated
-from acausal.netlist.vocabulary import CONSTANTS as CONSTANTS, function as function
+from acausal.netlist.vocabulary import (
+    BARE_CONSTANTS as BARE_CONSTANTS,
+    CONSTANTS as CONSTANTS,
+    function as function,
+)
 from acausal.netlist.writer import Writer as Writer
