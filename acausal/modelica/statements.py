@@ -94,7 +94,8 @@ def check(build: Any) -> None:
     for symbol in dict.fromkeys(symbols):
         given = isinstance(symbol.declaration, Input) and symbol.owner is not node
         if given and symbol not in ends:
-            name = re.sub(r"\W+", "_", f"{'.'.join(symbol.owner.route_from(node))}.{symbol.path}")
+            route = symbol.owner.route_from(node) or ()
+            name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
             setattr(component, f"{name}_given", Output(unit=symbol.declaration.unit))
             component.connect(getattr(component, f"{name}_given"), symbol)
 

@@ -245,6 +245,10 @@ class Tree:
             return found
         return None
 
+    def has_package(self, full: str) -> bool:
+        """Whether a library covers classes of a package."""
+        return full in PACKAGES or any(library.has_package(full) for library in self.libraries)
+
     def knows(self, full: str) -> bool:
         """Whether a name may be that of a package whose text is not given."""
         above, _, word = full.rpartition(".")
@@ -432,6 +436,8 @@ class ClassNode:
             if clause.everything:
                 package = self.tree.resolve(clause.package)
                 found = self.tree.inside(package, word)
+                if isinstance(found, Prefix) and not self.tree.has_package(found.full):
+                    found = None
                 if (
                     found is None
                     and isinstance(package, ClassNode)
@@ -525,6 +531,8 @@ class ClassNode:
                 return
             case ClassNode():
                 pass
+            case Prefix():
+                raise self.unknown(clause.base)
             case _:
                 raise self.wrong(
                     clause.base.at,

@@ -61,6 +61,15 @@ class Library:
                 names = self._names(place)
         return self._python(names.get(name, name))
 
+    def has_package(self, name: str) -> bool:
+        """Whether classes that the library covers are in a package of this name, or below it."""
+        for package, place in self._packages.items():
+            if f"{package}.".startswith(f"{name}."):
+                return True
+            if name.startswith(f"{package}."):
+                return any(known.startswith(f"{name}.") for known in self._names(place))
+        return any(known.startswith(f"{name}.") for known in self._listed)
+
     def lacks(self, name: str) -> bool:
         """Whether Modelica has a class of this name that the library does not cover."""
         package, _, word = name.rpartition(".")
