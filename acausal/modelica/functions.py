@@ -10,8 +10,11 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.modelica.evaluate import MAX_CALLS, Evaluator, Frame
+from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.evaluate import Evaluator
+from acausal.modelica.found import Native, Predefined, Value
 from acausal.modelica.language import SPECIAL
+from acausal.modelica.operators import MAX_CALLS, Frame
 from acausal.modelica.syntax import (
     Branches,
     Call,
@@ -25,7 +28,6 @@ from acausal.modelica.syntax import (
     Several,
     Statement,
 )
-from acausal.modelica.tree import ClassNode, Entry, Native, Predefined, Value
 from acausal.modelica.values import (
     Record,
     each,

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.modelica.evaluate import Frame
 from acausal.modelica.functions import Interpreter
+from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Argument, Declared, Expression, Modifier
 from acausal.modelica.tokens import ModelicaError
 

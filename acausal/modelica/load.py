@@ -10,8 +10,9 @@ from acausal import netlist
 from acausal.errors import ModelError, listing, nearest, shown
 from acausal.files import need_path
 from acausal.modelica.build import class_of
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.tokens import ModelicaError
-from acausal.modelica.tree import ClassNode, Tree
+from acausal.modelica.tree import Tree
 from acausal.modeling import Budget, Component, spending
 
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass, field, is_dataclass
 from typing import Any, cast
 
 from acausal.errors import nearest
-from acausal.modelica.evaluate import Frame
+from acausal.modelica.classes import ClassNode, Entry, View
+from acausal.modelica.found import Native, Predefined, Prefix, Value
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.given import Bound, Given, given_by, modification
+from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Argument, Declared, Expression
-from acausal.modelica.tree import ClassNode, Entry, Native, Predefined, Prefix, Value, View
 from acausal.modeling import Component, Connector, Flow, Input, Output, Potential, Variable
 
 ATTRIBUTES = ("start", "fixed", "nominal", "stateSelect", "unit", "min", "max")

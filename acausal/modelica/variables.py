@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from acausal.modelica import statements
-from acausal.modelica.evaluate import Frame
+from acausal.modelica.classes import Entry
+from acausal.modelica.found import Literal
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.given import Bound, Modification
 from acausal.modelica.library_parts import Values, grouped
-from acausal.modelica.tree import Entry, Literal
+from acausal.modelica.operators import Frame
 from acausal.modelica.types import Type, attributes_of
 from acausal.modelica.values import array_of, elements, nested, type_of, with_fields
 from acausal.modeling import (
