@@ -52,7 +52,14 @@ def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, Call], Any]:
     """A function of one variable, applied to each element."""
 
     def applied(self: Evaluator, call: Call) -> Any:
+        frame = self.frame
+        if frame.build is not None:  # the variable, not what an algorithm has assigned to it
+            known = frame.build.names
+            self.frame = replace(
+                frame, local={k: v for k, v in frame.local.items() if k not in known}
+            )
         (value,) = self.arguments(call, 1)
+        self.frame = frame
         try:
             return each(function, value)
         except Exception as error:

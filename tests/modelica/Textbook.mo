@@ -340,6 +340,112 @@ package Textbook "Models of textbooks, each with a known solution"
     end when;
   end Hysteresis;
 
+  function two
+    input Real x;
+    output Real a;
+    output Real b;
+  protected
+    Real t = 2*x;
+  algorithm
+    a := t + 1;
+    b := t^2;
+  end two;
+
+  record R
+    Real a;
+    Real b = 3;
+  end R;
+
+  function norm2
+    input Real v[:];
+    output Real y;
+  algorithm
+    y := sqrt(v*v);
+  end norm2;
+
+  model Language "functions, records, matrices"
+    Real x(start = 0.5, fixed = true), y, z, w, n "falls by a quarter";
+    R r = R(a = x);
+    Real m[2, 2] = {{x, 0}, {1, 2}};
+    Real mv[2] = m*{1, 2};
+    Real t[2, 2] = transpose(m);
+    constant Real q = Modelica.Constants.pi/4;
+    parameter Real ang = Modelica.Units.Conversions.from_deg(30);
+    Real s = Modelica.Math.sin(ang) + abs(x) + max(x, 0.2) + min({x, 0.1, 3}) + sign(x) + atan2(x, 1) + exp(-x) + log(2) + mod(5.5, 2) + div(7, 2) + rem(7, 3) + ceil(1.2) + floor(1.7) + integer(2.5);
+  equation
+    der(x*x) = -x/4;
+    (y, z) = two(x);
+    w = r.a + r.b;
+    n = norm2({x, y, z});
+  end Language;
+
+  block Gain
+    extends Modelica.Blocks.Interfaces.SISO;
+    parameter Real k = 1;
+  equation
+    y = k*u;
+  end Gain;
+
+  model Signals "values of inputs, arrays of blocks"
+    Gain g[3](k = {1, 2, 3}, u = {time, 2*time, 1});
+    Modelica.Blocks.Math.Gain lib(k = 5, u = time);
+    Modelica.Blocks.Sources.RealExpression e(y = g[2].y + lib.y);
+    Modelica.Blocks.Continuous.Integrator i(y_start = 1);
+    Modelica.Blocks.Sources.CombiTimeTable table(table = [0, 1; 1, 3]);
+    Real total = sum(g.y);
+  equation
+    connect(e.y, i.u);
+  end Signals;
+
+  model Chooser
+    Modelica.Blocks.Interfaces.RealInput u;
+    Modelica.Blocks.Interfaces.BooleanOutput on;
+    Modelica.Blocks.Interfaces.RealOutput y(unit = "V");
+    Modelica.Blocks.Logical.Switch sw;
+    Modelica.Blocks.Sources.Constant one(k = 1), two(k = 2);
+  equation
+    on = u > 0.5;
+    connect(on, sw.u2);
+    connect(one.y, sw.u1);
+    connect(two.y, sw.u3);
+    connect(sw.y, y);
+  end Chooser;
+
+  model Queue "an algorithm with when"
+    Chooser c;
+    Modelica.Blocks.Sources.Ramp ramp(duration = 1, height = 1);
+    Boolean late = time > 0.25 and not c.on;
+    Integer k(start = 0);
+    Real hold(start = 0);
+  equation
+    connect(ramp.y, c.u);
+  algorithm
+    when {late, c.on} then
+      k := pre(k) + 1;
+      if c.on then
+        hold := time;
+      else
+        hold := -time;
+      end if;
+    end when;
+  end Queue;
+
+  model Ladder "vectors of connectors"
+    parameter Integer n = 3;
+    Modelica.Electrical.Analog.Basic.Resistor r[n](each R = 2);
+    Modelica.Electrical.Analog.Basic.Capacitor c[n](C = {i*0.1 for i in 1:n}, v(each start = 0, each fixed = true));
+    Modelica.Electrical.Analog.Sources.ConstantVoltage v(V = 5);
+    Modelica.Electrical.Analog.Basic.Ground g;
+  equation
+    connect(v.p, r[1].p);
+    connect(r[1:n - 1].n, r[2:n].p);
+    connect(r.n, c.p);
+    for k in 1:n loop
+      connect(c[k].n, g.p);
+    end for;
+    connect(v.n, g.p);
+  end Ladder;
+
   model Smooth "all that has no events"
     RC rc;
     Chua chua;
@@ -354,6 +460,9 @@ package Textbook "Models of textbooks, each with a known solution"
     Conditional undamped, damped(damped = true, mode = Mode.slow);
     SteadyStart steady;
     Motor motor;
+    Language language;
+    Signals signals;
+    Ladder ladder;
   end Smooth;
 
   model Events "all that has events"
@@ -363,5 +472,6 @@ package Textbook "Models of textbooks, each with a known solution"
     Algorithmic algorithmic;
     Buffered buffered;
     Hysteresis hysteresis;
+    Queue queue;
   end Events;
 end Textbook;

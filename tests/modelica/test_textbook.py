@@ -16,8 +16,12 @@ TIMES = np.linspace(0.0, 2.0, 41)
 
 
 @pytest.fixture(scope="module")
-def smooth() -> ac.Solution:
-    system = ac.compile(ac.load(FILE, "Textbook.Smooth"))
+def system() -> ac.System:
+    return ac.compile(ac.load(FILE, "Textbook.Smooth"))
+
+
+@pytest.fixture(scope="module")
+def smooth(system: ac.System) -> ac.Solution:
     return ac.simulate(system, (0.0, 2.0), saveat=TIMES, rtol=1e-9, atol=1e-11)
 
 
@@ -79,7 +83,18 @@ def expected() -> dict[str, Any]:
     circuit, level = solved(chua, [0, 4, 0]), solved(tank, [1, 0])
     cubic = solved(lambda t, x: [-(x[0] + 2 * x[0] ** 2)], [1])[0]
     first, second = chain(10, 1, [0.1, 0.2, 0.3]), chain(20, 0, [1, 2])
+    C, ladder = np.array([0.1, 0.2, 0.3]), 2 * np.eye(3) - np.eye(3, k=1) - np.eye(3, k=-1)
+    ladder[-1, -1] = 1
+    x0 = 0.5 - TIMES / 8  # 2 x der(x) = -x/4
     return {
+        "language.x": x0,
+        "language.z": 4 * x0**2,
+        "language.n": np.sqrt(x0**2 + (2 * x0 + 1) ** 2 + 16 * x0**4),
+        "language.mv[1]": x0,
+        "language.w": x0 + 3,
+        "signals.i.y": 1 + 4.5 * TIMES**2,
+        "signals.total": TIMES + 4 * TIMES + 3,
+        "ladder.c[3].v": linear(-ladder / (2 * C[:, None]), [0, 0, 0], [25, 0, 0])[2],
         "rc.c.v": 10 * (1 - np.exp(-TIMES)),
         "rc.r.i": 5 * np.exp(-TIMES),
         "chua.L.i": circuit[0],
@@ -101,12 +116,35 @@ def expected() -> dict[str, Any]:
     }
 
 
+def test_models_begin_as_their_solution(system: ac.System) -> None:
+    params = system.parameters()
+    x = np.asarray(system.initial_state(params))
+    rates = dict(
+        zip(system.states, np.asarray(system.vector_field(0.0, x, None, params)), strict=True)
+    )
+    start, fast = dict(zip(system.states, x, strict=True)), ("rod", "undamped")
+    for name, wanted in expected().items():
+        if name in start:
+            assert start[name] == pytest.approx(wanted[0], abs=1e-9), name
+            slope = np.gradient(wanted, TIMES, edge_order=2)[0]
+            assert abs(rates[name] - slope) < 0.2 + 0.3 * abs(slope) or name.startswith(fast), name
+
+
+@pytest.mark.slow
 def test_models_equal_their_solution(smooth: ac.Solution) -> None:
     errors = {
         name: float(np.max(np.abs(np.asarray(smooth[name]) - wanted)) / max(1, np.ptp(wanted)))
         for name, wanted in expected().items()
     }
     assert {n: e for n, e in errors.items() if not e < 2e-6} == {}
+
+
+@pytest.mark.slow
+def test_functions_of_the_language(smooth: ac.Solution) -> None:
+    x = 0.5
+    rounded = math.fmod(5.5, 2) + 3 + 1 + 2 + 1 + 2  # mod, div, rem, ceil, floor, integer
+    wanted = 0.5 + x + x + 0.1 + 1 + math.atan2(x, 1) + math.exp(-x) + math.log(2) + rounded
+    assert abs(float(smooth["language.s"][0]) - wanted) < 1e-9
 
 
 def test_classes_share_their_form() -> None:
@@ -162,3 +200,11 @@ def test_elsewhen_edge_and_initial(events: ac.Solution) -> None:
     assert np.all(y[(up < TIMES) & (down > TIMES)] == 1)
     assert y[np.searchsorted(TIMES, down + 0.01)] == -1
     assert float(events["hysteresis.edges"][-1]) == 2
+
+
+def test_an_algorithm_with_when(events: ac.Solution) -> None:
+    k, hold = np.asarray(events["queue.k"]), np.asarray(events["queue.hold"])
+    between = (TIMES > 0.25) & (TIMES < 0.5)
+    assert np.all(k[between] == 1)
+    assert np.allclose(hold[between], -0.25)
+    assert (k[-1], hold[-1]) == (2, pytest.approx(0.5))
