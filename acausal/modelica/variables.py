@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import is_dataclass
 from typing import Any
 
 import numpy as np
@@ -77,7 +78,7 @@ def declare(
 def _record(found: Type, mod: Modification) -> Any:
     """A record of a library, with the fields that a modifier gives."""
     value = found.record if mod.value is None else mod.value.value()
-    if not isinstance(value, type(found.record)) and mod.value is not None:
+    if not is_dataclass(value) and mod.value is not None:
         raise mod.value.wrong(f"a {found.predefined} is needed")
     given = {name: inner for name, (inner, _) in grouped(mod.inner).items()}
     return with_fields(value, {n: m.value.value() for n, m in given.items() if m.value is not None})

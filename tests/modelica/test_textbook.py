@@ -122,12 +122,24 @@ def test_models_begin_as_their_solution(system: ac.System) -> None:
     rates = dict(
         zip(system.states, np.asarray(system.vector_field(0.0, x, None, params)), strict=True)
     )
-    start, fast = dict(zip(system.states, x, strict=True)), ("rod", "undamped")
-    for name, wanted in expected().items():
-        if name in start:
-            assert start[name] == pytest.approx(wanted[0], abs=1e-9), name
-            slope = np.gradient(wanted, TIMES, edge_order=2)[0]
-            assert abs(rates[name] - slope) < 0.2 + 0.3 * abs(slope) or name.startswith(fast), name
+    start = dict(zip(system.states, x, strict=True))
+    for name in start.keys() & expected().keys():
+        assert start[name] == pytest.approx(expected()[name][0], abs=1e-9), name
+    known = {
+        "rc.c.v": 10,
+        "records.part.x": -6,
+        "functions.x": -3,
+        "language.x": -1 / 8,
+        "motor.L.i": 1200,
+    }
+    known |= {
+        "damped.J.w": -1,
+        "undamped.J.w": -100,
+        "rod.T[1]": 0,
+        "rod.T[5]": -25,
+        "slices.x[2]": -4,
+    }
+    assert {name: float(rates[name]) for name in known} == pytest.approx(known)
 
 
 @pytest.mark.slow
