@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
+from acausal.command import main
 from acausal.components import translational as tl
 from acausal.modeling import Reference
 from tests.export.test_modelica import CASES, Vectors
@@ -134,3 +135,10 @@ def test_attributes_and_constants_of_a_netlist_are_written(tmp_path: Path) -> No
     file.write_text(json.dumps(netlist))
     again = ac.load(ac.export.modelica(ac.load(file), tmp_path / "out.mo"))
     assert [again.v._node.modifiers[n] for n in ("V", "phase")] == [2, pytest.approx(np.pi / 2)]
+
+
+def test_commands_take_a_file_and_a_class_of_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", f"{TEXTBOOK}:Textbook.RC"]) == 0
+    assert "RC is right: 20 equations, 1 state" in capsys.readouterr().out
+    assert main(["check", f"{TEXTBOOK}:Nope"]) == 3
+    assert "there is no model 'Nope'" in capsys.readouterr().err
