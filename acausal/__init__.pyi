@@ -35,6 +35,7 @@ from .errors import (
 )
 from .fmu import FMU as FMU
 from .initialization import Initialization as Initialization
+from .modelica import ModelicaError as ModelicaError, load as load
 from .modeling import (
     Abs as Abs,
     Budget as Budget,
@@ -84,7 +85,7 @@ from .modeling import (
     time as time,
     where as where,
 )
-from .netlist import NetlistError as NetlistError, find as find, load as load, save as save
+from .netlist import NetlistError as NetlistError, find as find, save as save
 from .networks import MLP as MLP, OffsetCorrected as OffsetCorrected, remove_offset as remove_offset
 from .pages import page as page
 from .reporting import diagram as diagram

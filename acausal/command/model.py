@@ -34,19 +34,21 @@ def title_of(system: ac.System) -> str:
 
 
 def model_of(text: str, libraries: list[str]) -> ac.Component | ac.System:
-    """A model by its file, or by ``module:Class``; an FMU runs native code that it brings along.
+    """A model by its file, ``file.mo:Package.Model`` or ``module:Class``; an FMU runs native code that it brings along.
 
     Raises:
         ac.ModelError: where there is none.
     """
     module, colon, name = text.rpartition(":")
+    if colon and Path(module).suffix == ".mo":
+        return ac.load(module, name, libraries=[_module(library) for library in libraries])
     if colon and not Path(text).exists():
         return _made(text, _module(module), name)
     if Path(text).suffix == ".py":
         raise ac.ModelError(f"'{text}' is a Python file; name the class in it, too: {text}:Class")
     if Path(text).suffix == ".fmu":
         return ac.FMU(text)
-    return ac.load(text, [_module(library) for library in libraries])
+    return ac.load(text, libraries=[_module(library) for library in libraries])
 
 
 def parameters_of(args: Namespace, system: ac.System) -> dict[str, Any]:

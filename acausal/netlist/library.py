@@ -61,6 +61,15 @@ class Library:
                 names = self._names(place)
         return self._python(names.get(name, name))
 
+    def has_package(self, name: str) -> bool:
+        """Whether classes that the library covers are in a package of this name, or below it."""
+        for package, place in self._packages.items():
+            if f"{package}.".startswith(f"{name}."):
+                return True
+            if name.startswith(f"{package}."):
+                return any(known.startswith(f"{name}.") for known in self._names(place))
+        return any(known.startswith(f"{name}.") for known in self._listed)
+
     def lacks(self, name: str) -> bool:
         """Whether Modelica has a class of this name that the library does not cover."""
         package, _, word = name.rpartition(".")
@@ -110,6 +119,11 @@ class Library:
         return getattr(self.module, "MODELICA", {})
 
     @cached_property
+    def packages(self) -> tuple[str, ...]:
+        """Packages of Modelica whose classes it has."""
+        return (*self._packages, *dict.fromkeys(n.rpartition(".")[0] for n in self._listed))
+
+    @cached_property
     def _listed(self) -> dict[str, str]:
         """Modelica's name of a class -> its Python path, from the module itself."""
         return self._paths(self.module)
@@ -144,7 +158,7 @@ def is_element(value: Any) -> bool:
     )
 
 
-def find(libraries: Sequence[Library], name: str) -> Any:
+def find_class(libraries: Sequence[Library], name: str) -> Any:
     """The class of a full name.
 
     Raises:

@@ -55,12 +55,12 @@ def load(
         ModelError: in one sentence, with the line or field, for a file that cannot be read, a class or name
             that does not exist, an expression that is malformed, a model that is larger than its budget.
     """
-    path, known = need_path(path, "load", ModelError), _libraries(libraries)
+    path, known = need_path(path, "load", ModelError), libraries_of(libraries)
     allowed = Budget() if budget is None else budget
     with spending(allowed):
         document = netlist_file.read(path)
         model = within(path.name, lambda: build(document, path.name, known))
-        within(path.name, lambda: _check_sizes(model))
+        within(path.name, lambda: check_sizes(model))
     model._node.budget = allowed
     return model
 
@@ -82,10 +82,10 @@ def save(model: Component, path: str | Path, libraries: Sequence[ModuleType] = (
     if not isinstance(model, Component):
         raise ModelError(f"save needs a Component, got {type(model).__name__}")
     path = need_path(path, "save", ModelError)
-    netlist_file.write(Writer(_libraries(libraries)).model(model), path)
+    netlist_file.write(Writer(libraries_of(libraries)).model(model), path)
 
 
-def _check_sizes(model: Component) -> None:
+def check_sizes(model: Component) -> None:
     """Refuse vectors that are too large now, not when their elements are first read."""
     nodes = [model._node]
     while nodes:
@@ -103,7 +103,12 @@ def _check_sizes(model: Component) -> None:
                     continue
 
 
-def _libraries(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
+def libraries_of(modules: Sequence[ModuleType]) -> tuple[Library, ...]:
+    """The installed libraries, and further modules as libraries.
+
+    Raises:
+        ModelError: for what is not a list of modules.
+    """
     given: Any = modules
     for module in given if isinstance(given, Sequence) else [None]:
         if not isinstance(module, ModuleType):

@@ -113,11 +113,11 @@ def attribute(model: Component, path: str) -> Any:
                     return None
                 value = value[int(index) - 1]
         else:
-            value = _member(value, found[1])
+            value = member(value, found[1])
     return value
 
 
-def _member(value: Any, name: str) -> Any:
+def member(value: Any, name: str) -> Any:
     """A member by its name; of a list of parts the list of their members, as in ``sine.y``."""
     match value:
         case Component():
@@ -125,7 +125,7 @@ def _member(value: Any, name: str) -> Any:
         case Connector():
             return getattr(value, name) if name in value.declarations else None
         case list():
-            members = [_member(v, name) for v in cast(list[Any], value)]
+            members = [member(v, name) for v in cast(list[Any], value)]
             return members if members and all(m is not None for m in members) else None
         case _:
             return None

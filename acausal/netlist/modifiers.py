@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from inspect import signature
 from typing import Any, cast, get_args
 
-from acausal.errors import nearest, shortened
+from acausal.errors import DeclarationError, nearest, shortened
 from acausal.modeling import (
     Component,
     Connector,
@@ -17,6 +17,7 @@ from acausal.modeling import (
     Option,
     Parameter,
     Variable,
+    check_size,
 )
 from acausal.netlist.file import NetlistError, kind, within
 from acausal.netlist.model import START_KEYS, arguments_of
@@ -39,6 +40,53 @@ def is_count(cls: Any, key: str) -> bool:
         return isinstance(declared.default, int) and not isinstance(declared.default, bool)
     kind = signature(cls.__init__).parameters.get(key)
     return kind is not None and int in (kind.annotation, *get_args(kind.annotation))
+
+
+def make(
+    scope: Scope, cls: Any, given: Mapping[str, Any], place: str, where: str, by: Any = None
+) -> tuple[Any, dict[str, Any]]:
+    """An instance of a class, with those of the modifiers that it must be made with; and these, as arguments.
+
+    Arguments:
+        place: of the modifiers, for messages; ``where``: of the part.
+        by: what is called in place of the class, such as its constructor for an instance of a class derived from it.
+
+    Raises:
+        NetlistError: in one sentence, with the place.
+    """
+    arguments = {
+        name: _argument(scope, cls._declared.get(name), raw, f"{place}.{shortened(name)}")
+        for name, raw in given.items()
+        if is_structural(cls, name)
+    }
+    for name, value in arguments.items():
+        if isinstance(value, int | float) and is_count(cls, name):
+            label = f"{cls.__name__} with {name}={value:g}"
+            within(where, lambda n=int(value), label=label: check_size(n, label))
+    return within(where, lambda: _made(cls, by or cls, arguments)), arguments
+
+
+def _argument(scope: Scope, declared: Any, raw: Any, where: str) -> Any:
+    match declared:
+        case Option():
+            return scope.option(declared, raw, where)
+        case None:
+            return scope.argument(raw, where)
+        case _:
+            return scope.value(raw, where)
+
+
+def _made(cls: Any, by: Any, arguments: Mapping[str, Any]) -> Any:
+    """An instance; an exception of its constructor becomes one sentence."""
+    try:
+        return by(**arguments)
+    except DeclarationError:
+        raise
+    except Exception as error:  # a library's own code, with values that it was not written for
+        reason = shortened(" ".join(str(error).split()), 120)
+        raise DeclarationError(
+            f"{cls.__name__} cannot be made with these modifiers ({reason})"
+        ) from None
 
 
 def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None:
@@ -125,4 +173,4 @@ def _bind(scope: Scope, part: Component, key: str, raw: Any, where: str) -> None
             raise NetlistError(f"{where} has {len(variables)} elements, not {len(values)}")
         pairs = list(zip(variables, values, strict=True))
     for left, right in pairs:
-        scope.model._file.bindings.append(within(where, lambda a=left, b=right: Eq(a, b)))
+        scope.bind(within(where, lambda a=left, b=right: Eq(a, b)))

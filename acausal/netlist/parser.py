@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import operator
 from collections.abc import Callable
 from typing import Any
 
@@ -17,22 +16,11 @@ import sympy as sp
 
 from acausal.errors import listing, nearest, shortened
 from acausal.modeling import where
+from acausal.netlist.arithmetic import MAX_INTEGER, RELATIONS, Arithmetic
 from acausal.netlist.tokens import ExpressionError as ExpressionError, TokenStream
 from acausal.netlist.vocabulary import BARE_CONSTANTS, CONSTANTS, CONVERSIONS, FUNCTIONS, function
 
 MAX_DEPTH = 60
-MAX_INTEGER = 2**53
-MAX_EXPONENT = 100
-MAX_OPERATIONS = 300
-
-RELATIONS: dict[str, Callable[[Any, Any], Any]] = {
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-    "==": sp.Eq,
-    "<>": sp.Ne,
-}
 
 Lookup = Callable[[str], Any]
 
@@ -67,7 +55,7 @@ def parse_equation(text: str, lookup: Lookup) -> tuple[Any, Any]:
     return left, right
 
 
-class Reader(TokenStream):
+class Reader(TokenStream, Arithmetic):
     """Recursive descent over the tokens of one text.
 
     Attributes:
@@ -80,7 +68,6 @@ class Reader(TokenStream):
         super().__init__(text)
         self.lookup = lookup
         self.depth = 0
-        self.operations = 0
 
     # -- logic ---------------------------------------------------------------------------------------
 
@@ -109,77 +96,51 @@ class Reader(TokenStream):
             otherwise = self.expression()
         if isinstance(condition, bool):
             return value if condition else otherwise
-        return where(condition, self._number(value), self._number(otherwise), events=self.events)
+        return where(condition, self.number(value), self.number(otherwise), events=self.events)
 
     def _any(self) -> Any:
         value = self._all()
         while self.peek() == "or":
             self.advance()
-            value = self._logical(sp.Or, value, self._all())
+            value = self.logical(sp.Or, value, self._all())
         return value
 
     def _all(self) -> Any:
         value = self._negation()
         while self.peek() == "and":
             self.advance()
-            value = self._logical(sp.And, value, self._negation())
+            value = self.logical(sp.And, value, self._negation())
         return value
 
     def _negation(self) -> Any:
         if self.peek() == "not":
             self.advance()
-            return self._logical(sp.Not, self._relation())
+            return self.logical(sp.Not, self._relation())
         return self._relation()
 
     def _relation(self) -> Any:
         left = self._sum()
         if self.peek() not in RELATIONS:
             return left
-        self._count()
-        relation = RELATIONS[self.advance()]
-        right = self._sum()
-        if isinstance(left, str | bool) and isinstance(right, type(left)):
-            if relation not in (sp.Eq, sp.Ne):
-                raise self.wrong("texts and truth values can only be compared by == and <>")
-            return (left == right) is (relation is sp.Eq)
-        return self._plain(relation(self._number(left), self._number(right)))
-
-    def _logical(self, function: Any, *values: Any) -> Any:
-        self._count()
-        return self._plain(function(*(self.truth(v) for v in values)))
-
-    def truth(self, value: Any) -> Any:
-        """A condition.
-
-        Raises:
-            ExpressionError: for what is neither true nor false.
-        """
-        if not isinstance(value, bool | sp.logic.boolalg.Boolean):
-            raise self.wrong(f"{shortened(repr(value))} is neither true nor false")
-        return value
-
-    @staticmethod
-    def _plain(value: Any) -> Any:
-        """Sympy's true and false as Python's."""
-        return bool(value) if value in (sp.true, sp.false) else value
+        return self.relation(self.advance(), left, self._sum())
 
     # -- arithmetic ----------------------------------------------------------------------------------
 
     def _sum(self) -> Any:
         value = self._signed_product()
         while self.peek() in ("+", "-"):
-            value = self._arithmetic(self.advance(), value, self._product())
+            value = self.arithmetic(self.advance(), value, self._product())
         return value
 
     def _signed_product(self) -> Any:
         if self.peek() in ("+", "-"):
-            return self._arithmetic(self.advance(), 0, self._product())
+            return self.arithmetic(self.advance(), 0, self._product())
         return self._product()
 
     def _product(self) -> Any:
         value = self._power()
         while self.peek() in ("*", "/"):
-            value = self._arithmetic(self.advance(), value, self._power())
+            value = self.arithmetic(self.advance(), value, self._power())
         return value
 
     def _power(self) -> Any:
@@ -188,11 +149,11 @@ class Reader(TokenStream):
             return base
         self.advance()
         exponent = (
-            self._arithmetic(self.advance(), 0, self._primary())
+            self.arithmetic(self.advance(), 0, self._primary())
             if self.peek() in ("+", "-")
             else self._primary()
         )
-        return self._arithmetic("^", base, exponent)
+        return self.arithmetic("^", base, exponent)
 
     def _primary(self) -> Any:
         kind, token = self.tokens[self.position] if self.position < len(self.tokens) else ("", "")
@@ -221,49 +182,6 @@ class Reader(TokenStream):
             raise self.wrong("not a finite number")
         return int(value) if token.isdigit() and value < MAX_INTEGER else value
 
-    def _arithmetic(self, operator: str, a: Any, b: Any) -> Any:
-        a, b = self._number(a), self._number(b)
-        if operator == "/" and isinstance(b, int | float) and b == 0:
-            raise self.wrong("divides by zero")
-        if isinstance(a, sp.Expr) or isinstance(b, sp.Expr):
-            self._count()
-            a, b = _inexact(a), b if operator == "^" and _is_small(b) else _inexact(b)
-        try:
-            match operator:
-                case "+":
-                    result = a + b
-                case "-":
-                    result = -b if isinstance(a, int | float) and a == 0 else a - b
-                case "*":
-                    result = a * b
-                case "/":
-                    result = a / b
-                case _:
-                    plain = isinstance(a, int | float) and isinstance(b, int | float)
-                    result = math.pow(a, b) if plain else a**b
-        except (OverflowError, ValueError):
-            raise self.wrong("not a finite number") from None
-        return self._finite(result)
-
-    def _count(self) -> None:
-        self.operations += 1
-        if self.operations > MAX_OPERATIONS:
-            raise self.wrong(f"more than {MAX_OPERATIONS} operations on parameters")
-
-    def _number(self, value: Any) -> Any:
-        if not isinstance(value, int | float | sp.Expr) or isinstance(value, bool):
-            raise self.wrong(f"{shortened(repr(value))} is not a number to calculate with")
-        return value
-
-    def _finite(self, value: Any) -> Any:
-        if isinstance(value, sp.Expr) and value.is_number:
-            value = float(value) if value.is_real else math.nan
-        if isinstance(value, int) and abs(value) > MAX_INTEGER:
-            value = float(value) if value.bit_length() < 1000 else math.inf
-        if isinstance(value, float) and not math.isfinite(value):
-            raise self.wrong("not a finite number")
-        return value
-
     # -- names, calls, vectors -----------------------------------------------------------------------
 
     def _name(self, name: str) -> Any:
@@ -291,9 +209,9 @@ class Reader(TokenStream):
         known = self.function(name)
         if known is None:
             return self._record(name, given)
-        self._count()
+        self.count()
         try:
-            return self._finite(known(*(sp.sympify(self._number(value)) for _, value in given)))
+            return self.finite(known(*(sp.sympify(self.number(value)) for _, value in given)))
         except (TypeError, ValueError):
             raise self.wrong(f"{name} does not take these arguments") from None
 
@@ -332,7 +250,7 @@ class Reader(TokenStream):
     def _applied(
         self, name: str, function: Callable[..., Any], given: list[tuple[str, Any]]
     ) -> Any:
-        self._count()
+        self.count()
         named = {key: value for key, value in given if key}
         try:
             return function(*(value for key, value in given if not key), **named)
@@ -359,15 +277,6 @@ class Reader(TokenStream):
         if len({len(row) for row in rows}) > 1:
             raise self.wrong("the rows of the matrix differ in length")
         return rows
-
-
-def _is_small(exponent: Any) -> bool:
-    return isinstance(exponent, int) and abs(exponent) <= MAX_EXPONENT
-
-
-def _inexact(value: Any) -> Any:
-    """Integers as floats: sympy's exact powers of them could grow without end."""
-    return float(value) if isinstance(value, int) else value
 
 
 def _is_record(value: Any) -> bool:

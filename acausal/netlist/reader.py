@@ -13,16 +13,14 @@ from typing import Any, cast
 
 import sympy as sp
 
-from acausal.errors import DeclarationError, nearest, shortened
+from acausal.errors import nearest, shortened
 from acausal.modeling import (
     Component,
     Connector,
     Eq,
     InitialParameter,
-    Option,
     Parameter,
     Start,
-    check_size,
 )
 from acausal.netlist import library
 from acausal.netlist.file import (
@@ -36,7 +34,7 @@ from acausal.netlist.file import (
 )
 from acausal.netlist.library import Library
 from acausal.netlist.model import Netlist, attribute, hint, is_left_out
-from acausal.netlist.modifiers import is_count, is_structural, modify
+from acausal.netlist.modifiers import is_structural, make, modify
 from acausal.netlist.own_equations import assign, declare, no_name, state
 from acausal.netlist.parser import parse_equation
 from acausal.netlist.scope import IGNORED_KEYS, Scope
@@ -130,7 +128,7 @@ def _structural(scope: Scope, entry: Any) -> Mapping[str, Any]:
     if not isinstance(name, str) or not isinstance(given, Mapping):
         return {}
     try:
-        cls = library.find(scope.libraries, name)
+        cls = library.find_class(scope.libraries, name)
     except KeyError:
         return {}
     if not issubclass(cls, Component):
@@ -198,40 +196,8 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
     if not issubclass(cls, Component):
         scope.model._file.placed.append(key)
         return cls()
-    arguments = {
-        name: _argument(scope, cls._declared.get(name), raw, f"{where}.with.{shortened(name)}")
-        for name, raw in given.items()
-        if is_structural(cls, name)
-    }
-    for name, value in arguments.items():
-        if isinstance(value, int | float) and is_count(cls, name):
-            label = f"{cls.__name__} with {name}={value:g}"
-            within(where, lambda n=int(value), label=label: check_size(n, label))
-    scope.model._file.arguments[key] = arguments
-    return within(where, lambda: _make(cls, arguments))
-
-
-def _argument(scope: Scope, declared: Any, raw: Any, where: str) -> Any:
-    match declared:
-        case Option():
-            return scope.option(declared, raw, where)
-        case None:
-            return scope.argument(raw, where)
-        case _:
-            return scope.value(raw, where)
-
-
-def _make(cls: Any, arguments: Mapping[str, Any]) -> Any:
-    """An instance; an exception of its constructor becomes one sentence."""
-    try:
-        return cls(**arguments)
-    except DeclarationError:
-        raise
-    except Exception as error:  # a library's own code, with values that it was not written for
-        reason = shortened(" ".join(str(error).split()), 120)
-        raise DeclarationError(
-            f"{cls.__name__} cannot be made with these modifiers ({reason})"
-        ) from None
+    part, scope.model._file.arguments[key] = make(scope, cls, given, f"{where}.with", where)
+    return part
 
 
 def _connector(scope: Scope, name: str, entry: Any, where: str) -> None:

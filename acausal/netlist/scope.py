@@ -10,6 +10,7 @@ import sympy as sp
 from acausal.errors import nearest, shortened
 from acausal.modeling import (
     STATE_SELECT,
+    Eq,
     Option,
     Parameter,
     Reference,
@@ -55,12 +56,16 @@ class Scope:
             return time
         raise KeyError(name)
 
+    def bind(self, equation: Eq) -> None:
+        """Add the equation of a variable that the file gives a value."""
+        self.model._file.bindings.append(equation)
+
     def find(self, name: Any, where: str) -> Any:
         """The class of that name."""
         if not isinstance(name, str):
             raise NetlistError(f"{where}: the name of a class is needed, not {kind(name)}")
         try:
-            return library.find(self.libraries, name)
+            return library.find_class(self.libraries, name)
         except KeyError as error:
             hint = f"there is no class '{shortened(name)}'; {error.args[0]}"
             raise NetlistError(f"{where}: {hint}") from None
@@ -99,7 +104,7 @@ class Scope:
             return [self.argument(item, f"{where}[{i}]") for i, item in enumerate(items)]
         if isinstance(raw, str):
             try:
-                return library.find(self.libraries, raw)
+                return library.find_class(self.libraries, raw)
             except KeyError:
                 pass
         return self.value(raw, where)
@@ -129,12 +134,12 @@ def _option_value(option: Option, value: Any, where: str) -> Any:
     if isinstance(value, list):
         return [_option_value(option, v, where) for v in cast(list[Any], value)]
     if isinstance(value, sp.Expr):
-        value = _evaluated(value, where, {})
+        value = evaluated(value, where, {})
     whole = isinstance(option.default, int) and not isinstance(option.default, bool)
     return int(value) if whole and isinstance(value, float) and value.is_integer() else value
 
 
-def _evaluated(expression: sp.Expr, where: str, values: dict[Any, Any]) -> float:
+def evaluated(expression: sp.Expr, where: str, values: dict[Any, Any]) -> float:
     """The number that parameters give; ``values`` are those known so far, None for one that is being evaluated."""
     for symbol in sorted(expression.free_symbols, key=str):
         if values.get(symbol) is not None:
@@ -146,7 +151,7 @@ def _evaluated(expression: sp.Expr, where: str, values: dict[Any, Any]) -> float
         given = symbol.owner.modifiers.get(symbol.path, symbol.declaration.default)
         if isinstance(given, sp.Expr) and symbol not in values:
             values[symbol] = None
-            given = _evaluated(given, where, values)
+            given = evaluated(given, where, values)
         if not isinstance(given, int | float):
             raise NetlistError(f"{where}: '{symbol}' has no number; a structural choice is fixed")
         values[symbol] = given

@@ -1184,7 +1184,7 @@ on_system(
             lambda c, f: ac.save(case("thermal").system.model, f / "s.json", "os"),
             True,
         ),
-        "libraries of a module": (lambda c, f: ac.load(f / "none.json", tl), True),
+        "libraries of a module": (lambda c, f: ac.load(f / "none.json", libraries=tl), True),
         "load with a budget of text": (
             lambda c, f: (
                 ac.save(case("thermal").system.model, f / "b.json"),
@@ -1206,8 +1206,8 @@ on_system(
         "a TensorBoard in a number": (lambda c, f: ac.TensorBoardLog(3.5), True),
         "a cache in a number": (lambda c, f: ac.use_compilation_cache(3.5), True),
         "a cache in no folder": (lambda c, f: ac.use_compilation_cache("/dev/null/x"), True),
-        "libraries of text": (lambda c, f: ac.load(f / "none.json", ["os"]), True),
-        "libraries of a number": (lambda c, f: ac.load(f / "none.json", 3), True),
+        "libraries of text": (lambda c, f: ac.load(f / "none.json", libraries=["os"]), True),
+        "libraries of a number": (lambda c, f: ac.load(f / "none.json", libraries=3), True),
         "parameters exchanged": (
             lambda c, f: ac.save_params(f / "a.safetensors", c.system.parameters()),
             True,

@@ -61,13 +61,13 @@ def test_names_find_classes(name: str, cls: Any) -> None:
 def test_other_names_find_nothing(name: str) -> None:
     assert MSL.find(name) is None
     with pytest.raises(KeyError):
-        library.find((MSL,), name)
+        library.find_class((MSL,), name)
 
 
 def test_hints() -> None:
     def hint(name: str) -> str:
         with pytest.raises(KeyError) as caught:
-            library.find((MSL,), name)
+            library.find_class((MSL,), name)
         return str(caught.value.args[0])
 
     assert "'Modelica.Mechanics.Translational.Components.Spring'?" in hint(

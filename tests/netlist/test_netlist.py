@@ -55,7 +55,7 @@ def read(file: Path, document: Any, libraries: Any = ()) -> Any:
     text = document if isinstance(document, str) else json.dumps(document)
     VALID.validate(json.loads(text))
     file.write_text(text, encoding="utf-8")
-    return ac.load(file, libraries)
+    return ac.load(file, libraries=libraries)
 
 
 def saved(model: ac.Component, file: Path, libraries: Any = ()) -> dict[str, Any]:
@@ -105,7 +105,7 @@ def test_an_oracle_is_written_as_it_was_read(name: str, file: Path) -> None:
 def test_a_model_of_python_makes_the_round_trip(file: Path) -> None:
     for model in (qvm.linear(), qvm.truth(), qvm.with_networks(wrong=True)):
         document = saved(model, file, [qvm])
-        again = ac.load(file, [qvm])
+        again = ac.load(file, libraries=[qvm])
         same(again, model)
         assert saved(again, file, [qvm]) == document
     assert document["model"] == "QuarterVehicle"

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
 from acausal.export.modelica_text.spelling import array, number
 from acausal.modeling import Component, Option
-from acausal.netlist import Library, Writer, installed
+from acausal.netlist import BARE_CONSTANTS, Library, Writer, installed
 
 TYPES: dict[str, str] = {
     **dict.fromkeys(("never", "avoid", "default", "prefer", "always"), "StateSelect"),
@@ -38,7 +39,8 @@ def standard_part(model: Component, name: str) -> tuple[str, Flat] | None:
     if not any((n := b.name_of(type(part))) and n.startswith("Modelica.") for b in installed()):
         return None
     entry = Writer(installed()).part(model, name)
-    return entry["class"], _flat(entry.get("with", {}), part)
+    flat = _flat(entry.get("with", {}), part)
+    return entry["class"], {path: _with_constants(text, model) for path, text in flat.items()}
 
 
 def standard_connector(kind: type, name: str) -> str | None:
@@ -53,11 +55,25 @@ def _names(library: Library, kind: type) -> list[str]:
     return [n for n in library.modelica_names if library.find(n) is kind]
 
 
+def _with_constants(text: str, model: Component) -> str:
+    """An expression with the full names of constants, which files may write without their package."""
+
+    def full(found: re.Match[str]) -> str:
+        own = found[0] not in BARE_CONSTANTS or hasattr(model, found[0])
+        return found[0] if own else f"Modelica.Constants.{found[0]}"
+
+    return re.sub(r"(?<![\w.\"])[A-Za-z]\w*(?![\w.\"(])", full, text)
+
+
 def _flat(given: Mapping[str, Any], part: Component | None) -> Flat:
     found: Flat = {}
     for key, value in given.items():
         declared = part._node.declaration(key) if part is not None else None
-        if isinstance(value, Mapping):
+        if key in ("unit", "displayUnit", "quantity"):
+            continue
+        if isinstance(value, Mapping) and "=" in value:
+            found[key,] = _text(value["="], declared)
+        elif isinstance(value, Mapping):
             inner = part._node.children.get(key) if part is not None else None
             found |= {(key, *path): text for path, text in _flat(value, inner).items()}
         else:

@@ -1,0 +1,14 @@
+"""Modelica text: a file's classes become components, one Python class each.
+
+In: the text of files, and values of their parameters. Out: a `Component`, as a netlist gives one.
+It knows declarations and netlists; neither flattening nor JAX. Text is parsed, never run.
+"""
+
+from acausal.modelica.build import Model as Model
+from acausal.modelica.grammar import parse as parse
+from acausal.modelica.load import load as load
+from acausal.modelica.tokens import (
+    ModelicaError as ModelicaError,
+    Source as Source,
+    read_source as read_source,
+)

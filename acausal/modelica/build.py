@@ -1,0 +1,411 @@
+"""Components of classes that Modelica text defines: one Python class for each, with the equations of the text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from acausal.errors import ModelError, nearest
+from acausal.modelica import statements
+from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.functions import Interpreter
+from acausal.modelica.given import Bound, Given, Index, Modification, given_by, modification
+from acausal.modelica.library_parts import make_part, modify_connector, modify_part
+from acausal.modelica.operators import Frame
+from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
+from acausal.modelica.tokens import ModelicaError
+from acausal.modelica.types import (
+    Type,
+    connector_class,
+    is_component,
+    type_of_declared,
+)
+from acausal.modelica.values import ABSENT, of
+from acausal.modelica.variables import declare
+from acausal.modeling import Component, charge, check_size
+
+MAX_DEPTH = 60
+
+
+class Model(Component):
+    """A component whose class is Modelica text.
+
+    Arguments:
+        given: modifiers from outside. above: the component that it is a part of.
+        modifiers: by name, values for parameters, as for every component.
+    """
+
+    _class: ClassVar[ClassNode]
+    _build: Build
+
+    def __init__(
+        self, /, *, _given: Sequence[Given] = (), _above: Build | None = None, **modifiers: Any
+    ) -> None:
+        own = [
+            Given(
+                name,
+                Modifier([], Constant(value, 0)),
+                Frame(self._class),
+                self._class.definition.at,
+            )
+            for name, value in modifiers.items()
+            if name in self._class.view().entries and isinstance(value, int | float | str | list)
+        ]
+        build = Build(self, self._class, [*own, *_given], _above)
+        self.__dict__["_build"] = build
+        build.make(super().__init__)
+        self.modify(**{n: v for n, v in modifiers.items() if n not in {g.name for g in own}})
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The times of the experiment that the text states."""
+        names = {"StartTime": "start_time", "StopTime": "stop_time"}
+        stated = self._class.definition.experiment
+        frame = Frame(self._class)
+        return {names[k]: Interpreter(frame).value(v) for k, v in stated.items() if k in names}
+
+    def equations(self) -> Iterator[Any]:
+        """The equations of the text, and those of variables that are given a value."""
+        yield from super().equations()
+        yield from statements.equations(self._build)
+
+    def initial_equations(self) -> Iterator[Any]:
+        """The initial equations of the text."""
+        yield from super().initial_equations()
+        yield from statements.initial_equations(self._build)
+
+
+def class_of(node: ClassNode) -> type[Model]:
+    """The Python class of a class.
+
+    Raises:
+        ModelicaError: for a class that is no model.
+    """
+    if node.python is None:
+        kind, view = node.definition.kind, node.view()
+        if kind not in ("model", "block", "class", "record"):
+            raise node.wrong(
+                node.definition.at,
+                f"'{node.definition.name}' is a {kind}, not a model",
+                len(node.definition.name),
+            )
+        natives = [n.cls for n, _ in view.natives if is_component(n.cls)]
+        if len(natives) < len(view.natives):
+            raise node.wrong(
+                node.definition.at,
+                f"'{node.definition.name}' extends a signal or a connector, and has more",
+                len(node.definition.name),
+            )
+        bases = [
+            b
+            for i, b in enumerate(natives)
+            if not any(issubclass(c, b) for c in (*natives[:i], *natives[i + 1 :]) if c is not b)
+            and b not in natives[:i]
+        ]
+        attributes = {"_class": node, "__module__": __name__, "__doc__": node.definition.comment}
+        node.python = type(node.definition.name, (Model, *bases), attributes)
+    return node.python
+
+
+class Build:
+    """How one component is made of its class, and what its expressions refer to.
+
+    Attributes:
+        given: modifiers from outside. above: of the component that it is a part of.
+        made: values of names that are no declarations: constants, and parameters that decide a structure.
+        types: name -> ``Real``, ``Integer``, ``Boolean``, ``String`` or an enumeration.
+        absent: components that their condition leaves out.
+        classes: replaceable classes that are redeclared.
+        bindings: part, variable and the expression that it equals.
+        decided: expressions of parameters that decided what there is, and their values.
+    """
+
+    def __init__(
+        self, component: Model, node: ClassNode, given: Sequence[Given], above: Build | None
+    ) -> None:
+        self.component, self.node, self.given, self.above = component, node, list(given), above
+        self.made: dict[str, Any] = {}
+        self.types: dict[str, str] = {}
+        self.absent: set[str] = set()
+        self.classes: dict[str, Any] = {}
+        self.bindings: list[tuple[Component, str, Bound]] = []
+        self.decided: dict[str, float] = {}
+        self._making: dict[str, None] = {}
+        self._later: list[Callable[[], None]] = []
+
+    @property
+    def entries(self) -> dict[str, Entry]:
+        """The components of the class."""
+        return self.node.view().entries
+
+    @property
+    def names(self) -> dict[str, Any]:
+        """Components of the class, and what it inherits from a library."""
+        return {**self.component._declared, **self.component._node.children, **self.entries}
+
+    def frame(self, node: ClassNode) -> Frame:
+        """Where expressions of a class that it consists of are looked up."""
+        return Frame(node, self)
+
+    # -- making ----------------------------------------------------------------------------------------
+
+    def make(self, base: Any) -> None:
+        """Declare everything; ``base`` is the constructor of the classes of libraries that it extends."""
+        definition = self.node.definition
+        if definition.partial:
+            self._refuse(
+                f"'{definition.name}' is partial; extend it, or redeclare it by a complete class"
+            )
+        if self._depth > MAX_DEPTH:
+            self._refuse(
+                f"parts within parts more than {MAX_DEPTH} deep; does '{definition.name}' contain itself?"
+            )
+        view = self.node.view()
+        self._redeclare()
+        native = [
+            *(g for g in self.given if g.name not in view.entries and g.name not in self.classes),
+            *(
+                g
+                for _, arguments in view.natives
+                for a, n in arguments
+                for g in given_by([a], self.frame(n))
+            ),
+        ]
+        if view.natives:
+            make_part(type(self.component), native, base)
+        elif native:
+            raise native[0].wrong(
+                f"{definition.name} has no '{native[0].name}'; {nearest(native[0].name, list(view.entries))}"
+            )
+        else:
+            base()
+        for name in view.entries:
+            self.member(name)
+        modify_part(self, self.component, native)
+        for modify in self._later:
+            modify()
+        self._in_order()
+        statements.connect(self)
+        self._distinguish()
+
+    def _refuse(self, reason: str) -> None:
+        if self.above is not None and self.given:
+            raise self.given[0].wrong(reason)
+        raise self.node.wrong(self.node.definition.at, reason, len(self.node.definition.name))
+
+    @property
+    def _depth(self) -> int:
+        return 0 if self.above is None else self.above._depth + 1
+
+    def _redeclare(self) -> None:
+        """The classes that stand for replaceable ones."""
+        view = self.node.view()
+        for one in self.given[::-1]:
+            if isinstance(one.redeclared, ClassDefinition):
+                own = self.node.member(one.name)
+                if own is None:
+                    raise one.wrong(f"{self.node.definition.name} has no class '{one.name}'")
+                if isinstance(own, ClassNode) and not own.definition.prefixes.replaceable:
+                    raise one.wrong(f"'{one.name}' is not replaceable")
+                self.classes[one.name] = redeclared_class(one.redeclared, one.frame)
+        for name, (element, node) in view.classes.items():
+            definition = element if isinstance(element, ClassDefinition) else element.redeclared
+            assert isinstance(definition, ClassDefinition)
+            self.classes.setdefault(name, redeclared_class(definition, self.frame(node)))
+
+    def member(self, name: str) -> Any:
+        """A component, which is made if it is needed for the first time: its value, references, part or connector.
+
+        Raises:
+            ModelicaError: if it depends on itself, or cannot be made.
+        """
+        if name in self.made:
+            return self.made[name]
+        if name in self.absent:
+            return ABSENT
+        entry = self.entries.get(name)
+        if entry is None or name in vars(self.component):
+            return of(self.component, name)
+        if name in self._making:
+            circle = " -> ".join([*self._making, name])
+            raise entry.node.wrong(
+                entry.declared.at, f"{circle}: each depends on the next", len(name)
+            )
+        self._making[name] = None
+        try:
+            self._make(name, entry)
+        except ModelicaError:
+            raise
+        except ModelError as error:
+            raise entry.node.wrong(entry.declared.at, str(error), len(name)) from None
+        finally:
+            self._making.pop(name, None)
+        return self.member(name)
+
+    def _make(self, name: str, entry: Entry) -> None:
+        declared, frame = entry.declared, self.frame(entry.node)
+        if declared.prefixes.outer or declared.prefixes.inner:
+            word = "outer" if declared.prefixes.outer else "inner"
+            raise entry.node.wrong(
+                declared.at, f"'{word}' is not supported; connect the parts", len(name)
+            )
+        given = [
+            *self.given,
+            *(g for a, n in entry.modifiers for g in given_by([a], self.frame(n))),
+        ]
+        mod = modification(declared, given, frame)
+        if declared.condition is not None:
+            interpreter = Interpreter(frame)
+            holds = interpreter.truth(interpreter.value(declared.condition))
+            if not interpreter.known(holds, "the condition of a component"):
+                self.absent.add(name)
+                return
+        if mod.redeclared is not None:
+            declared, frame = mod.redeclared.redeclared, mod.redeclared.frame
+        found = type_of_declared(frame, declared)
+        sizes = [(s, frame) for s in declared.subscripts or entry.declared.subscripts]
+        sizes += [(s, Frame(n)) for s, n in found.subscripts]
+        if found.predefined:
+            declare(self, name, entry, found, mod, sizes)
+        else:
+            value = self._parts(name, entry, found, mod, [self.size(s, f) for s, f in sizes])
+            self.assign(name, entry, value)
+
+    def assign(self, name: str, entry: Entry, value: Any) -> None:
+        """Give the component an attribute."""
+        try:
+            self.component._claim(name)
+            setattr(self.component, name, value)
+        except ModelicaError:
+            raise
+        except ModelError as error:
+            raise entry.node.wrong(entry.declared.at, str(error), len(name)) from None
+
+    def size(self, expression: Any, frame: Frame) -> int:
+        """The size of an array."""
+        interpreter = Interpreter(frame)
+        interpreter.at = expression.at
+        number = interpreter.whole(interpreter.value(expression), "a size")
+        if number < 0:
+            raise interpreter.wrong(f"a size is not negative; this is {number}")
+        check_size(number, "the array")
+        return number
+
+    # -- parts -------------------------------------------------------------------------------------------
+
+    def _parts(
+        self, name: str, entry: Entry, found: Type, mod: Modification, sizes: list[int]
+    ) -> Any:
+        """A part or connector, or nested lists of them."""
+
+        def nested(index: Index) -> Any:
+            if len(index) < len(sizes):
+                size = sizes[len(index)]
+                return [nested((*index, (i, size))) for i in range(size)]
+            inner = [g.element(index) for g in mod.inner]
+            value = mod.value and mod.value.element(index)
+            return self._part(element_name(name, index), entry, found, inner, value)
+
+        return nested(())
+
+    def _part(
+        self, name: str, entry: Entry, found: Type, inner: list[Given], value: Bound | None
+    ) -> Any:
+        if value is not None and not (
+            found.node is not None and found.node.definition.kind == "record"
+        ):
+            raise value.wrong(f"'{entry.declared.name}' is a part, which has no value")
+        if found.is_connector:
+            self._later.append(lambda: modify_connector(self, name, inner))
+            return found.native() if found.node is None else connector_class(found.node)()
+        if found.node is None:
+            if not is_component(found.native):
+                raise entry.node.wrong(entry.declared.type.at, "this is not a class of components")
+            part = make_part(found.native, inner)
+            self._later.append(lambda: modify_part(self, part, inner))
+            return part
+        if value is not None:
+            inner += _fields(found.node, value)
+        charge("components", 1, entry.declared.name)
+        return class_of(found.node)(_given=inner, _above=self)
+
+    # -- the record of the component -----------------------------------------------------------------------
+
+    def _in_order(self) -> None:
+        """Keep parts and declarations in the order of the text."""
+        node = self.component._node
+        position = {name: i for i, name in enumerate(self.entries)}
+
+        def place(name: str) -> int:
+            return position.get(name.partition("[")[0], -1)
+
+        node.children = dict(sorted(node.children.items(), key=lambda item: place(item[0])))
+        own = sorted(node.own_declarations.items(), key=lambda item: place(item[0]))
+        node.own_declarations = dict(own)
+
+    def _distinguish(self) -> None:
+        """Make all that decides the equations a constant, so that components with other equations have another form."""
+        statements.check(self)
+        constants = self.component._node.constants
+        for name, value in self.made.items():
+            constants[f"value of {name}"] = _plain(value)
+        constants["absent"] = tuple(sorted(self.absent))
+        constants["classes"] = tuple((n, str(id(c))) for n, c in self.classes.items())
+        constants["decided"] = tuple(self.decided.items())
+        constants["bindings"] = tuple(
+            (name, str(id(bound.expression)), bound.index) for _, name, bound in self.bindings
+        )
+        self.given, self._later = [], []
+
+
+def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
+    """The class that a redeclaration states; the same for the same text."""
+    key = f"redeclared at {definition.at} as {definition.name}"
+    known = frame.node.children
+    if key not in known:
+        short = definition.short
+        if short is not None and not short.modifier.arguments and not short.subscripts:
+            found, rest = frame.find(short.base.words)
+            if found is None or rest:
+                raise frame.node.unknown(short.base)
+            if frame.build is not None and short.base.words[0] in frame.build.classes:
+                return found
+            known[key] = found
+        else:
+            known[key] = ClassNode(definition, frame.node, frame.node.tree)
+    return known[key]
+
+
+def _fields(node: ClassNode, value: Bound) -> list[Given]:
+    """The fields of a record as modifiers."""
+    record = value.value()
+    found: list[Given] = []
+    for name, entry in node.view().entries.items():
+        if entry.declared.prefixes.final:
+            continue
+        given = of(record, name)
+        if given is None:
+            raise value.wrong(f"this is not a record with '{name}'")
+        found.append(
+            Given(
+                name,
+                Modifier([], Constant(given, value.expression.at)),
+                value.frame,
+                value.expression.at,
+            )
+        )
+    return found
+
+
+def _plain(value: Any) -> Any:
+    """A value as something that can be compared."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return value if isinstance(value, bool | int | float | str | list) else str(id(value))
+
+
+def element_name(name: str, index: Index) -> str:
+    """The name of an element of a list of parts."""
+    return f"{name}[{','.join(str(i + 1) for i, _ in index)}]" if index else name

@@ -1,0 +1,409 @@
+"""Classes of the text: what their names mean, and what they inherit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from acausal.errors import nearest, shortened
+from acausal.modelica.found import Native, Predefined, Prefix, Value
+from acausal.modelica.grammar import parse
+from acausal.modelica.syntax import (
+    Argument,
+    ClassDefinition,
+    Declared,
+    Extends,
+    Import,
+    Name,
+    Statement,
+)
+from acausal.modelica.tokens import PREDEFINED, ModelicaError, Source, read_source
+from acausal.netlist import find_class
+
+
+@dataclass(eq=False)
+class Entry:
+    """A component of a class, with the modifiers that it gets on the way from there.
+
+    Attributes:
+        node: the class that declares it, where its expressions are looked up.
+        modifiers: of `extends` and short classes, the outermost first, each with the class that states it.
+    """
+
+    declared: Declared
+    node: ClassNode
+    modifiers: list[tuple[Argument, ClassNode]]
+
+
+@dataclass(eq=False)
+class View:
+    """A class together with what it inherits.
+
+    Attributes:
+        natives: bases of libraries, with modifiers.
+        predefined: what a type is made of; ``attributes`` its modifiers, the outermost first.
+        sections: kind (``equations``, ``algorithms``, ...), statements and the class that states them.
+        classes: replaceable classes that are redeclared on the way.
+        subscripts: of types that are arrays.
+    """
+
+    natives: list[tuple[Native, list[tuple[Argument, ClassNode]]]] = field(default_factory=list)
+    predefined: Predefined | None = None
+    attributes: list[tuple[Argument, ClassNode]] = field(default_factory=list)
+    entries: dict[str, Entry] = field(default_factory=dict)
+    sections: list[tuple[str, list[Statement], ClassNode]] = field(default_factory=list)
+    classes: dict[str, tuple[Argument | ClassDefinition, ClassNode]] = field(default_factory=dict)
+    subscripts: list[tuple[Any, ClassNode]] = field(default_factory=list)
+    causality: str = ""
+    connection: str = ""
+
+
+class ClassNode:
+    """One class in the tree.
+
+    Attributes:
+        parent: the class or package around it.
+        folder: of a package that is a folder; other files there are its classes.
+    """
+
+    def __init__(
+        self,
+        definition: ClassDefinition,
+        parent: ClassNode | Prefix | None,
+        tree: Any,
+        folder: Path | None = None,
+    ) -> None:
+        self.definition, self.parent, self.tree, self.folder = definition, parent, tree, folder
+        self.children: dict[str, Any] = {}
+        self.python: type | None = None
+        self.unwatched: set[int] = set()
+        self._viewed = False
+        self._searching: set[str] = set()
+
+    def __deepcopy__(self, memo: Any) -> ClassNode:
+        return self
+
+    @cached_property
+    def full(self) -> str:
+        """The full name."""
+        above = "" if self.parent is None else f"{self.parent.full}."
+        return above + self.definition.name
+
+    @property
+    def source(self) -> Source:
+        """The file."""
+        return self.definition.source
+
+    def wrong(self, at: int, reason: str, length: int | None = None) -> ModelicaError:
+        """The error at a place in the file."""
+        return self.source.wrong(at, reason, length)
+
+    # -- names ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def _elements(self) -> dict[str, ClassDefinition]:
+        found: dict[str, ClassDefinition] = {}
+        for element in self.definition.elements:
+            if isinstance(element, ClassDefinition):
+                if element.name in found:
+                    raise self.wrong(
+                        element.at, f"'{element.name}' is declared twice", len(element.name)
+                    )
+                found[element.name] = element
+        return found
+
+    def own(self, name: str) -> Any:
+        """A class that is defined here, or that a library has under this name."""
+        if name not in self.children:
+            self.children[name] = self._own(name)
+        return self.children[name]
+
+    def _own(self, name: str) -> Any:
+        if "." in self.full or self.full == "Modelica":
+            native = self.tree.native(f"{self.full}.{name}")
+            if native is not None:
+                return native
+        if name in self._elements:
+            return ClassNode(self._elements[name], self, self.tree)
+        if self.folder is not None:
+            for file in (self.folder / f"{name}.mo", self.folder / name / "package.mo"):
+                if file.is_file():
+                    _, definitions = parse(read_source(file))
+                    inner = file.parent if file.name == "package.mo" else None
+                    return ClassNode(definitions[0], self, self.tree, inner)
+        return None
+
+    def member(self, name: str) -> Any:
+        """A class that is defined here or inherited; None if there is none."""
+        found = self.own(name)
+        if found is not None:
+            return found
+        if name in self._searching:
+            return None
+        self._searching.add(name)
+        try:
+            for extends in self.extends:
+                for argument in extends.modifier.arguments:
+                    if argument.name == name and isinstance(argument.redeclared, ClassDefinition):
+                        return ClassNode(argument.redeclared, self, self.tree)
+                base = self.base(extends, quiet=True)
+                found = self.tree.inside(base, name)
+                if found is not None:
+                    return found
+        finally:
+            self._searching.discard(name)
+        return None
+
+    @cached_property
+    def extends(self) -> list[Extends]:
+        """The clauses that name its bases."""
+        return [e for e in self.definition.elements if isinstance(e, Extends)]
+
+    @cached_property
+    def _imports(self) -> list[Import]:
+        return [e for e in self.definition.elements if isinstance(e, Import)]
+
+    def base(self, extends: Extends, quiet: bool = False) -> Any:
+        """The class that a clause names."""
+        if self.definition.extends_inherited and extends is self.extends[0]:
+            above = self.parent
+            for clause in above.extends if isinstance(above, ClassNode) else ():
+                found = self.tree.inside(above.base(clause), self.definition.name)  # pyright: ignore[reportOptionalMemberAccess, reportAttributeAccessIssue]
+                if found is not None:
+                    return found
+        found, rest = self.lookup(
+            extends.base.words, skip=self.definition.name if self.definition.short else ""
+        )
+        if found is None or rest:
+            if quiet:
+                return None
+            raise self.unknown(extends.base)
+        return found
+
+    def lookup(self, words: Sequence[str], skip: str = "") -> tuple[Any, Sequence[str]]:
+        """What a name means here: what is found by its first words, and the words that are left."""
+        if words[0] == "":
+            found = self.tree.root(words[1])
+            rest = words[2:]
+        else:
+            found = self._first(words[0])
+            rest = words[1:]
+        while found is not None and rest:
+            inner = self.tree.inside(found, rest[0])
+            if inner is None:
+                break
+            found, rest = inner, rest[1:]
+        return found, rest
+
+    def _first(self, word: str) -> Any:
+        node: Any = self
+        if word in PREDEFINED:
+            return Predefined(word)
+        while node is not None:
+            if isinstance(node, Prefix):
+                found = self.tree.inside(node, word)
+                if found is not None:
+                    return found
+                above = node.full.rpartition(".")[0]
+                node = self.tree.resolve(above) if above else None
+                continue
+            if node.definition.name == word and node is not self and node.parent is None:
+                return node
+            found = node.member(word)
+            if found is None:
+                found = node.imported(word)
+            if found is not None:
+                return found
+            node = None if node.definition.encapsulated else node.parent
+        return self.tree.root(word)
+
+    def imported(self, word: str) -> Any:
+        """What an import gives that name."""
+        for clause in self._imports:
+            if word in clause.names:
+                found = self.tree.resolve(clause.names[word])
+                if found is None:
+                    owner, _, last = clause.names[word].rpartition(".")
+                    package = self.tree.resolve(owner) if owner else None
+                    if isinstance(package, ClassNode) and last in package.view().entries:
+                        return Imported(package, last)
+                    raise self.wrong(clause.at, f"there is no '{clause.names[word]}'; {PATH_HINT}")
+                return found
+        for clause in self._imports:
+            if clause.everything:
+                package = self.tree.resolve(clause.package)
+                found = self.tree.inside(package, word)
+                if isinstance(found, Prefix) and not self.tree.has_package(found.full):
+                    found = None
+                if (
+                    found is None
+                    and isinstance(package, ClassNode)
+                    and word in package.view().entries
+                ):
+                    found = Imported(package, word)
+                if found is not None:
+                    return found
+        return None
+
+    def unknown(self, name: Name, what: str = "class") -> ModelicaError:
+        """The error for a name that means nothing here."""
+        words = [w for w in name.words if w]
+        if self.tree.root(words[0]) is None or isinstance(self.tree.root(words[0]), ClassNode):
+            known = [
+                *self._elements,
+                *(self.parent._elements if isinstance(self.parent, ClassNode) else ()),
+            ]
+            hint = f"{nearest(words[-1], known)} {PATH_HINT}" if known else PATH_HINT
+        else:
+            try:
+                find_class(self.tree.libraries, name.text)
+                hint = PATH_HINT
+            except KeyError as error:
+                hint = f"{error.args[0].rstrip('.')}; {PATH_HINT}"
+        return self.wrong(
+            name.at, f"there is no {what} '{shortened(name.text)}'; {hint}", len(name.text)
+        )
+
+    # -- inheritance -----------------------------------------------------------------------------------
+
+    def view(self) -> View:
+        """The class with what it inherits.
+
+        Raises:
+            ModelicaError: for a base that is not there, or a class that extends itself.
+        """
+        return self._view
+
+    @cached_property
+    def _view(self) -> View:
+        if self._viewed:
+            raise self.wrong(
+                self.definition.at,
+                f"'{self.definition.name}' extends itself",
+                len(self.definition.name),
+            )
+        self._viewed = True
+        view, short = View(), self.definition.short
+        for element in self.definition.elements:
+            match element:
+                case Extends():
+                    self._inherit(view, element)
+                case Declared():
+                    known = view.entries.get(element.name)
+                    if known is not None and known.node is self:
+                        raise self.wrong(
+                            element.at, f"'{element.name}' is declared twice", len(element.name)
+                        )
+                    modifiers = known.modifiers if known and not element.prefixes.redeclare else []
+                    view.entries[element.name] = Entry(element, self, list(modifiers))
+                case ClassDefinition() if element.prefixes.redeclare:
+                    view.classes[element.name] = element, self
+                case _:
+                    pass
+        if short is not None:
+            view.subscripts = [*((s, self) for s in short.subscripts), *view.subscripts]
+            view.causality = short.causality or view.causality
+            view.connection = short.connection or view.connection
+        definition = self.definition
+        for kind in ("initial_equations", "equations"):
+            if statements := getattr(definition, kind):
+                view.sections.append((kind, statements, self))
+        for kind in ("initial_algorithms", "algorithms"):
+            view.sections += [(kind, statements, self) for statements in getattr(definition, kind)]
+        self._viewed = False
+        return view
+
+    def _inherit(self, view: View, clause: Extends) -> None:
+        base = self.base(clause)
+        arguments: list[tuple[Argument, ClassNode]] = [(a, self) for a in clause.modifier.arguments]
+        match base:
+            case Predefined():
+                view.predefined = base
+                view.attributes = [*arguments, *view.attributes]
+                return
+            case Native():
+                view.natives.append((base, arguments))
+                return
+            case Prefix() if base.full.startswith("Modelica.Icons"):
+                return
+            case ClassNode():
+                pass
+            case Prefix():
+                raise self.unknown(clause.base)
+            case _:
+                raise self.wrong(
+                    clause.base.at,
+                    f"'{clause.base.text}' is not a class to extend",
+                    len(clause.base.text),
+                )
+        inherited = base.view()
+        for native, given in inherited.natives:
+            view.natives.append((native, [*self._for_native(arguments, inherited), *given]))
+        if inherited.predefined is not None:
+            view.predefined = inherited.predefined
+            view.attributes = [*view.attributes, *arguments, *inherited.attributes]
+            view.causality, view.connection = inherited.causality, inherited.connection
+            view.subscripts = list(inherited.subscripts)
+            return
+        for name, entry in inherited.entries.items():
+            own = [pair for pair in arguments if pair[0].name.partition(".")[0] == name]
+            if name not in view.entries:
+                view.entries[name] = Entry(entry.declared, entry.node, [*own, *entry.modifiers])
+        view.classes |= inherited.classes
+        for argument, _ in arguments:
+            if argument.redeclared is not None and isinstance(argument.redeclared, ClassDefinition):
+                view.classes[argument.name] = argument, self
+                continue
+            unknown = argument.name.partition(".")[0] not in inherited.entries
+            if unknown and not inherited.natives and base.member(argument.name) is None:
+                hint = nearest(argument.name, inherited.entries)
+                reason = f"'{base.definition.name}' has no '{argument.name}'; {hint}"
+                raise self.wrong(argument.at, reason, len(argument.name))
+        view.sections += inherited.sections
+
+    @staticmethod
+    def _for_native(
+        arguments: list[tuple[Argument, ClassNode]], inherited: View
+    ) -> list[tuple[Argument, ClassNode]]:
+        return [
+            p for p in arguments if p[0].name not in inherited.entries and p[0].redeclared is None
+        ]
+
+    def models(self) -> Iterator[ClassNode]:
+        """The models in it that can be compiled, itself included, in order."""
+        if self.definition.kind in ("model", "block", "class") and not self.definition.partial:
+            yield self
+        names = [e.name for e in self.definition.elements if isinstance(e, ClassDefinition)]
+        for name in dict.fromkeys((*names, *self.files)):
+            inner = self.own(name)
+            if isinstance(inner, ClassNode) and inner.definition.kind not in ("function", "record"):
+                yield from inner.models()
+
+    @cached_property
+    def files(self) -> list[str]:
+        """Names of the classes that are files of its folder, in the order of ``package.order``."""
+        if self.folder is None:
+            return []
+        found = [p.stem for p in sorted(self.folder.glob("*.mo")) if p.name != "package.mo"]
+        found += [p.parent.name for p in sorted(self.folder.glob("*/package.mo"))]
+        order = self.folder / "package.order"
+        stated = order.read_text(encoding="utf-8").split("\n") if order.is_file() else []
+        first = [name.strip() for name in stated if name.strip() in found]
+        return list(dict.fromkeys((*first, *found)))
+
+
+@dataclass(frozen=True, eq=False)
+class Imported:
+    """A constant of a package that an import names."""
+
+    node: ClassNode
+    name: str
+
+
+PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"
+
+Found = ClassNode | Native | Predefined | Value | Prefix | Imported
+Finder = Callable[[Sequence[str]], tuple[Any, Sequence[str]]]

@@ -1,0 +1,385 @@
+"""Expressions: what they mean in a component, a package or a function."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any, Self
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import nearest, shortened
+from acausal.modelica.classes import ClassNode, Imported
+from acausal.modelica.found import Literal, Native, Predefined, Prefix, Value
+from acausal.modelica.operators import Frame, Operators
+from acausal.modelica.syntax import (
+    Array,
+    Call,
+    Choice,
+    Comprehension,
+    Constant,
+    End,
+    Expression,
+    Matrix,
+    Name,
+    Operation,
+    Range,
+    Several,
+    Whole,
+)
+from acausal.modelica.values import (
+    Absent,
+    Record,
+    array_of,
+    as_array,
+    elements,
+    is_array,
+    of,
+)
+from acausal.modeling import (
+    check_size,
+    floor,
+    time,
+)
+
+
+class Evaluator(Operators):
+    """Evaluates the expressions of one statement."""
+
+    def value(self, expression: Expression) -> Any:
+        """The value of an expression: a number, truth value, text, sympy expression, array, part or record.
+
+        Raises:
+            ModelicaError: with the place, for what is wrong or not supported.
+        """
+        before = self.at
+        self.at = expression.at
+        try:
+            return self._value(expression)
+        except ValueError as error:
+            self.at = expression.at
+            raise self.wrong(str(error)) from None
+        finally:
+            self.at = before
+
+    def _value(self, expression: Expression) -> Any:
+        match expression:
+            case Constant():
+                return expression.value
+            case Name():
+                return self.name(expression)
+            case Operation():
+                return self._operation(expression)
+            case Call():
+                return self._call(expression)
+            case Choice():
+                return self._choice(expression)
+            case Array():
+                return as_array([self.value(item) for item in expression.items])
+            case Matrix():
+                return self._matrix(expression)
+            case Range():
+                return self._range(expression)
+            case Comprehension():
+                return self.comprehension(expression)
+            case End():
+                if not self.ends:
+                    raise self.wrong("'end' stands for a size in a subscript only")
+                return self.ends[-1]
+            case Several():
+                raise self.wrong("several results can only be assigned to as many variables")
+            case Whole():
+                raise self.wrong("':' is a subscript only")
+
+    # -- arrays ----------------------------------------------------------------------------------------
+
+    def _matrix(self, expression: Matrix) -> Any:
+        rows = [[self._two(self.value(v)) for v in row] for row in expression.rows]
+        return np.concatenate([np.concatenate(row, axis=1) for row in rows], axis=0)
+
+    def _two(self, value: Any) -> Any:
+        found = value if isinstance(value, np.ndarray) else array_of([value])
+        return found.reshape(-1, 1) if found.ndim == 1 else found
+
+    def _range(self, expression: Range) -> Any:
+        first, last = self.value(expression.first), self.value(expression.last)
+        step = 1 if expression.step is None else self.value(expression.step)
+        numbers = [self.known(v, "a range") for v in (first, step, last)]
+        if isinstance(first, Literal) or isinstance(last, Literal):
+            raise self.wrong("ranges of enumerations are not supported; give the values as {a, b}")
+        begin, by, end = (self.number(v) for v in numbers)
+        if by == 0:
+            raise self.wrong("the step of a range is zero")
+        count = max(0, math.floor((end - begin) / by + 1e-12) + 1)
+        check_size(count, "the range")
+        return array_of([begin + i * by for i in range(count)])
+
+    def iterated(self, iterators: list[tuple[str, Expression | None]]) -> Iterator[dict[str, Any]]:
+        """The values of loop variables, one after the other; later ones run faster."""
+        if not iterators:
+            yield {}
+            return
+        (name, expression), *rest = iterators
+        if expression is None:
+            raise self.wrong(f"give the range of '{name}': for {name} in 1:n")
+        found = self.value(expression)
+        items = range(1, int(found) + 1) if isinstance(found, int) else found
+        if not is_array(items) and not isinstance(items, range):
+            raise self.wrong("a loop runs over an array such as 1:n")
+        for item in items:
+            frame = self.frame
+            self.frame = frame.with_local(**{name: item})
+            try:
+                for values in self.iterated(rest):
+                    yield {name: item, **values}
+            finally:
+                self.frame = frame
+
+    def comprehension(self, expression: Comprehension) -> Any:
+        """The array of values; of several iterators the last runs over the rows."""
+        iterators = expression.iterators
+        if len(iterators) > 1:
+            *outer, last = iterators
+            expression = Comprehension(
+                Comprehension(expression.value, outer, expression.at), [last], expression.at
+            )
+            return self.comprehension(expression)
+        return as_array(
+            [self._within(values, expression.value) for values in self.iterated(iterators)]
+        )
+
+    def _within(self, values: dict[str, Any], expression: Expression) -> Any:
+        frame = self.frame
+        self.frame = frame.with_local(**values)
+        try:
+            return self.value(expression)
+        finally:
+            self.frame = frame
+
+    def subscripted(self, value: Any, subscripts: list[Expression]) -> Any:
+        """Some elements of an array, or of a list of parts."""
+        if isinstance(value, Absent):
+            return value
+        if not is_array(value):
+            raise self.wrong("this is not an array; it takes no subscripts")
+        places = self.places(np.shape(_shape(value)), subscripts)
+        return _pick(value, places)
+
+    def places(self, shape: tuple[int, ...], subscripts: list[Expression]) -> list[Any]:
+        """Positions from 0 for each dimension: a number, or a list of them."""
+        if len(subscripts) > len(shape):
+            raise self.wrong(
+                f"an array of {len(shape)} dimension(s) has {len(subscripts)} subscripts"
+            )
+        found: list[Any] = []
+        for size, subscript in zip(shape, subscripts, strict=False):
+            if isinstance(subscript, Whole):
+                found.append(list(range(size)))
+                continue
+            self.ends.append(size)
+            index = self.value(subscript)
+            self.ends.pop()
+            many = isinstance(index, np.ndarray)
+            numbers = [
+                self.whole(i, "a subscript") if not isinstance(i, bool) else 1 + i
+                for i in elements(index)
+            ]
+            for number in numbers:
+                if not 1 <= number <= size:
+                    self.at = subscript.at
+                    raise self.wrong(f"subscript {number} is outside of 1 to {size}")
+            found.append([n - 1 for n in numbers] if many else numbers[0] - 1)
+        return found
+
+    # -- names -----------------------------------------------------------------------------------------
+
+    def name(self, name: Name) -> Any:
+        """The value of a name."""
+        value, i = self._first(name)
+        if i - 1 in name.subscripts:
+            value = self.subscripted(value, name.subscripts[i - 1])
+        while i < len(name.words):
+            inner = of(value, name.words[i])
+            if inner is None:
+                raise self.unknown(name, i, value)
+            value = inner
+            if i in name.subscripts:
+                value = self.subscripted(value, name.subscripts[i])
+            i += 1
+        return value
+
+    def _first(self, name: Name) -> tuple[Any, int]:
+        """The value of the first words, and how many they are."""
+        word, frame = name.words[0], self.frame
+        if word in frame.local:
+            value = frame.local[word]
+            if value is None:
+                raise self.wrong(f"'{word}' is used before it is assigned", len(word))
+            return value, 1
+        if frame.build is not None and word in frame.build.names:
+            value = frame.build.member(word)
+            if value is None:
+                raise self.wrong(f"'{word}' has no value; give one", len(word))
+            return value, 1
+        if word == "time" and len(name.words) == 1:
+            return time, 1
+        found, rest = frame.find(name.words)
+        i = len(name.words) - len(rest)
+        match found:
+            case Value():
+                return found.value, i
+            case Imported():
+                return self.constant(found.node, found.name), i
+            case ClassNode() if rest:
+                literals = found.definition.literals
+                if literals is not None and rest[0] in literals:
+                    return literal(found, rest[0]), i + 1
+                if rest[0] in found.view().entries:
+                    return self.constant(found, rest[0]), i + 1
+            case None:
+                node: Any = frame.node
+                while isinstance(node, ClassNode):
+                    if word in node.view().entries and (
+                        frame.build is None or node is not frame.node
+                    ):
+                        return self.constant(node, word), 1
+                    node = node.parent
+            case _:
+                pass
+        for library in (
+            frame.node.tree.libraries if found is None or isinstance(found, Prefix) else ()
+        ):
+            value = library.constant(name.text)
+            if value is not None:
+                return value, len(name.words)
+        raise self.unknown(name, 0 if found is None else i, found)
+
+    def unknown(self, name: Name, i: int, value: Any) -> Exception:
+        """The error for a name of which a word means nothing."""
+        self.at = name.at
+        if isinstance(value, ClassNode | Native | Predefined) and i >= len(name.words):
+            return self.wrong(f"'{name.text}' is a class, not a value", len(name.text))
+        if i == 0:
+            known = [*self.frame.local, *(self.frame.build.names if self.frame.build else ())]
+            return self.wrong(
+                f"there is no '{shortened(name.words[0])}'; {nearest(name.words[0], known)}",
+                len(name.text),
+            )
+        node = getattr(value, "_node", None)
+        known = [*(n for n, _ in node.declarations()), *node.children] if node is not None else []
+        if isinstance(value, ClassNode | Prefix | Native):
+            what = f"'{'.'.join(name.words[:i])}' has no '{name.words[i] if i < len(name.words) else ''}'"
+            return self.wrong(
+                f"{what}; give the folder that has it by path=[...] or in MODELICAPATH",
+                len(name.text),
+            )
+        return self.wrong(
+            f"'{'.'.join(name.words[:i])}' has no '{shortened(name.words[i])}'; {nearest(name.words[i], known)}",
+            len(name.text),
+        )
+
+    def constant(self, node: ClassNode, name: str) -> Any:
+        """A constant of a package."""
+        known: dict[str, Any] = node.__dict__.setdefault("constants", {})
+        if name not in known:
+            entry = node.view().entries[name]
+            if entry.declared.prefixes.variability not in ("constant", "parameter"):
+                raise self.wrong(f"'{name}' is not a constant of {node.full}", len(name))
+            known[name] = None
+            frame = Frame(entry.node)
+            expression = entry.declared.modifier.value
+            for argument, where_ in entry.modifiers:
+                if argument.name == name and argument.modifier.value is not None:
+                    expression, frame = argument.modifier.value, Frame(where_)
+                    break
+            if expression is None:
+                found, _ = frame.find(entry.declared.type.words)
+                if not isinstance(found, ClassNode) or found.definition.kind != "record":
+                    raise self.wrong(f"'{name}' of {node.full} has no value", len(name))
+                given = {
+                    a.name: self.elsewhere(frame).value(a.modifier.value)
+                    for a in entry.declared.modifier.arguments
+                    if a.modifier.value
+                }
+                known[name] = self.record_of(found, [], given)
+            else:
+                known[name] = self.elsewhere(frame).value(expression)
+        if known[name] is None:
+            raise self.wrong(f"'{name}' of {node.full} depends on itself", len(name))
+        return known[name]
+
+    # -- calls -----------------------------------------------------------------------------------------
+
+    def arguments(self, call: Call, least: int, most: int | None = None) -> list[Any]:
+        """The values of arguments, of which there have to be so many."""
+        given = [*call.arguments, *call.named.values()]
+        if not least <= len(given) <= (most or least):
+            name = call.function.text
+            raise self.wrong(
+                f"{name}(...) takes {least} argument{'s' * (least != 1)}, not {len(given)}",
+                len(name),
+            )
+        found = [self.value(a) for a in given]
+        self.at = call.at
+        return found
+
+    def floored(self, value: Any) -> Any:
+        """The greatest integer not above a number."""
+        value = self.number(value)
+        return (
+            self.finite(floor(value, events=self.frame.events))
+            if isinstance(value, sp.Expr)
+            else int(np.floor(value))
+        )
+
+    def _call(self, call: Call) -> Any:
+        raise NotImplementedError
+
+    def elsewhere(self, frame: Frame) -> Self:
+        """An evaluator for another frame, with the operations that are left."""
+        found = type(self)(frame)
+        found.operations = self.operations
+        return found
+
+    def record_of(self, node: ClassNode, given: list[Any], named: dict[str, Any]) -> Record:
+        """The value of a record, made of values for its fields."""
+        raise NotImplementedError
+
+
+def literal(node: ClassNode, word: str) -> Literal:
+    """The value of an enumeration."""
+    assert node.definition.literals is not None
+    found = Literal(word)
+    found.number = node.definition.literals.index(word) + 1
+    return found
+
+
+def _shape(value: Any) -> Any:
+    """Something of the shape of a list of parts."""
+    if isinstance(value, np.ndarray):
+        return value
+    sizes: list[int] = []
+    while isinstance(value, list | tuple):
+        sizes.append(len(value))
+        value = value[0] if value else None
+    return np.empty(sizes)
+
+
+def _pick(value: Any, places: list[Any]) -> Any:
+    if isinstance(value, np.ndarray):
+        axes = [[p] if isinstance(p, int) else p for p in places]
+        rest = [list(range(n)) for n in value.shape[len(places) :]]
+        found = (
+            value[np.ix_(*axes, *rest)]
+            if all(len(a) for a in axes)
+            else np.empty([len(a) for a in (*axes, *rest)], dtype=object)
+        )
+        kept = [len(p) for p in places if not isinstance(p, int)] + [len(r) for r in rest]
+        return found.reshape(kept) if kept else found.reshape(-1)[0]
+    if not places:
+        return value
+    first, *rest = places
+    if isinstance(first, int):
+        return _pick(value[first], rest)
+    return [_pick(value[i], rest) for i in first]

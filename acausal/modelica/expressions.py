@@ -1,0 +1,311 @@
+"""The grammar of expressions and modifiers, by recursive descent."""
+
+from __future__ import annotations
+
+import math
+
+from acausal.modelica.syntax import (
+    Array,
+    Call,
+    Choice,
+    Comprehension,
+    Constant,
+    End,
+    Expression,
+    Matrix,
+    Name,
+    Operation,
+    Range,
+    Several,
+    Whole,
+)
+from acausal.modelica.tokens import KEYWORDS, Tokens
+
+MAX_DEPTH = 60
+RELATIONS = frozenset(("<", "<=", ">", ">=", "==", "<>"))
+SUMS = frozenset(("+", "-", ".+", ".-"))
+PRODUCTS = frozenset(("*", "/", ".*", "./"))
+ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
+CALLABLE = frozenset(("der", "initial", "pure"))
+"""Keywords that are called as functions."""
+
+
+class Expressions(Tokens):
+    """Reads expressions."""
+
+    depth: int = 0
+
+    def deeper(self) -> None:
+        """Count a level.
+
+        Raises:
+            ModelicaError: beyond the limit.
+        """
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise self.wrong(f"nested more than {MAX_DEPTH} deep")
+
+    def expression(self) -> Expression:
+        """The lowest level: ``if``, or a range."""
+        self.deeper()
+        if self.texts[self.position] == "if":
+            value = self._choice()
+        else:
+            value = self._any()
+            if self.texts[self.position] == ":":
+                value = self._range(value)
+        self.depth -= 1
+        return value
+
+    def _choice(self) -> Expression:
+        at, branches = self.at, list[tuple[Expression, Expression]]()
+        while self.accept("if") or self.accept("elseif"):
+            condition = self.expression()
+            self.take("then")
+            branches.append((condition, self.expression()))
+            if self.peek != "elseif":
+                break
+        self.take("else")
+        return Choice(branches, self.expression(), at)
+
+    def _range(self, first: Expression) -> Expression:
+        at = self.at
+        self.take(":")
+        second = self._any()
+        if self.accept(":"):
+            return Range(first, second, self._any(), at)
+        return Range(first, None, second, at)
+
+    def _any(self) -> Expression:
+        value = self._all()
+        while self.texts[self.position] == "or":
+            at = self.at
+            self.position += 1
+            value = Operation("or", (value, self._all()), at)
+        return value
+
+    def _all(self) -> Expression:
+        value = self._negation()
+        while self.texts[self.position] == "and":
+            at = self.at
+            self.position += 1
+            value = Operation("and", (value, self._negation()), at)
+        return value
+
+    def _negation(self) -> Expression:
+        if self.texts[self.position] == "not":
+            at = self.at
+            self.position += 1
+            return Operation("not", (self._relation(),), at)
+        return self._relation()
+
+    def _relation(self) -> Expression:
+        value = self._sum()
+        if self.texts[self.position] in RELATIONS:
+            at = self.at
+            return Operation(self.advance(), (value, self._sum()), at)
+        return value
+
+    def _sum(self) -> Expression:
+        if self.texts[self.position] in SUMS:
+            at = self.at
+            value: Expression = Operation(self.advance(), (self._product(),), at)
+        else:
+            value = self._product()
+        while self.texts[self.position] in SUMS:
+            at = self.at
+            value = Operation(self.advance(), (value, self._product()), at)
+        return value
+
+    def _product(self) -> Expression:
+        value = self._power()
+        while self.texts[self.position] in PRODUCTS:
+            at = self.at
+            value = Operation(self.advance(), (value, self._power()), at)
+        return value
+
+    def _power(self) -> Expression:
+        value = self._primary()
+        if self.texts[self.position] in ("^", ".^"):
+            at = self.at
+            return Operation(self.advance(), (value, self._primary()), at)
+        return value
+
+    def _primary(self) -> Expression:
+        text, at = self.texts[self.position], self.starts[self.position]
+        first = text[:1]
+        if first.isdigit() or (first == "." and len(text) > 1 and text[1].isdigit()):
+            self.position += 1
+            return Constant(
+                int(text) if text.isdigit() and len(text) < 16 else self._float(text), at
+            )
+        if first == '"':
+            return Constant(self.text(), at)
+        if text in ("true", "false"):
+            self.position += 1
+            return Constant(text == "true", at)
+        if text == "(":
+            return self._parentheses()
+        if text == "{":
+            self.position += 1
+            return self._array(at)
+        if text == "[":
+            self.position += 1
+            return self._matrix(at)
+        if text == "end":
+            self.position += 1
+            return End(at)
+        if text in CALLABLE:
+            self.position += 1
+            return self.call(Name((text,), {}, at))
+        if text in KEYWORDS or not text:
+            raise self.wrong(f"an expression expected, {self.found} found")
+        name = self.reference()
+        return self.call(name) if self.texts[self.position] == "(" else name
+
+    def _float(self, text: str) -> float:
+        value = float(text)
+        if not math.isfinite(value):
+            self.position -= 1
+            raise self.wrong("not a finite number")
+        return value
+
+    def text(self) -> str:
+        """Read a text in quotes."""
+        token = self.texts[self.position]
+        if token[:1] != '"':
+            raise self.wrong(f"a text expected, {self.found} found")
+        self.position += 1
+        if "\\" not in token:
+            return token[1:-1]
+        parts = token[1:-1].split("\\")
+        found, i = parts[0], 1
+        while i < len(parts):
+            part = parts[i]
+            if part:
+                found += ESCAPES.get(part[0], part[0]) + part[1:]
+            elif i + 1 < len(parts):
+                i += 1
+                found += "\\" + parts[i]
+            i += 1
+        return found
+
+    def reference(self) -> Name:
+        """``a.b[2].c``; a leading dot is kept as an empty word."""
+        at = self.at
+        words: list[str] = [""] if self.accept(".") else []
+        subscripts: dict[int, list[Expression]] = {}
+        while True:
+            words.append(self.identifier())
+            if self.texts[self.position] == "[":
+                subscripts[len(words) - 1] = self.subscripts()
+            if not self.accept("."):
+                return Name(tuple(words), subscripts, at)
+
+    def dotted(self) -> Name:
+        """The name of a class."""
+        at = self.at
+        words: list[str] = [""] if self.accept(".") else []
+        words.append(self.identifier())
+        while self.texts[self.position] == ".":
+            self.position += 1
+            words.append(self.identifier())
+        return Name(tuple(words), {}, at)
+
+    def subscripts(self) -> list[Expression]:
+        """``[1, :, end]``."""
+        self.take("[")
+        found: list[Expression] = []
+        while True:
+            if self.peek == ":":
+                found.append(Whole(self.at))
+                self.position += 1
+            else:
+                found.append(self.expression())
+            if not self.accept(","):
+                break
+        self.take("]")
+        return found
+
+    def call(self, function: Name, partial: bool = False) -> Call:
+        """The arguments of a function whose name has been read."""
+        self.deeper()
+        self.take("(")
+        given: list[Expression] = []
+        named: dict[str, Expression] = {}
+        while self.peek != ")":
+            texts, here = self.texts, self.position
+            if texts[here + 1] == "=" and texts[here] not in KEYWORDS:
+                name = self.identifier()
+                if name in named:
+                    self.position = here
+                    raise self.wrong(f"'{name}' is given twice")
+                self.position += 1
+                named[name] = self._argument()
+            elif named:
+                raise self.wrong("arguments with names stand behind all others")
+            else:
+                value = self._argument()
+                given.append(self._comprehension(value) if self.peek == "for" else value)
+            if not self.accept(","):
+                break
+        self.take(")")
+        self.depth -= 1
+        return Call(function, given, named, function.at, partial)
+
+    def _argument(self) -> Expression:
+        if self.accept("function"):
+            return self.call(self.dotted(), partial=True)
+        return self.expression()
+
+    def _comprehension(self, value: Expression) -> Expression:
+        at = self.at
+        self.take("for")
+        return Comprehension(value, self.iterators(), at)
+
+    def iterators(self) -> list[tuple[str, Expression | None]]:
+        """``i in 1:n, j``."""
+        found: list[tuple[str, Expression | None]] = []
+        while True:
+            name = self.identifier()
+            found.append((name, self.expression() if self.accept("in") else None))
+            if not self.accept(","):
+                return found
+
+    def _parentheses(self) -> Expression:
+        at = self.at
+        self.take("(")
+        items: list[Expression | None] = []
+        several = False
+        while True:
+            items.append(None if self.peek in (",", ")") else self.expression())
+            if not self.accept(","):
+                break
+            several = True
+        self.take(")")
+        if several or items == [None]:
+            return Several(items, at)
+        assert items[0] is not None
+        return items[0]
+
+    def _array(self, at: int) -> Expression:
+        if self.accept("}"):
+            return Array([], at)
+        items = [self._argument()]
+        if self.peek == "for":
+            value = self._comprehension(items[0])
+            self.take("}")
+            return value
+        while self.accept(","):
+            items.append(self._argument())
+        self.take("}")
+        return Array(items, at)
+
+    def _matrix(self, at: int) -> Expression:
+        rows: list[list[Expression]] = [[self.expression()]]
+        while self.peek in (",", ";"):
+            if self.advance() == ";":
+                rows.append([])
+            rows[-1].append(self.expression())
+        self.take("]")
+        return Matrix(rows, at)

@@ -1,0 +1,46 @@
+"""What a name can mean besides a class of the text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True, eq=False)
+class Native:
+    """A class of an installed library."""
+
+    cls: Any
+    name: str
+
+
+@dataclass(frozen=True, eq=False)
+class Predefined:
+    """A predefined type, with a unit and other attributes."""
+
+    name: str
+    attributes: dict[str, Any] = field(default_factory=dict[str, Any])
+
+
+@dataclass(frozen=True, eq=False)
+class Value:
+    """A constant, the value of an enumeration, or a function of a library."""
+
+    value: Any
+
+
+@dataclass(frozen=True, eq=False)
+class Prefix:
+    """A package whose text is not given."""
+
+    full: str
+
+
+class Literal(str):
+    """The value of an enumeration: the text of its name, and its number.
+
+    Attributes:
+        number: from 1.
+    """
+
+    number: int = 0

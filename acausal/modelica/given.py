@@ -1,0 +1,152 @@
+"""Modifiers on their way to what they modify, from the outermost class inwards, each with its place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from copy import deepcopy
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from acausal.modelica.functions import Interpreter
+from acausal.modelica.operators import Frame
+from acausal.modelica.syntax import Argument, Declared, Expression, Modifier
+from acausal.modelica.tokens import ModelicaError
+
+Index = tuple[tuple[int, int], ...]
+"""Of an element of an array of parts: for each dimension its position from 0, and the size."""
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """An argument of a modifier.
+
+    Attributes:
+        name: what it modifies here.
+        modifier: what it gives to that.
+        frame: where its expressions are looked up.
+        at: its place in the file of the frame.
+        index: of the element of an array that it goes to; without ``each`` its value is an array.
+        final: whether nothing further out may change it.
+        redeclared: the declaration that replaces one.
+        each: whether every element of an array gets the same.
+    """
+
+    name: str
+    modifier: Modifier
+    frame: Frame
+    at: int
+    index: Index = ()
+    final: bool = False
+    redeclared: Any = None
+    each: bool = False
+
+    def element(self, index: Index) -> Given:
+        """What one element of an array of parts gets of it."""
+        return self if self.each else replace(self, index=(*self.index, *index))
+
+    def wrong(self, reason: str) -> ModelicaError:
+        """The error at its place."""
+        return self.frame.node.wrong(self.at, reason, len(self.name))
+
+
+@dataclass(frozen=True, eq=False)
+class Bound:
+    """An expression with the place where it is looked up, and the element of its value that is meant."""
+
+    expression: Expression
+    frame: Frame
+    index: Index = ()
+
+    def __deepcopy__(self, memo: Any) -> Bound:
+        """The same text, in a copy of the model."""
+        return Bound(self.expression, deepcopy(self.frame, memo), self.index)
+
+    def value(self) -> Any:
+        """Its value."""
+        found = Interpreter(self.frame).value(self.expression)
+        for i, size in self.index:
+            if not isinstance(found, np.ndarray):
+                return found
+            if len(found) != size:
+                raise self.wrong(f"{size} elements are needed here, not {len(found)}")
+            found = found[i]
+        return found
+
+    def element(self, index: Index) -> Bound:
+        """What is meant for one element of an array."""
+        return replace(self, index=(*self.index, *index))
+
+    def wrong(self, reason: str) -> ModelicaError:
+        """The error at its place."""
+        return self.frame.node.wrong(self.expression.at, reason)
+
+
+@dataclass(eq=False)
+class Modification:
+    """All that one component is given.
+
+    Attributes:
+        value: the outermost value.
+        inner: arguments for its members, the outermost first.
+        redeclared: the outermost declaration that replaces its own.
+    """
+
+    value: Bound | None = None
+    inner: list[Given] = field(default_factory=list[Given])
+    redeclared: Given | None = None
+
+    def add(self, modifier: Modifier, frame: Frame, index: Index = ()) -> None:
+        """Add a modifier that stands further in."""
+        if modifier.value is not None:
+            self.value = self.value or Bound(modifier.value, frame, index)
+        self.inner += given_by(modifier.arguments, frame, index)
+
+
+def given_by(arguments: Iterable[Argument], frame: Frame, index: Index = ()) -> list[Given]:
+    """The arguments of a modifier; those of a dotted name are nested."""
+    found: list[Given] = []
+    for argument in arguments:
+        name, _, rest = argument.name.partition(".")
+        modifier = argument.modifier
+        if rest:
+            inner = Argument(rest, modifier, argument.at, argument.each, argument.final)
+            modifier = Modifier([inner])
+        own = () if argument.each else index
+        redeclared = argument.redeclared
+        found.append(
+            Given(
+                name, modifier, frame, argument.at, own, argument.final, redeclared, argument.each
+            )
+        )
+    return found
+
+
+def modification(declared: Declared, given: Sequence[Given], frame: Frame) -> Modification:
+    """What a component gets: from outside, the outermost first, and by its own declaration in a frame.
+
+    Raises:
+        ModelicaError: for a modifier of what is final, or a replacement of what is not replaceable.
+    """
+    found, name = Modification(), declared.name
+    outer: Given | None = None
+    for one in (g for g in given if g.name == name):
+        modifier, element = one.modifier, one.redeclared
+        if element is not None:
+            if not isinstance(element, Declared):
+                raise one.wrong(f"'{name}' is a component; it is not redeclared by a class")
+            if not declared.prefixes.replaceable:
+                raise one.wrong(f"'{name}' is not replaceable")
+            found.redeclared, modifier = found.redeclared or one, element.modifier
+        if one.final and outer is not None:
+            raise outer.wrong(f"'{name}' is final")
+        if declared.prefixes.protected and one.frame.build is not frame.build:
+            raise one.wrong(f"'{name}' is protected; it cannot be modified from outside")
+        outer = outer or one
+        found.add(modifier, one.frame, one.index)
+    if declared.prefixes.final and outer is not None:
+        raise outer.wrong(f"'{name}' is final")
+    constrained = found.redeclared is not None and declared.constraint is not None
+    found.add(declared.constraint.modifier if constrained else declared.modifier, frame)  # pyright: ignore[reportOptionalMemberAccess]
+    return found

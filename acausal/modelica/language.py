@@ -1,0 +1,270 @@
+"""Functions of the language that need more than the values of their arguments, and those of arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.modelica.evaluate import Evaluator
+from acausal.modelica.syntax import Call, Comprehension, Expression
+from acausal.modelica.values import array_of, as_array, each, elements, is_array, type_of
+from acausal.modeling import change, check_size, der, edge, initial, pre, sample
+from acausal.netlist import function as known_function
+
+
+def _without_events(self: Evaluator, expression: Expression) -> Any:
+    frame = self.frame
+    self.frame = replace(frame, events=False)
+    try:
+        return self.value(expression)
+    finally:
+        self.frame = frame
+
+
+def _smooth(self: Evaluator, call: Call) -> Any:
+    if len(call.arguments) != 2:
+        raise self.wrong("smooth(...) takes 2 arguments")
+    return _without_events(self, call.arguments[1])
+
+
+def _no_event(self: Evaluator, call: Call) -> Any:
+    if len(call.arguments) != 1:
+        raise self.wrong("noEvent(...) takes 1 argument")
+    return _without_events(self, call.arguments[0])
+
+
+def _homotopy(self: Evaluator, call: Call) -> Any:
+    values = self.arguments(call, 2)
+    return self.value(call.named["actual"]) if "actual" in call.named else values[0]
+
+
+def _semi_linear(self: Evaluator, call: Call) -> Any:
+    x, a, b = self.arguments(call, 3)
+    holds = self.relation(">=", x, 0)
+    return self.chosen(holds, self.arithmetic("*", a, x), self.arithmetic("*", b, x))
+
+
+def _mapped(function: Callable[[Any], Any]) -> Callable[[Evaluator, Call], Any]:
+    """A function of one variable, applied to each element."""
+
+    def applied(self: Evaluator, call: Call) -> Any:
+        frame = self.frame
+        if frame.build is not None:  # the variable, not what an algorithm has assigned to it
+            known = frame.build.names
+            self.frame = replace(
+                frame, local={k: v for k, v in frame.local.items() if k not in known}
+            )
+        (value,) = self.arguments(call, 1)
+        self.frame = frame
+        try:
+            return each(function, value)
+        except Exception as error:
+            raise self.wrong(str(error)) from None
+
+    return applied
+
+
+def _der(self: Evaluator, call: Call) -> Any:
+    (value,) = self.arguments(call, 1)
+    for element in elements(value):
+        if type_of(element) in ("Boolean", "String"):
+            raise self.wrong("only a Real has a derivative")
+    return each(lambda v: der(self.number(v)), value)
+
+
+def _sample(self: Evaluator, call: Call) -> Any:
+    start, period = self.arguments(call, 2)
+    try:
+        return sample(start, period)
+    except Exception as error:
+        raise self.wrong(str(error)) from None
+
+
+def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
+    def reduced(self: Evaluator, call: Call) -> Any:
+        if len(call.arguments) == 1:
+            (value,) = self.arguments(call, 1)
+            values = elements(as_array(value))
+            if name in ("min", "max") and not is_array(value):
+                raise self.wrong(f"{name}(...) takes an array or two numbers")
+        else:
+            values = self.arguments(call, 2)
+        if name == "sum":
+            found: Any = 0
+            for v in values:
+                found = self.arithmetic("+", found, v)
+            return found
+        if name == "product":
+            found = 1
+            for v in values:
+                found = self.arithmetic("*", found, v)
+            return found
+        numbers = [self.number(v) for v in values]
+        if numbers and all(isinstance(v, int | float) for v in numbers):
+            return min(numbers) if name == "min" else max(numbers)
+        try:
+            function = known_function(name)
+            assert function is not None
+            return self.finite(function(*(sp.sympify(v) for v in numbers)))
+        except TypeError:
+            raise self.wrong(f"{name} of {len(numbers)} values is not supported") from None
+
+    return reduced
+
+
+def _size(self: Evaluator, call: Call) -> Any:
+    value, *which = self.arguments(call, 1, 2)
+    shape: list[int] = []
+    while isinstance(value, list | tuple) and value:
+        shape.append(len(value))
+        value = value[0]
+    if isinstance(value, np.ndarray):
+        shape += value.shape
+    if not which:
+        return array_of(shape)
+    index = self.whole(which[0], "a dimension")
+    if not 1 <= index <= len(shape):
+        raise self.wrong(f"there are {len(shape)} dimensions, not {index}")
+    return shape[index - 1]
+
+
+def _filled(number: Any) -> Callable[[Evaluator, Call], Any]:
+    def filled(self: Evaluator, call: Call) -> Any:
+        values = self.arguments(call, 1, 20)
+        first, sizes = (values[0], values[1:]) if number is None else (number, values)
+        shape = [self.whole(n, "a size") for n in sizes]
+        check_size(int(np.prod(shape)), "the array")
+        found = np.empty(shape, dtype=object)
+        found[...] = first
+        return found
+
+    return filled
+
+
+def _identity(self: Evaluator, call: Call) -> Any:
+    (n,) = self.arguments(call, 1)
+    n = self.whole(n, "a size")
+    check_size(n * n, "the array")
+    return array_of([[int(i == j) for j in range(n)] for i in range(n)])
+
+
+def _diagonal(self: Evaluator, call: Call) -> Any:
+    values = elements(self.arguments(call, 1)[0])
+    return array_of(
+        [[v if i == j else 0 for j in range(len(values))] for i, v in enumerate(values)]
+    )
+
+
+def _linspace(self: Evaluator, call: Call) -> Any:
+    a, b, n = self.arguments(call, 3)
+    n = self.whole(n, "a size")
+    check_size(n, "the array")
+    step = self.arithmetic("/", self.arithmetic("-", b, a), n - 1)
+    return array_of([self.arithmetic("+", a, self.arithmetic("*", step, i)) for i in range(n)])
+
+
+def _on_array(function: Callable[[Any], Any]) -> Callable[[Evaluator, Call], Any]:
+    def applied(self: Evaluator, call: Call) -> Any:
+        (value,) = self.arguments(call, 1)
+        return function(value if isinstance(value, np.ndarray) else array_of([value]))
+
+    return applied
+
+
+def _cat(self: Evaluator, call: Call) -> Any:
+    first, *parts = self.arguments(call, 2, 50)
+    try:
+        return np.concatenate(parts, axis=self.whole(first, "a dimension") - 1)
+    except ValueError:
+        raise self.wrong("the arrays do not fit") from None
+
+
+def _array(self: Evaluator, call: Call) -> Any:
+    if len(call.arguments) == 1 and isinstance(call.arguments[0], Comprehension):
+        return self.value(call.arguments[0])
+    return as_array([self.value(a) for a in call.arguments])
+
+
+def _cross(self: Evaluator, call: Call) -> Any:
+    a, b = self.arguments(call, 2)
+    return array_of([a[i] * b[j] - a[j] * b[i] for i, j in ((1, 2), (2, 0), (0, 1))])
+
+
+def _rounding(
+    function: Callable[[Evaluator, Any, Any], Any], least: int
+) -> Callable[[Evaluator, Call], Any]:
+    def applied(self: Evaluator, call: Call) -> Any:
+        values = self.arguments(call, least)
+        return each(lambda *v: function(self, v[0], v[-1]), *values)
+
+    return applied
+
+
+def _floor(self: Evaluator, x: Any, _: Any) -> Any:
+    return self.floored(x)
+
+
+def _ceil(self: Evaluator, x: Any, _: Any) -> Any:
+    return self.arithmetic("-", 0, self.floored(self.arithmetic("-", 0, x)))
+
+
+def _div(self: Evaluator, x: Any, y: Any) -> Any:
+    ratio = self.arithmetic("/", x, y)
+    if not isinstance(ratio, sp.Expr):
+        return int(ratio)
+    low, high = (
+        self.floored(ratio),
+        self.arithmetic("-", 0, self.floored(self.arithmetic("-", 0, ratio))),
+    )
+    return self.chosen(self.relation(">=", ratio, 0), low, high)
+
+
+def _mod(self: Evaluator, x: Any, y: Any) -> Any:
+    return self.arithmetic(
+        "-", x, self.arithmetic("*", self.floored(self.arithmetic("/", x, y)), y)
+    )
+
+
+def _rem(self: Evaluator, x: Any, y: Any) -> Any:
+    return self.arithmetic("-", x, self.arithmetic("*", _div(self, x, y), y))
+
+
+def _integer_of(self: Evaluator, x: Any, _: Any) -> Any:
+    return self.whole(x, "Integer(...)")
+
+
+def _assertion(self: Evaluator, call: Call) -> Any:
+    raise self.wrong("assert(...) is a statement, not a value")
+
+
+def _initial(self: Evaluator, call: Call) -> Any:
+    self.arguments(call, 0)
+    return initial()
+
+
+def _string(self: Evaluator, call: Call) -> Any:
+    value = self.value(call.arguments[0]) if call.arguments else ""
+    if isinstance(value, sp.Basic):
+        raise self.wrong("a text of what changes with time is not supported")
+    return str(value)
+
+
+SPECIAL: dict[str, Callable[[Evaluator, Call], Any]] = {
+    "der": _der, "pre": _mapped(pre), "edge": _mapped(edge), "change": _mapped(change),
+    "initial": _initial, "sample": _sample, "noEvent": _no_event, "smooth": _smooth,
+    "homotopy": _homotopy, "semiLinear": _semi_linear,
+    "sum": _reduction("sum"), "product": _reduction("product"), "min": _reduction("min"), "max": _reduction("max"),
+    "size": _size, "ndims": lambda self, call: len(np.shape(self.arguments(call, 1)[0])),
+    "zeros": _filled(0), "ones": _filled(1), "fill": _filled(None), "identity": _identity, "diagonal": _diagonal,
+    "linspace": _linspace, "transpose": _on_array(lambda a: a.T), "vector": _on_array(lambda a: a.reshape(-1)),
+    "scalar": _on_array(lambda a: a.reshape(-1)[0]), "matrix": _on_array(lambda a: a.reshape(len(a), -1)),
+    "cat": _cat, "array": _array, "cross": _cross,
+    "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
+    "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
+    "Integer": _rounding(_integer_of, 1), "String": _string, "assert": _assertion,
+}  # fmt: skip
+"""Functions of the language that need more than the values of their arguments."""

@@ -1,0 +1,137 @@
+"""Parts whose class is one of a library: made and modified as a netlist does, with values in place of texts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from acausal.errors import ModelError
+from acausal.modelica.functions import Interpreter
+from acausal.modelica.given import Given, Modification
+from acausal.modelica.values import nested, of
+from acausal.modeling import Component, Eq, Option, Variable, check_nested
+from acausal.netlist import NetlistError, Scope, is_structural, make, modify
+
+
+class Values(Scope):
+    """The values of modifiers, which are evaluated already."""
+
+    def __init__(self) -> None:
+        """No model: expressions are looked up where they stand."""
+
+    def value(self, raw: Any, where: str) -> Any:
+        """The value itself; that of an object with attributes."""
+        found = raw.get("=") if isinstance(raw, Mapping) else raw
+        if isinstance(found, list):
+            check_nested(found, "the list")
+        return found
+
+    def argument(self, raw: Any, where: str) -> Any:
+        """The value itself."""
+        return self.value(raw, where)
+
+    def bind(self, equation: Eq) -> None:
+        """Refuse an equation deep within a part of a library."""
+        raise NetlistError(f"{equation.lhs}: give this variable its value by an equation")
+
+
+def make_part(cls: Any, given: Sequence[Given], base: Any = None) -> Any:
+    """An instance of a class of a library, with the modifiers that it must be made with.
+
+    Arguments:
+        base: the constructor to call for an instance of a class that extends libraries' classes.
+    """
+    if base is not None:
+        cls = next(c for c in cls.__mro__ if not hasattr(c, "_class"))
+    raw: dict[str, Any] = {}
+    first: Given | None = None
+    for name, (mod, one) in grouped(given).items():
+        if is_structural(cls, name):
+            first = first or one
+            raw[name] = _structural(cls, name, mod)
+    try:
+        return make(Values(), cls, raw, cls.__name__, cls.__name__, base)[0]
+    except ModelError as error:
+        if first is None:
+            raise
+        raise first.wrong(str(error)) from None
+
+
+def _structural(cls: Any, name: str, mod: Modification) -> Any:
+    value, declared = _raw(mod), cls._declared.get(name)
+    if isinstance(declared, Option) and isinstance(value, sp.Basic) and mod.value is not None:
+        value = Interpreter(mod.value.frame).known(value, f"'{name}'")
+    return value
+
+
+def modify_part(build: Any, part: Component, given: Sequence[Given]) -> None:
+    """Apply the other modifiers; a value for a variable becomes an equation of the class that states it."""
+    cls = type(part)
+    for name, (mod, one) in grouped(given).items():
+        declared = part._node.declaration(name)
+        native = next(c for c in cls.__mro__ if not hasattr(c, "_class"))
+        if is_structural(native, name):
+            continue
+        if isinstance(declared, Variable) and mod.value is not None:
+            bind(build, part, name, mod)
+            if not mod.inner:
+                continue
+        _placed(one, part, name, _raw(mod))
+
+
+def modify_connector(build: Any, name: str, given: Sequence[Given]) -> None:
+    """Apply modifiers to a connector of a component."""
+    for variable, (mod, one) in grouped(given).items():
+        if of(of_path(build, name), variable) is None:
+            raise one.wrong(f"'{name}' has no '{variable}'")
+        bind(build, build.component, f"{name}.{variable}", mod)
+        if mod.inner:
+            _placed(one, build.component, name, {variable: _raw(mod)})
+
+
+def of_path(build: Any, name: str) -> Any:
+    """The connector of a component by its name with indices."""
+    return build.component._node.read(build.component._node.declaration(name))  # pyright: ignore[reportArgumentType]
+
+
+def bind(build: Any, part: Component, path: str, mod: Modification) -> None:
+    """Take the value of a variable as an equation, of the class in which its expression stands."""
+    if mod.value is not None:
+        owner: Any = mod.value.frame.build or build
+        owner.bindings.append((part, path, mod.value))
+        mod.value = None
+
+
+def grouped(given: Sequence[Given]) -> dict[str, tuple[Modification, Given]]:
+    """What each name gets, and the outermost argument for it.
+
+    Raises:
+        ModelicaError: for a modifier of what is final, or a class that replaces one within a library's class.
+    """
+    found: dict[str, tuple[Modification, Given]] = {}
+    for one in given:
+        if one.redeclared is not None:
+            raise one.wrong("a redeclaration within a class of the library is not supported")
+        mod, first = found.setdefault(one.name, (Modification(), one))
+        if one.final and first is not one:
+            raise first.wrong(f"'{one.name}' is final")
+        mod.add(one.modifier, one.frame, one.index)
+    return found
+
+
+def _raw(mod: Modification) -> Any:
+    """The value of a modifier as a netlist has it: a value, or an object of attributes."""
+    value = None if mod.value is None else nested(mod.value.value())
+    if not mod.inner:
+        return value
+    rest = {name: _raw(inner) for name, (inner, _) in grouped(mod.inner).items()}
+    return rest if value is None else {"=": value, **rest}
+
+
+def _placed(one: Given, part: Component, name: str, raw: Any) -> None:
+    try:
+        modify(Values(), part, name, raw, name)
+    except ModelError as error:
+        raise one.wrong(str(error)) from None

@@ -1,0 +1,270 @@
+"""Operators of expressions, on numbers, truth values, arrays and records; and where an expression stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import ModelError, shortened
+from acausal.modelica.classes import ClassNode
+from acausal.modelica.found import Literal
+from acausal.modelica.syntax import (
+    Choice,
+    Expression,
+    Operation,
+)
+from acausal.modelica.values import (
+    Absent,
+    Record,
+    each,
+    type_of,
+)
+from acausal.modeling import (
+    Parameter,
+    Reference,
+    check_size,
+    condition,
+    where,
+)
+from acausal.netlist import Arithmetic, evaluated
+
+MAX_OPERATIONS = 20_000
+MAX_CALLS = 30
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Where an expression stands.
+
+    Attributes:
+        node: the class whose text it is.
+        build: the component that it belongs to; None in a package or a function.
+        local: loop variables, and the variables of a function.
+        events: whether conditions are events.
+        calls: how many functions are being called.
+    """
+
+    node: ClassNode
+    build: Any = None
+    local: dict[str, Any] = field(default_factory=dict[str, Any])
+    events: bool = True
+    calls: int = 0
+
+    def with_local(self, **local: Any) -> Frame:
+        """The same with further local names."""
+        return replace(self, local={**self.local, **local})
+
+    def find(self, words: tuple[str, ...]) -> tuple[Any, Any]:
+        """A class or constant by its name; a class that is redeclared for this component counts first."""
+        if self.build is not None and words[0] in self.build.classes:
+            found, rest = self.build.classes[words[0]], words[1:]
+            while rest and (inner := self.node.tree.inside(found, rest[0])) is not None:
+                found, rest = inner, rest[1:]
+            return found, rest
+        return self.node.lookup(words)
+
+
+class Operators(Arithmetic):
+    """Operators on values.
+
+    Attributes:
+        at: of the expression that is being evaluated, for errors.
+    """
+
+    max_operations = MAX_OPERATIONS
+
+    def __init__(self, frame: Frame) -> None:
+        self.frame = frame
+        self.at = 0
+        self.ends: list[int] = []
+
+    def wrong(self, reason: str, length: int | None = None) -> Exception:
+        """The error at the present place."""
+        return self.frame.node.wrong(self.at, reason, length)
+
+    def value(self, expression: Expression) -> Any:
+        """The value of an expression."""
+        raise NotImplementedError
+
+    def _operation(self, expression: Operation) -> Any:
+        """An operator; long sums are walked through from their first operand on."""
+        spine: list[Operation] = []
+        first: Expression = expression
+        while isinstance(first, Operation):
+            spine.append(first)
+            first = first.operands[0]
+        value = self.value(first)
+        for operation in reversed(spine):
+            self.at = operation.at
+            others = [self.value(v) for v in operation.operands[1:]]
+            self.at = operation.at
+            value = self._applied(operation.operator, value, *others)
+        return value
+
+    def _applied(self, operator: str, first: Any, *others: Any) -> Any:
+        for value in (first, *others):
+            if isinstance(value, Absent):
+                raise self.wrong("this is left out by its condition")
+        if operator == "not":
+            return each(lambda a: self.logical(sp.Not, a), first)
+        if not others:
+            if operator.endswith("+"):
+                return each(self.number, first)
+            return each(lambda a: self.arithmetic("-", 0, a), first)
+        second = others[0]
+        if operator in ("and", "or"):
+            function = sp.And if operator == "and" else sp.Or
+            return each(lambda a, b: self.logical(function, a, b), first, second)
+        if operator in ("<", "<=", ">", ">=", "==", "<>"):
+            return self.relation(operator, first, second)
+        if operator == "+" and isinstance(first, str) and isinstance(second, str):
+            return first + second
+        arrays = isinstance(first, np.ndarray) + isinstance(second, np.ndarray)
+        if operator in ("+", "-") and arrays == 1:
+            raise self.wrong("an array and a number are added by .+ and .-")
+        if operator == "*" and arrays == 2:
+            return self._product(first, second)
+        if operator == "/" and isinstance(second, np.ndarray):
+            raise self.wrong("an array is no divisor; ./ divides by each element")
+        if operator == "^" and isinstance(first, np.ndarray):
+            found = np.array(
+                [[int(i == j) for j in range(len(first))] for i in range(len(first))], dtype=object
+            )
+            for _ in range(self.whole(second, "an exponent")):
+                found = self._product(found, first)
+            return found
+        sign = operator.lstrip(".")
+        return each(lambda a, b: self.arithmetic(sign, a, b), first, second)
+
+    def _product(self, a: Any, b: Any) -> Any:
+        if a.shape[-1] != b.shape[0]:
+            raise self.wrong(
+                f"arrays of sizes {list(a.shape)} and {list(b.shape)} cannot be multiplied"
+            )
+        check_size(a.size * (b.shape[1] if b.ndim > 1 else 1), "the product")
+        return self.result(np.dot(a, b)) if a.size else 0
+
+    def result(self, value: Any) -> Any:
+        """What numpy gives: an array, or a number."""
+        return value if isinstance(value, np.ndarray) else self.finite(value)
+
+    def relation(self, sign: str, left: Any, right: Any) -> Any:
+        """A comparison; values of enumerations are compared by their numbers."""
+        if isinstance(left, sp.Basic) and isinstance(right, Literal):
+            right = right.number
+        if isinstance(right, sp.Basic) and isinstance(left, Literal):
+            left = left.number
+        if isinstance(left, Literal) and isinstance(right, Literal) and sign not in ("==", "<>"):
+            left, right = left.number, right.number
+        if "Boolean" in (type_of(left), type_of(right)) and sign in ("==", "<>"):
+            a, b = self.truth(left), self.truth(right)
+            same = a == b if isinstance(a, bool) and isinstance(b, bool) else None
+            if same is not None:
+                return same is (sign == "==")
+            equal = sp.Or(sp.And(a, b), sp.And(sp.Not(a), sp.Not(b)))
+            return self._plain(equal if sign == "==" else sp.Not(equal))
+        if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):
+            raise self.wrong("arrays cannot be compared")
+        return super().relation(sign, left, right)
+
+    def truth(self, value: Any) -> Any:
+        """A condition; a Boolean variable is one, too."""
+        if isinstance(value, sp.Expr) and type_of(value) in ("", "Boolean"):
+            return condition(value, "a condition")
+        if isinstance(value, sp.Expr):
+            raise self.wrong("a number is neither true nor false")
+        return super().truth(value)
+
+    def number(self, value: Any) -> Any:
+        """A value to calculate with."""
+        if isinstance(value, Absent):
+            raise self.wrong("this is left out by its condition")
+        if type_of(value) == "Boolean":
+            raise self.wrong("a Boolean is not a number to calculate with")
+        if isinstance(value, np.ndarray):
+            raise self.wrong("a single number is needed here, not an array")
+        return super().number(value)
+
+    def whole(self, value: Any, what: str) -> int:
+        """A number that is known when the model is built."""
+        if isinstance(value, Literal):
+            return value.number
+        if isinstance(value, sp.Expr):
+            value = self.known(value, what)
+        if isinstance(value, float) and value.is_integer():
+            value = int(value)
+        if isinstance(value, bool) or not isinstance(value, int):
+            raise self.wrong(f"{what} is a whole number, not {shortened(repr(value), 40)}")
+        return value
+
+    def known(self, value: Any, what: str) -> Any:
+        """A number or truth value that parameters decide when the model is built."""
+        if isinstance(value, sp.logic.boolalg.Boolean) and not isinstance(value, sp.Symbol):
+            found = value.xreplace({r: self._number_of(r, what) for r in value.free_symbols})
+            if found not in (sp.true, sp.false):
+                raise self.wrong(
+                    f"{what} has to be known when the model is built; this changes with time"
+                )
+            return bool(found)
+        if isinstance(value, sp.Expr):
+            return self._number_of(value, what)
+        return value
+
+    @staticmethod
+    def varies(value: Any) -> bool:
+        """Whether a value changes with time."""
+        return any(
+            not (isinstance(s, Reference) and isinstance(s.declaration, Parameter))
+            for s in value.free_symbols
+        )
+
+    def _number_of(self, value: Any, what: str) -> Any:
+        try:
+            found = evaluated(value, what, {})
+        except ModelError as error:
+            raise self.wrong(str(error)) from None
+        if self.frame.build is not None:
+            self.frame.build.decided[str(value)] = found
+        return found
+
+    def _choice(self, expression: Choice) -> Any:
+        branches: list[tuple[Any, Any]] = []
+        otherwise: Any = None
+        for test, branch in expression.branches:
+            holds = self.truth(self.value(test))
+            if holds is True:
+                otherwise = self.value(branch)
+                break
+            if holds is not False:
+                branches.append((holds, self.value(branch)))
+        else:
+            otherwise = self.value(expression.otherwise)
+        for holds, value in reversed(branches):
+            otherwise = self.chosen(holds, value, otherwise)
+        return otherwise
+
+    def chosen(self, holds: Any, value: Any, otherwise: Any) -> Any:
+        """One value or another, as a condition decides; the condition of parameters alone is no event."""
+        self.count()
+        if isinstance(value, Record) and isinstance(otherwise, Record):
+            return Record(
+                {k: self.chosen(holds, v, otherwise.fields[k]) for k, v in value.fields.items()}
+            )
+        if isinstance(value, str) or isinstance(otherwise, str):
+            if isinstance(value, Literal) and isinstance(otherwise, Literal):
+                value, otherwise = value.number, otherwise.number
+            else:
+                return value if self.known(holds, "the condition of a text") else otherwise
+        events = self.frame.events and self.varies(holds)
+        both = "Boolean" in (type_of(value), type_of(otherwise))
+
+        def one(a: Any, b: Any) -> Any:
+            if both:
+                a, b = self.truth(a), self.truth(b)
+                return self._plain(sp.Or(sp.And(holds, a), sp.And(sp.Not(holds), b)))
+            return where(holds, self.number(a), self.number(b), events=events)
+
+        return each(one, value, otherwise)

@@ -1,0 +1,402 @@
+"""The statements of a section of equations or of an algorithm, read as those of a component."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.errors import DeclarationError, ModelError
+from acausal.modelica.found import Literal
+from acausal.modelica.functions import Interpreter
+from acausal.modelica.operators import Frame
+from acausal.modelica.syntax import (
+    Branches,
+    Call,
+    Connect,
+    Do,
+    Equation,
+    Expression,
+    Loop,
+    Name,
+    Several,
+    Statement,
+)
+from acausal.modelica.values import (
+    Absent,
+    Record,
+    each,
+    elements,
+    is_array,
+    nested,
+    of,
+    type_of,
+)
+from acausal.modeling import (
+    Component,
+    Discrete,
+    Eq,
+    Reference,
+    Reinit,
+    When,
+    pre,
+)
+
+
+class Reader(Interpreter):
+    """Reads the statements of one section."""
+
+    jumps: list[Reinit] | None = None
+
+    # -- connections -------------------------------------------------------------------------------------
+
+    def connections(self, stated: Sequence[Statement]) -> None:
+        """Connect what the statements connect; loops and conditions are known."""
+        for statement in stated:
+            self.at = statement.at
+            match statement:
+                case Connect():
+                    self._connect(statement)
+                case Loop() if _connects(statement.body):
+                    for _ in self._repeated(statement):
+                        self.connections(statement.body)
+                case Branches() if _connects([s for _, body in statement.branches for s in body]):
+                    self.connections(self._chosen(statement))
+                case _:
+                    pass
+
+    def _connect(self, statement: Connect) -> None:
+        ends = [self.value(end) for end in statement.ends]
+        self.at = statement.at
+        assert self.frame.build is not None
+        if any(isinstance(end, Absent) for end in ends) or all(
+            is_array(e) and not len(e) for e in ends
+        ):
+            return
+        try:
+            self.frame.build.component.connect(*(nested(end) for end in ends))
+        except ModelError as error:
+            raise self.wrong(str(error), len("connect")) from None
+
+    def _repeated(self, loop: Loop) -> Iterator[None]:
+        """Once for all values of the loop's variables."""
+        frame = self.frame
+        if loop.condition is not None:
+            raise self.wrong("'while' stands in algorithms only")
+        for values in self.iterated(loop.iterators):
+            self.frame = frame.with_local(**values)
+            yield
+            self.frame = frame
+        self.frame = frame
+
+    def _chosen(self, statement: Branches) -> list[Statement]:
+        """The branch that is taken, which has to be known."""
+        for test, body in statement.branches:
+            if test is None or self.known(
+                self.truth(self.value(test)), "a condition of connections"
+            ):
+                return body
+        return []
+
+    # -- equations ---------------------------------------------------------------------------------------
+
+    def stated(self, stated: Iterable[Statement]) -> Iterator[Any]:
+        """The equations that statements make."""
+        for statement in stated:
+            self.at = statement.at
+            self.operations = 0
+            match statement:
+                case Equation():
+                    yield from self._equation(statement)
+                case Loop():
+                    for _ in self._repeated(statement):
+                        yield from self.stated(statement.body)
+                case Branches() if statement.word == "if":
+                    yield from self._cases(statement.branches)
+                case Branches():
+                    yield self._when(statement, lambda body: list(self._at_event(body)))
+                case Do():
+                    self.perform(statement.call)
+                case Connect():
+                    pass
+
+    def _equation(self, statement: Equation) -> Iterator[Eq]:
+        left, right = statement.left, statement.right
+        if isinstance(left, Several):
+            if not isinstance(right, Call):
+                raise self.wrong("several results are those of a function")
+            for target, value in zip(left.items, self.results(right), strict=False):
+                if target is not None:
+                    yield from self.pairs(self.value(target), value)
+            return
+        a, b = self.value(left), self.value(right)
+        self.at = statement.at
+        yield from self.pairs(a, b)
+
+    def pairs(self, left: Any, right: Any) -> Iterator[Eq]:
+        """The equations ``left = right``: of arrays and records one for each element."""
+        if isinstance(left, Absent) or isinstance(right, Absent):
+            raise self.wrong("this is left out by its condition")
+        if isinstance(left, Record | Component) or isinstance(right, Record | Component):
+            yield from self._fields(left, right)
+            return
+        if np.shape(left) != np.shape(right):
+            raise self.wrong(
+                f"the sides have the sizes {list(np.shape(left))} and {list(np.shape(right))}"
+            )
+        for a, b in zip(elements(left), elements(right), strict=True):
+            yield self._pair(a, b)
+
+    def _fields(self, left: Any, right: Any) -> Iterator[Eq]:
+        some = left if isinstance(left, Record) else right
+        record = isinstance(some, Record)
+        names = list(some.fields) if record else [n for n, _ in some._node.declarations()]
+        for name in names:
+            a, b = of(left, name), of(right, name)
+            if a is None or b is None:
+                raise self.wrong(f"only one side has '{name}'")
+            yield from self.pairs(a, b)
+
+    def _pair(self, left: Any, right: Any) -> Eq:
+        truths = [kind == "Boolean" for kind in (type_of(left), type_of(right)) if kind]
+        if len(truths) == 2 and truths[0] != truths[1]:
+            raise self.wrong("one side is a Boolean, the other is not")
+        sides = [v.number if isinstance(v, Literal) else v for v in (left, right)]
+        for side in sides:
+            if isinstance(side, str):
+                raise self.wrong("an equation of texts is not supported")
+        if (
+            isinstance(right, Reference)
+            and not isinstance(left, Reference)
+            and isinstance(right.declaration, Discrete)
+        ):
+            sides.reverse()
+        try:
+            return Eq(*(float(v) if isinstance(v, bool) else v for v in sides))
+        except DeclarationError as error:
+            raise self.wrong(str(error)) from None
+
+    # -- if ------------------------------------------------------------------------------------------------
+
+    def _cases(
+        self, branches: Sequence[tuple[Expression | None, list[Statement]]]
+    ) -> Iterator[Any]:
+        """The equations of ``if``; of conditions that are not known each equation chooses between branches."""
+        if not branches:
+            return
+        (test, body), *rest = branches
+        holds = True if test is None else self.truth(self.value(test))
+        if isinstance(holds, sp.Basic) and not self.varies(holds):
+            holds = self.known(holds, "this condition")
+        if isinstance(holds, bool):
+            yield from self.stated(body) if holds else self._cases(rest)
+            return
+        at = self.at
+        first, second = list(self.stated(body)), list(self._cases(rest))
+        self.at = at
+        if len(first) != len(second):
+            reason = (
+                f"the branches have {len(first)} and {len(second)} equations; they need as many"
+            )
+            raise self.wrong(reason)
+        for a, b in zip(first, second, strict=True):
+            if not isinstance(a, Eq) or not isinstance(b, Eq):
+                raise self.wrong("'when' within an 'if' whose condition changes is not supported")
+            if a.lhs == b.lhs:
+                yield Eq(a.lhs, self.chosen(holds, a.rhs, b.rhs))
+            else:
+                sides = [self.arithmetic("-", e.lhs, e.rhs) for e in (a, b)]
+                yield Eq(0, self.chosen(holds, *sides))
+
+    # -- when ----------------------------------------------------------------------------------------------
+
+    def _when(self, statement: Branches, read: Any) -> When:
+        """A chain of what happens at events."""
+        links: list[tuple[list[Any], list[Any]]] = []
+        for test, body in statement.branches:
+            assert test is not None
+            found = self.value(test)
+            self.at = test.at
+            conditions = [self.condition(c) for c in elements(found)]
+            links.append((conditions, read(body)))
+        chain: When | None = None
+        for conditions, found in reversed(links):
+            try:
+                chain = When(tuple(conditions), *found, otherwise=chain)
+            except DeclarationError as error:
+                self.at = statement.at
+                raise self.wrong(str(error)) from None
+        assert chain is not None
+        return chain
+
+    def condition(self, value: Any) -> Any:
+        """A condition of an event."""
+        value = self.truth(value)
+        if isinstance(value, bool):
+            raise self.wrong(f"this is {str(value).lower()} at all times, so that nothing happens")
+        return value
+
+    def _at_event(self, body: Sequence[Statement]) -> Iterator[Any]:
+        """Discrete equations and jumps."""
+        for statement in body:
+            self.at = statement.at
+            match statement:
+                case Equation():
+                    for equation in self._equation(statement):
+                        if not isinstance(equation.lhs, Reference):
+                            raise self.wrong("an equation within 'when' is 'variable = value'")
+                        yield equation
+                case Do() if statement.call.function.text == "reinit":
+                    yield from self._reinit(statement.call)
+                case Do():
+                    self.perform(statement.call)
+                case Loop():
+                    for _ in self._repeated(statement):
+                        yield from self._at_event(statement.body)
+                case Branches() if statement.word == "if":
+                    yield from self._if_at_event(statement.branches)
+                case _:
+                    raise self.wrong("this does not stand within 'when'")
+
+    def _if_at_event(
+        self, branches: Sequence[tuple[Expression | None, list[Statement]]]
+    ) -> Iterator[Any]:
+        """``if`` within ``when``: a variable that a branch does not mention keeps its value."""
+        if not branches:
+            return
+        (test, body), *rest = branches
+        holds = True if test is None else self.truth(self.value(test))
+        if isinstance(holds, bool):
+            yield from self._at_event(body) if holds else self._if_at_event(rest)
+            return
+        sides = [
+            {_target(s): s for s in found}
+            for found in (self._at_event(body), self._if_at_event(rest))
+        ]
+        for target in dict.fromkeys([*sides[0], *sides[1]]):
+            kind: Any = type(sides[0].get(target, sides[1].get(target)))
+            values = [_value(side[target]) if target in side else pre(target) for side in sides]
+            yield kind(target, self.chosen(holds, *values))
+
+    def _reinit(self, call: Call) -> Iterator[Reinit]:
+        state, value = self.arguments(call, 2)
+        if np.shape(state) != np.shape(value):
+            raise self.wrong("reinit takes a state and a value of the same size")
+        for a, b in zip(elements(state), elements(value), strict=True):
+            try:
+                yield Reinit(a, self.number(b))
+            except DeclarationError as error:
+                raise self.wrong(str(error)) from None
+
+    def perform(self, call: Call) -> None:
+        """A call that stands alone: an assertion, or the jump of a state in an algorithm."""
+        word = call.function.text
+        if word == "reinit" and self.jumps is not None:
+            self.jumps += self._reinit(call)
+        elif word == "reinit":
+            raise self.wrong("reinit stands within 'when' only", len(word))
+        else:
+            super().perform(call)
+
+    # -- algorithms ----------------------------------------------------------------------------------------
+
+    def algorithm(self, stated: list[Statement]) -> Iterator[Any]:
+        """The equations of an algorithm: each variable that it assigns equals its last value."""
+        build = self.frame.build
+        assert build is not None
+        always, at_events = set[str](), set[str]()
+        collect([s for s in stated if not _is_when(s)], always, within=True)
+        collect([s for s in stated if _is_when(s)], at_events, within=True)
+        if both := sorted(always & at_events):
+            raise self.wrong(
+                f"'{both[0]}' is assigned within 'when' and outside of it, which is not supported"
+            )
+        variables = {w: build.member(w) for w in sorted(always | at_events) if w in build.names}
+        local: dict[str, Any] = {
+            w: each(_before, variables[w]) if w in always else variables[w] for w in variables
+        }
+        frame = self.frame
+        for statement in stated:
+            self.frame = Frame(frame.node, build, local, frame.events)
+            self.at = statement.at
+            if isinstance(statement, Branches) and statement.word == "when":
+                yield self._when(
+                    statement, lambda body: self._assigned(body, local, variables, at_events)
+                )
+            else:
+                self.execute([statement], local)
+        self.frame = frame
+        for word in sorted(always & set(variables), key=list(build.names).index):
+            if any(v is None for v in elements(local[word])):
+                raise self.wrong(f"the algorithm does not assign '{word}' in every case")
+            yield from self.pairs(variables[word], local[word])
+
+    def _assigned(
+        self,
+        body: list[Statement],
+        local: dict[str, Any],
+        variables: dict[str, Any],
+        at_events: set[str],
+    ) -> list[Any]:
+        """What happens at an event of an algorithm."""
+        frame, jumps = self.frame, self.jumps
+        inner = {w: each(pre, variables[w]) if w in at_events else v for w, v in local.items()}
+        before = dict(inner)
+        self.frame, self.jumps = Frame(frame.node, frame.build, inner, frame.events), []
+        self.execute(body, inner)
+        changed = [w for w in inner if inner[w] is not before.get(w)]
+        found = [e for w in changed for e in self.pairs(variables[w], inner[w])]
+        found += self.jumps
+        self.frame, self.jumps = frame, jumps
+        return found
+
+
+def _before(variable: Any) -> Any:
+    """The value of a variable when an algorithm begins."""
+    return pre(variable) if isinstance(variable.declaration, Discrete) else None
+
+
+def _target(statement: Eq | Reinit) -> Any:
+    return statement.lhs if isinstance(statement, Eq) else statement.state
+
+
+def _value(statement: Eq | Reinit) -> Any:
+    return statement.rhs if isinstance(statement, Eq) else statement.value
+
+
+def _is_when(statement: Statement) -> bool:
+    return isinstance(statement, Branches) and statement.word == "when"
+
+
+def _connects(stated: Iterable[Statement]) -> bool:
+    """Whether statements connect something."""
+    for statement in stated:
+        match statement:
+            case Connect():
+                return True
+            case Loop() if _connects(statement.body):
+                return True
+            case Branches() if any(_connects(body) for _, body in statement.branches):
+                return True
+            case _:
+                pass
+    return False
+
+
+def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:
+    """Names that statements assign; unless already ``within``, those in ``when`` only."""
+    for statement in stated:
+        match statement:
+            case Equation() if within:
+                left = statement.left
+                targets = left.items if isinstance(left, Several) else [left]
+                found |= {t.words[0] for t in targets if isinstance(t, Name)}
+            case Branches():
+                for _, body in statement.branches:
+                    collect(body, found, within or statement.word == "when")
+            case Loop():
+                collect(statement.body, found, within)
+            case _:
+                pass

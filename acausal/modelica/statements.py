@@ -1,0 +1,93 @@
+"""Equations, algorithms and connections of the text, as statements of a component."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from acausal.modelica.given import Bound
+from acausal.modelica.sections import Reader, collect
+from acausal.modelica.syntax import (
+    Whole,
+)
+from acausal.modelica.values import (
+    as_array,
+)
+from acausal.modeling import (
+    Component,
+    Eq,
+    Input,
+    Output,
+    references,
+)
+from acausal.netlist import attribute
+
+
+def equations(build: Any) -> Iterator[Any]:
+    """The equations and algorithms of a component, and those of variables that are given a value."""
+    for kind, stated, node in build.node.view().sections:
+        if kind == "equations":
+            yield from Reader(build.frame(node)).stated(stated)
+        elif kind == "algorithms":
+            yield from Reader(build.frame(node)).algorithm(stated)
+    for part, path, bound in build.bindings:
+        yield from _bound(part, path, bound)
+
+
+def initial_equations(build: Any) -> Iterator[Any]:
+    """The initial equations and algorithms of a component."""
+    for kind, stated, node in build.node.view().sections:
+        if kind == "initial_equations":
+            yield from Reader(build.frame(node)).stated(stated)
+        elif kind == "initial_algorithms":
+            yield from Reader(build.frame(node)).algorithm(stated)
+
+
+def connect(build: Any) -> None:
+    """Make the connections of a component."""
+    for kind, stated, node in build.node.view().sections:
+        if kind == "equations":
+            Reader(build.frame(node)).connections(stated)
+
+
+def check(build: Any) -> None:
+    """Read all that a component states, so that what is wrong is refused with its place.
+
+    Inputs of parts that its equations give a value, as in ``block.u = 2*x``, are connected to outputs of its own.
+    """
+    component, node = build.component, build.component._node
+    stated, _ = [s for s in equations(build) if isinstance(s, Eq)], [*initial_equations(build)]
+    ends = {end for pair in node.connections for end in pair}
+    symbols = [
+        s for equation in stated for side in (equation.lhs, equation.rhs) for s in references(side)
+    ]
+    for symbol in dict.fromkeys(symbols):
+        given = isinstance(symbol.declaration, Input) and symbol.owner is not node
+        if given and symbol not in ends:
+            route = symbol.owner.route_from(node) or ()
+            name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
+            setattr(component, f"{name}_given", Output(unit=symbol.declaration.unit))
+            component.connect(getattr(component, f"{name}_given"), symbol)
+
+
+def is_open(subscript: Any) -> bool:
+    """Whether a size is left open, ``:``."""
+    return isinstance(subscript, Whole)
+
+
+def assigned_at_events(build: Any) -> frozenset[str]:
+    """The variables of a class that ``when`` gives values."""
+    node = build.node
+    if "at_events" not in node.__dict__:
+        found: set[str] = set()
+        for _, stated, _ in node.view().sections:
+            collect(stated, found, within=False)
+        node.__dict__["at_events"] = frozenset(found)
+    return node.__dict__["at_events"]
+
+
+def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
+    reader = Reader(bound.frame)
+    reader.at = bound.expression.at
+    yield from reader.pairs(as_array(attribute(part, path)), bound.value())

@@ -1,0 +1,155 @@
+"""Values of expressions besides numbers: arrays, records, and what a condition leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from acausal.modeling import Component, Connector, Reference, Variable
+from acausal.netlist import member
+
+
+class Absent:
+    """A component that its condition leaves out."""
+
+
+ABSENT = Absent()
+
+
+class Record:
+    """The value of a record.
+
+    Attributes:
+        fields: by name.
+    """
+
+    def __init__(self, fields: dict[str, Any]) -> None:
+        self.fields = fields
+
+
+def is_array(value: Any) -> bool:
+    """Whether this is an array of numbers, truth values or texts, or a list of parts."""
+    return isinstance(value, np.ndarray | list | tuple)
+
+
+def as_array(value: Any) -> Any:
+    """Nested sequences of values as an array; parts and connectors stay in lists."""
+    if not isinstance(value, list | tuple):
+        return value
+    first: Any = cast(Sequence[Any], value)
+    while isinstance(first, list | tuple) and first:
+        first = cast(Sequence[Any], first)[0]
+    if isinstance(first, Component | Connector | Record | Absent):
+        return cast(Any, value)
+    return array_of(cast(Sequence[Any], value))
+
+
+def array_of(items: Sequence[Any]) -> np.ndarray[Any, Any]:
+    """An array of elements, which may be arrays of one shape.
+
+    Raises:
+        ValueError: if their shapes differ.
+    """
+    parts = [array_of(cast(Sequence[Any], v)) if isinstance(v, list | tuple) else v for v in items]
+    shapes = {v.shape if isinstance(v, np.ndarray) else () for v in parts}
+    if len(shapes) > 1:
+        raise ValueError("the elements of an array differ in size")
+    shape = shapes.pop() if shapes else ()
+    found = np.empty((len(parts), *shape), dtype=object)
+    for i, part in enumerate(parts):
+        found[i] = part
+    return found
+
+
+def each(function: Callable[..., Any], *values: Any) -> Any:
+    """A function of scalars, applied to the elements of arrays; scalars go with every element.
+
+    Raises:
+        ValueError: if the shapes of the arrays differ.
+    """
+    shapes = {v.shape for v in values if isinstance(v, np.ndarray)}
+    if not shapes:
+        return function(*values)
+    if len(shapes) > 1:
+        sizes = " and ".join(str(list(s)) for s in sorted(shapes))
+        raise ValueError(f"arrays of sizes {sizes} do not fit")
+    (shape,) = shapes
+    found = np.empty(shape, dtype=object)
+    for place in np.ndindex(*shape):
+        found[place] = function(*(v[place] if isinstance(v, np.ndarray) else v for v in values))
+    return found
+
+
+def elements(value: Any) -> list[Any]:
+    """The elements of an array, row by row; a scalar alone."""
+    return list(value.flat) if isinstance(value, np.ndarray) else [value]
+
+
+def nested(value: Any) -> Any:
+    """An array as nested lists."""
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def of(value: Any, word: str) -> Any:
+    """A member of a part, connector or record; of a list the members of its elements. None if there is none."""
+    match value:
+        case Absent():
+            return value
+        case Record():
+            return value.fields.get(word)
+        case list() | tuple() if value:
+            found = [of(v, word) for v in cast(Sequence[Any], value)]
+            return None if any(v is None for v in found) else as_array(found)
+        case Component():
+            build = value.__dict__.get("_build")
+            if build is not None and word in build.absent:
+                return ABSENT
+            declared = value._node.declaration(word)
+            if declared is not None and not value._node.has(declared):
+                return ABSENT
+            if build is not None and word in build.made:
+                return build.made[word]
+            return as_array(member(value, word))
+        case Connector():
+            return as_array(getattr(value, word, None)) if _has(value, word) else None
+        case _ if is_dataclass(value) and not isinstance(value, type):
+            return getattr(value, word, getattr(value, f"{word}_", None))
+        case _:
+            return None
+
+
+def _has(connector: Connector, word: str) -> bool:
+    return isinstance(getattr(type(connector), word, None), Variable)
+
+
+def type_of(value: Any) -> str:
+    """``Real``, ``Integer``, ``Boolean``, ``String``, or an empty text where it is not known."""
+    if isinstance(value, bool | sp.logic.boolalg.Boolean) and not isinstance(value, sp.Symbol):
+        return "Boolean"
+    if isinstance(value, str):
+        return "String"
+    if isinstance(value, Reference):
+        component = getattr(value.owner, "component", None)
+        build = None if component is None else component.__dict__.get("_build")
+        return "" if build is None else build.types.get(value.path.partition("[")[0], "")
+    if isinstance(value, sp.Expr) and (value.is_Add or value.is_Mul or value.is_Pow):
+        return "Real"
+    return "Integer" if isinstance(value, int) else "Real" if isinstance(value, float) else ""
+
+
+def with_fields(record: Any, given: dict[str, Any]) -> Any:
+    """A record of a library with other values; a name that Python reserves has a ``_`` behind it there.
+
+    Raises:
+        KeyError: for a field that it does not have.
+    """
+    known = [f.name for f in fields(record)]
+    found = {f"{k}_" if f"{k}_" in known else k: v for k, v in given.items()}
+    for key in found:
+        if key not in known:
+            raise KeyError(key)
+    return replace(record, **found) if found else record

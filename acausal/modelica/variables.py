@@ -1,0 +1,239 @@
+"""Declarations of predefined types: constants, parameters and variables of a component."""
+
+from __future__ import annotations
+
+from dataclasses import is_dataclass
+from typing import Any
+
+import numpy as np
+
+from acausal.modelica import statements
+from acausal.modelica.classes import Entry
+from acausal.modelica.found import Literal
+from acausal.modelica.functions import Interpreter
+from acausal.modelica.given import Bound, Modification
+from acausal.modelica.library_parts import Values, grouped
+from acausal.modelica.operators import Frame
+from acausal.modelica.types import Type, attributes_of
+from acausal.modelica.values import array_of, elements, nested, type_of, with_fields
+from acausal.modeling import (
+    Discrete,
+    InitialParameter,
+    Input,
+    Output,
+    Parameter,
+    Start,
+    Variable,
+)
+
+KINDS: dict[str, Any] = {"Real": "real", "Boolean": "bool"}
+
+
+class DiscreteOutput(Discrete, Output):
+    """An output signal that changes at events only."""
+
+
+def declare(
+    build: Any,
+    name: str,
+    entry: Entry,
+    found: Type,
+    mod: Modification,
+    sizes: list[tuple[Any, Frame]],
+) -> None:
+    """Declare a component of a predefined type.
+
+    Raises:
+        ModelicaError: for a value of another type, or one that is missing.
+    """
+    if found.record is not None:
+        build.made[name] = _record(found, mod)
+        return
+    stated = attributes_of(found, mod.inner)
+    build.types[name] = found.predefined
+    variability = entry.declared.prefixes.variability
+    if variability in ("parameter", "constant"):
+        _fixed(build, name, entry, found, mod, stated, sizes)
+        return
+    if found.predefined == "String":
+        raise entry.node.wrong(
+            entry.declared.at, "a text that changes with time is not supported", len(name)
+        )
+    shape = tuple(_sizes(build, entry, mod.value, sizes))
+    if found.native is not None and "unit" not in stated:
+        stated["unit"] = ""
+    declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
+    build.assign(name, entry, declared)
+    start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
+    if start:
+        scope = Values()
+        build.component.modify(
+            **{name: scope.start({k: nested(v) for k, v in start.items()}, name)}
+        )
+    if mod.value is not None:
+        owner = mod.value.frame.build or build
+        owner.bindings.append((build.component, name, mod.value))
+
+
+def _record(found: Type, mod: Modification) -> Any:
+    """A record of a library, with the fields that a modifier gives."""
+    value = found.record if mod.value is None else mod.value.value()
+    if not is_dataclass(value) and mod.value is not None:
+        raise mod.value.wrong(f"a {found.predefined} is needed")
+    given = {name: inner for name, (inner, _) in grouped(mod.inner).items()}
+    return with_fields(value, {n: m.value.value() for n, m in given.items() if m.value is not None})
+
+
+def _variable(
+    build: Any,
+    name: str,
+    entry: Entry,
+    found: Type,
+    mod: Modification,
+    shape: tuple[int, ...],
+    unit: str,
+) -> Variable:
+    """The declaration of a variable."""
+    prefixes, kind = entry.declared.prefixes, KINDS.get(found.predefined, "int")
+    causality = prefixes.causality or found.causality
+    if found.native is not None:
+        causality = "input" if found.native is Input else "output"
+    given: dict[str, Any] = {"unit": unit, "shape": shape or None, "doc": entry.declared.comment}
+    jumps = (
+        kind != "real"
+        or prefixes.variability == "discrete"
+        or name in statements.assigned_at_events(build)
+    )
+    if causality == "input" and mod.value is None:
+        return Input(kind=kind, **given)
+    if causality == "output":
+        return DiscreteOutput(kind=kind, **given) if jumps else Output(**given)
+    return Discrete(kind=kind, **given) if jumps else Variable(**given)
+
+
+def _fixed(
+    build: Any,
+    name: str,
+    entry: Entry,
+    found: Type,
+    mod: Modification,
+    stated: dict[str, Any],
+    sizes: list[tuple[Any, Frame]],
+) -> None:
+    """A constant or parameter: a number that may change later, or a value that decides what there is."""
+    value, declared = mod.value, entry.declared
+    constant = declared.prefixes.variability == "constant"
+    real = found.predefined == "Real"
+    if real and not constant and _value(stated.get("fixed", True)) is False:
+        if value is not None:
+            raise value.wrong(
+                f"'{name}' is found at the start (fixed=false); give its start, not its value"
+            )
+        build.assign(
+            name, entry, InitialParameter(unit=_text(stated.get("unit", "")), doc=declared.comment)
+        )
+        if "start" in stated:
+            build.component.modify(**{name: Start(_value(stated["start"]))})
+        return
+    given = value.value() if value is not None else _value(stated.get("start"))
+    if given is None and (constant or not real):
+        raise entry.node.wrong(declared.at, f"'{name}' has no value; give one", len(name))
+    if given is not None:
+        given = _checked(build, name, entry, found, given, value)
+    known = _sizes(build, entry, given, sizes)
+    if known and given is not None:
+        given = _spread(entry, name, given, known, value)
+    elif isinstance(given, np.ndarray):
+        raise entry.node.wrong(declared.at, f"'{name}' is a single value, not an array", len(name))
+    if constant or not real:
+        build.made[name] = given
+        return
+    low, high = (_value(stated.get(k)) for k in ("min", "max"))
+    folded = 0.0 if isinstance(given, int | float) and given == 0 else None
+    parameter = Parameter(
+        folded,
+        unit=_text(stated.get("unit", "")),
+        shape=tuple(known) or None,
+        doc=declared.comment,
+        min=low if isinstance(low, int | float) else None,
+        max=high if isinstance(high, int | float) else None,
+    )
+    build.assign(name, entry, parameter)
+    if given is not None and folded is None:
+        build.component.modify(**{name: nested(given)})
+
+
+def _checked(
+    build: Any, name: str, entry: Entry, found: Type, given: Any, bound: Bound | None
+) -> Any:
+    """A value of the declared type; what decides a structure becomes a number."""
+    frame = build.frame(entry.node) if bound is None else bound.frame
+    interpreter = Interpreter(frame)
+    interpreter.at = entry.declared.at if bound is None else bound.expression.at
+    kind = found.predefined
+
+    def one(value: Any) -> Any:
+        if kind == "Real":
+            return interpreter.number(value)
+        if kind == "Integer":
+            return interpreter.whole(value, f"'{name}'")
+        if kind == "Boolean":
+            return interpreter.known(interpreter.truth(value), f"'{name}'")
+        if isinstance(value, str) and (kind == "String") is not isinstance(value, Literal):
+            return value
+        if isinstance(value, str) and kind != "String":  # of a library's enumeration
+            return value
+        raise interpreter.wrong(
+            f"'{name}' is a {kind}, this is {type_of(value) or 'something else'}"
+        )
+
+    if isinstance(given, np.ndarray):
+        return array_of([one(v) for v in elements(given)]).reshape(given.shape)
+    return one(given)
+
+
+def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]]) -> list[int]:
+    """The sizes of an array; those that are open follow from its value."""
+    found: list[int] = []
+    for place, (expression, frame) in enumerate(sizes):
+        if not statements.is_open(expression):
+            found.append(build.size(expression, frame))
+            continue
+        given = value.value() if isinstance(value, Bound) else value
+        if not isinstance(given, np.ndarray) or place >= given.ndim:
+            raise entry.node.wrong(
+                entry.declared.at,
+                "the size of this array is not known; give it a value",
+                len(entry.declared.name),
+            )
+        found.append(given.shape[place])
+    return found
+
+
+def _spread(entry: Entry, name: str, given: Any, sizes: list[int], bound: Bound | None) -> Any:
+    """An array of the declared size; a single value goes to all elements."""
+    if isinstance(given, np.ndarray):
+        if list(given.shape) != sizes:
+            node, at = (
+                (entry.node, entry.declared.at)
+                if bound is None
+                else (bound.frame.node, bound.expression.at)
+            )
+            raise node.wrong(
+                at, f"'{name}' has the size {sizes}, its value has {list(given.shape)}"
+            )
+        return given
+    found = np.empty(sizes, dtype=object)
+    found[...] = given
+    return found
+
+
+def _value(stated: Any) -> Any:
+    return stated.value() if isinstance(stated, Bound) else stated
+
+
+def _text(stated: Any) -> str:
+    value = _value(stated)
+    if isinstance(stated, Bound) and not isinstance(value, str):
+        raise stated.wrong("a unit is a text")
+    return value

@@ -1,0 +1,144 @@
+"""Files and packages of Modelica text: where classes are found, and what a loaded model can do."""
+
+import copy
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.command import main
+from acausal.components import translational as tl
+from acausal.modeling import Reference
+from tests.export.test_modelica import CASES, Vectors
+
+TEXTBOOK = Path(__file__).with_name("Textbook.mo")
+PACKAGE = {
+    "Plant/package.mo": "package Plant constant Real factor = 2; end Plant;",
+    "Plant/package.order": "Sub\nLaw\n",
+    "Plant/Law.mo": """within Plant;
+        partial model Law "a law without its equation"
+          Real x(start = 1, fixed = true);
+          parameter Real k = factor;
+        end Law;""",
+    "Plant/Sub/package.mo": "within Plant; package Sub extends Modelica.Icons.Package; end Sub;",
+    "Plant/Sub/Decay.mo": """within Plant.Sub;
+        model Decay
+          extends Law(k = 3*factor);
+        equation
+          der(x) = -k*x;
+        end Decay;""",
+    "User.mo": """model User
+          import Plant.Sub.Decay;
+          import P = Plant;
+          import Plant.Sub.*;
+          import Plant.{Law, Sub};
+          Decay a;
+          P.Sub.Decay b(k = P.factor), c;
+        end User;""",
+}
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name, text in PACKAGE.items():
+        file = tmp_path / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    return tmp_path
+
+
+@pytest.mark.parametrize("file", ["Plant", "Plant/package.mo", "Plant/Sub/Decay.mo"])
+def test_a_package_over_folders(folder: Path, file: str) -> None:
+    model = ac.load(folder / file, "Plant.Sub.Decay")
+    assert [str(e) for e in model.equations()] == ["der(x) = -k*x"]
+    assert model._node.modifiers["k"] == 6
+
+
+def test_packages_are_found_beside_the_file_and_by_path(folder: Path, tmp_path: Path) -> None:
+    model = ac.load(folder / "User.mo")
+    assert [model._node.children[n]._node.modifiers["k"] for n in "abc"] == [6, 2, 6]
+    (folder / "elsewhere").mkdir()
+    moved = (folder / "User.mo").rename(folder / "elsewhere" / "User.mo")
+    with pytest.raises(ac.ModelicaError, match=r"line 2, .* 'Plant.Sub.Decay'; give the folder"):
+        ac.load(moved)
+    assert ac.load(moved, path=[folder]).a.x is not None
+
+
+def test_the_last_model_is_meant_or_one_by_its_name(tmp_path: Path) -> None:
+    file = tmp_path / "two.mo"
+    file.write_text("package P model A Real a=1; end A; model B Real b=1; end B; end P;")
+    assert (type(ac.load(file)).__name__, type(ac.load(file, "A")).__name__) == ("B", "A")
+    with pytest.raises(ac.ModelError, match=r"no model 'C'; it has 'P\.A', 'P\.B'"):
+        ac.load(file, "C")
+    netlist = tmp_path / "model.json"
+    netlist.write_text(json.dumps({"components": {}}))
+    with pytest.raises(ac.ModelError, match="is a netlist, which is one model"):
+        ac.load(netlist, "A")
+    with pytest.raises(ac.ModelError, match="takes the name of a model"):
+        ac.load(file, 3)  # type: ignore[arg-type]
+
+
+def test_the_experiment_is_kept() -> None:
+    assert ac.load(TEXTBOOK, "RC").document == {"stop_time": 3}
+
+
+def test_a_class_of_the_text_is_a_class_of_python() -> None:
+    rc = ac.load(TEXTBOOK, "RC")
+    other = type(rc.r)(R=5.0)
+    assert other._node.modifiers["R"] == 5
+    replaced = rc.replace("r", other)
+    assert [replaced.r._node.modifiers["R"], rc.r._node.modifiers["R"]] == [5, rc.R]
+    assert len(type(rc)(R=7.0).c._node.parent.children) == 4
+
+
+def test_a_copy_reads_its_own_equations() -> None:
+    model = copy.deepcopy(ac.load(TEXTBOOK, "NonlinearResistor"))
+    own = list(model.equations())[-1].rhs.free_symbols
+    owners = {symbol.owner for symbol in own if isinstance(symbol, Reference)}
+    assert owners == {model._node}
+
+
+def test_a_part_of_the_text_is_replaced_by_one_of_the_library() -> None:
+    model = ac.load(TEXTBOOK, "Chain2").replace("link[2]", tl.SpringDamper(c=20.0, d=0.5))
+    assert ac.compile(model).states == ("mass[1].s", "mass[1].v", "mass[2].s", "mass[2].v")
+
+
+@pytest.mark.parametrize("selfcontained", [True, False])
+@pytest.mark.parametrize("case", ["oscillator", "sampled", "vectors"])
+def test_an_export_comes_back(tmp_path: Path, case: str, selfcontained: bool) -> None:
+    ours = ac.compile(Vectors() if case == "vectors" else CASES[case][0]())
+    params = ours.parameters(1)
+    file = ac.export.modelica(ours, tmp_path / "out.mo", params, selfcontained=selfcontained)
+    again = ac.compile(ac.load(file))
+    assert again.states == ours.states
+    x = np.linspace(0.2, 0.5, len(ours.states))
+    found, wanted = (
+        np.asarray(s.vector_field(0.3, x, None, p))
+        for s, p in ((again, again.parameters()), (ours, params))
+    )
+    assert np.max(np.abs(found - wanted)) < 1e-12
+
+
+def test_attributes_and_constants_of_a_netlist_are_written(tmp_path: Path) -> None:
+    source = "Modelica.Electrical.Analog.Sources.SineVoltage"
+    netlist = {
+        "components": {
+            "v": {"class": source, "with": {"V": {"=": 2.0, "displayUnit": "mV"}, "f": 1, "phase": "pi/2"}},
+            "r": {"class": "Modelica.Electrical.Analog.Basic.Resistor", "with": {"R": 1.0}},
+            "g": {"class": "Modelica.Electrical.Analog.Basic.Ground"},
+        },
+        "connections": [["v.p", "r.p"], ["v.n", "r.n"], ["g.p", "v.n"]],
+    }  # fmt: skip
+    file = tmp_path / "model.json"
+    file.write_text(json.dumps(netlist))
+    again = ac.load(ac.export.modelica(ac.load(file), tmp_path / "out.mo"))
+    assert [again.v._node.modifiers[n] for n in ("V", "phase")] == [2, pytest.approx(np.pi / 2)]
+
+
+def test_commands_take_a_file_and_a_class_of_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", f"{TEXTBOOK}:Textbook.RC"]) == 0
+    assert "RC is right: 20 equations, 1 state" in capsys.readouterr().out
+    assert main(["check", f"{TEXTBOOK}:Nope"]) == 3
+    assert "there is no model 'Nope'" in capsys.readouterr().err
