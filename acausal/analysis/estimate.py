@@ -166,12 +166,14 @@ def filter_named(method: str) -> Filter:
     Raises:
         DataError: for an unknown name.
     """
+    if not isinstance(method, str):
+        raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
     if method == "mhe":
         raise DataError(
             "method='mhe': a moving horizon is not there yet; take method='ekf' with smooth=True, or 'ukf'."
         )
     if method not in METHODS:
-        raise DataError(f"No method {shown(method)}: {nearest(str(method), METHODS)}")
+        raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
     return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": Ensemble()}[method]
 
 

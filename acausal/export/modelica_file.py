@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from acausal._jax import need_double_precision, need_known
-from acausal.errors import ModelError, shown
+from acausal.errors import ModelError, need_flag, shown
 from acausal.export.given import all_parameters
 from acausal.files import new_file, write_files
 from acausal.modeling import Component, InitialParameter
@@ -57,6 +57,7 @@ def modelica(
         raise ModelError(f"export.modelica needs a model or a system, not {shown(model, 40)}")
     system = model if isinstance(model, System) else compile(model)
     need_known("export.modelica", params)
+    is_alone = need_flag(selfcontained, "selfcontained")
     given = all_parameters(system, params)
     packed, layout = system.pack(given), system.layout
     networks = {
@@ -66,8 +67,8 @@ def modelica(
     changed = _with_values(system, given)
     package = Package(
         networks,
-        (lambda model, name: None) if selfcontained else standard_part,
-        (lambda kind, name: None) if selfcontained else standard_connector,
+        (lambda model, name: None) if is_alone else standard_part,
+        (lambda kind, name: None) if is_alone else standard_connector,
     )
     title = class_name(target.stem)
     name = changed._node.title or type(changed).__name__
