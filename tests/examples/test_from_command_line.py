@@ -15,6 +15,7 @@ import pytest
 
 import acausal as ac
 from tests.support.paths import SHARED
+from tests.support.slow import some_slow
 
 DATA = SHARED / "data"
 COMMANDS = {
@@ -50,8 +51,9 @@ def ran(
     return json.loads(capsys.readouterr().out.splitlines()[-1])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize(
+    "name", some_slow(COMMANDS, ["battery_cell", "silverbox"], ["cascaded_tanks", "emps"])
+)
 def test_an_example_runs_from_its_data_to_its_page(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
