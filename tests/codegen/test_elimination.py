@@ -8,6 +8,7 @@ import pytest
 from acausal._jax.batching import batched, is_small
 from acausal.codegen.elimination import eliminate
 
+
 def equations(n, *batch):
     """The same for the same sizes, whichever tests have run before."""
     rng = np.random.default_rng((n, *batch))
