@@ -74,9 +74,11 @@ def array(value: ArrayLike | JaxArrayLike, dtype: Any = float) -> Array:
 
     `jnp.asarray` compiles a program for every new shape that it is given outside of `jax.jit`, this does not.
     """
-    if traced(value) or isinstance(value, Array):
+    if traced(value):
         return jnp.asarray(value, dtype)
     with jax.ensure_compile_time_eval():
+        if isinstance(value, Array):
+            return jnp.asarray(value, dtype)
         return jax.device_put(np.asarray(value, dtype))
 
 

@@ -10,14 +10,14 @@ import numpy as np
 
 from acausal.errors import DeclarationError, nearest
 from acausal.fmu.archive import read
-from acausal.fmu.chosen import Chosen, communication_step, interface, name_of
 from acausal.fmu.conversion import Conversion
 from acausal.fmu.description import REAL, Description, FMUVariable, read_description
-from acausal.fmu.evaluated import NEVER
 from acausal.fmu.fmu_view import as_html, as_text
 from acausal.fmu.function import FMUFunction
-from acausal.fmu.loaded import evaluated, has_events
+from acausal.fmu.model_exchange import NEVER
 from acausal.fmu.part import Part
+from acausal.fmu.registry import evaluated, has_events
+from acausal.fmu.selection import Chosen, communication_step, interface, name_of
 from acausal.modeling import (
     HALF,
     Component,

@@ -15,7 +15,7 @@ from acausal.fmu.computed import Computed
 from acausal.fmu.derivatives import Differentiated
 from acausal.fmu.histories import After, Event
 from acausal.fmu.instance import Instance
-from acausal.fmu.library import BYTES, DISCARD, ERROR, FMUError
+from acausal.fmu.library import BYTES, DISCARD, FATAL, FMUError
 from acausal.fmu.part import Part
 
 EXPLODED = 1e30
@@ -92,7 +92,7 @@ class Slave(Instance):
             if not last.value > time:
                 raise self._failure(time, "refuses the step")
             return last.value
-        if status > ERROR + 1:
+        if status > FATAL:
             raise self._failure(time, "computes a step in the background, which is not supported,")
         self.check(status, f"the step at {time:g} s")
         return time + size

@@ -14,8 +14,8 @@ from jaxtyping import Array, Float
 
 from acausal.errors import SimulationError
 from acausal.fmu.handlers import FAILURES, called
-from acausal.fmu.loaded import computed
 from acausal.fmu.part import Part
+from acausal.fmu.registry import computed
 
 
 class FMUFunction(eqx.Module):

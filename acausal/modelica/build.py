@@ -11,8 +11,8 @@ from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode, Entry
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.given import Bound, Given, Index, Modification, given_by, modification
 from acausal.modelica.library_parts import make_part, modify_connector, modify_part
+from acausal.modelica.modifications import Bound, Given, Index, Modification, given_by, modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
 from acausal.modelica.tokens import ModelicaError

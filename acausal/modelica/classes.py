@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from acausal.errors import nearest, shortened
-from acausal.modelica.found import Native, Predefined, Prefix, Value
 from acausal.modelica.grammar import parse
+from acausal.modelica.meanings import Native, Predefined, Prefix, Value
 from acausal.modelica.syntax import (
     Argument,
     ClassDefinition,
     Declared,
+    Expression,
     Extends,
     Import,
     Name,
@@ -36,6 +37,14 @@ class Entry:
     declared: Declared
     node: ClassNode
     modifiers: list[tuple[Argument, ClassNode]]
+
+    @property
+    def stated(self) -> tuple[Expression | None, ClassNode]:
+        """The value that it is given, by the outermost modifier that has one, and the class that states it."""
+        for argument, node in self.modifiers:
+            if argument.name == self.declared.name and argument.modifier.value is not None:
+                return argument.modifier.value, node
+        return self.declared.modifier.value, self.node
 
 
 @dataclass(eq=False)

@@ -11,7 +11,7 @@ import sympy as sp
 
 from acausal.errors import nearest, shortened
 from acausal.modelica.classes import ClassNode, Imported
-from acausal.modelica.found import Literal, Native, Predefined, Prefix, Value
+from acausal.modelica.meanings import Literal, Native, Predefined, Prefix, Value
 from acausal.modelica.operators import Frame, Operators
 from acausal.modelica.syntax import (
     Array,
@@ -287,12 +287,8 @@ class Evaluator(Operators):
             if entry.declared.prefixes.variability not in ("constant", "parameter"):
                 raise self.wrong(f"'{name}' is not a constant of {node.full}", len(name))
             known[name] = None
-            frame = Frame(entry.node)
-            expression = entry.declared.modifier.value
-            for argument, where_ in entry.modifiers:
-                if argument.name == name and argument.modifier.value is not None:
-                    expression, frame = argument.modifier.value, Frame(where_)
-                    break
+            expression, owner = entry.stated
+            frame = Frame(owner)
             if expression is None:
                 found, _ = frame.find(entry.declared.type.words)
                 if not isinstance(found, ClassNode) or found.definition.kind != "record":

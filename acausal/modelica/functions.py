@@ -12,8 +12,8 @@ import sympy as sp
 
 from acausal.modelica.classes import ClassNode, Entry
 from acausal.modelica.evaluate import Evaluator
-from acausal.modelica.found import Native, Predefined, Value
 from acausal.modelica.language import SPECIAL
+from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
 from acausal.modelica.syntax import (
     Branches,
@@ -27,6 +27,7 @@ from acausal.modelica.syntax import (
     Name,
     Several,
     Statement,
+    Whole,
 )
 from acausal.modelica.values import (
     Record,
@@ -142,11 +143,8 @@ class Interpreter(Evaluator):
             if name in stated:
                 fields[name] = stated[name]
                 continue
-            frame, expression = Frame(entry.node, None, fields), entry.declared.modifier.value
-            for argument, node_ in entry.modifiers:
-                if argument.name == name and argument.modifier.value is not None:
-                    frame, expression = Frame(node_, None, fields), argument.modifier.value
-                    break
+            expression, owner = entry.stated
+            frame = Frame(owner, None, fields)
             fields[name] = None if expression is None else self.elsewhere(frame).value(expression)
         return Record(fields)
 
@@ -222,7 +220,7 @@ class Interpreter(Evaluator):
 
     def empty(self, entry: Entry) -> Any:
         """A variable before it is assigned: None, or an array of None."""
-        sizes = [self.value(s) for s in entry.declared.subscripts if not _is_open(s)]
+        sizes = [self.value(s) for s in entry.declared.subscripts if not isinstance(s, Whole)]
         if not sizes or len(sizes) < len(entry.declared.subscripts):
             return None
         shape = [self.whole(n, "a size") for n in sizes]
@@ -321,7 +319,7 @@ class Interpreter(Evaluator):
         if not branches:
             return
         (test, body), *rest = branches
-        holds = True if test is None else self.truth(self.value(test))
+        holds = self.holds(test)
         if holds is True:
             self.execute(body, local)
         elif holds is False:
@@ -431,9 +429,3 @@ class _Layered(dict[str, Any]):
     def update(self, *others: Any, **more: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
         for name, value in dict(*others, **more).items():
             self[name] = value
-
-
-def _is_open(subscript: Any) -> bool:
-    from acausal.modelica.syntax import Whole
-
-    return isinstance(subscript, Whole)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import sympy as sp
 
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.syntax import Call, Comprehension, Expression
-from acausal.modelica.values import array_of, as_array, each, elements, is_array, type_of
+from acausal.modelica.values import array_of, as_array, each, elements, identity, is_array, type_of
 from acausal.modeling import change, check_size, der, edge, initial, pre, sample
 from acausal.netlist import function as known_function
 
@@ -84,6 +85,10 @@ def _sample(self: Evaluator, call: Call) -> Any:
         raise self.wrong(str(error)) from None
 
 
+FOLDED = {"sum": ("+", 0), "product": ("*", 1)}
+"""Reductions by an operator, and what is left of no values."""
+
+
 def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
     def reduced(self: Evaluator, call: Call) -> Any:
         if len(call.arguments) == 1:
@@ -93,16 +98,9 @@ def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
                 raise self.wrong(f"{name}(...) takes an array or two numbers")
         else:
             values = self.arguments(call, 2)
-        if name == "sum":
-            found: Any = 0
-            for v in values:
-                found = self.arithmetic("+", found, v)
-            return found
-        if name == "product":
-            found = 1
-            for v in values:
-                found = self.arithmetic("*", found, v)
-            return found
+        if name in FOLDED:
+            operator, first = FOLDED[name]
+            return reduce(lambda a, b: self.arithmetic(operator, a, b), values, first)
         numbers = [self.number(v) for v in values]
         if numbers and all(isinstance(v, int | float) for v in numbers):
             return min(numbers) if name == "min" else max(numbers)
@@ -149,7 +147,7 @@ def _identity(self: Evaluator, call: Call) -> Any:
     (n,) = self.arguments(call, 1)
     n = self.whole(n, "a size")
     check_size(n * n, "the array")
-    return array_of([[int(i == j) for j in range(n)] for i in range(n)])
+    return identity(n)
 
 
 def _diagonal(self: Evaluator, call: Call) -> Any:
@@ -216,11 +214,8 @@ def _div(self: Evaluator, x: Any, y: Any) -> Any:
     ratio = self.arithmetic("/", x, y)
     if not isinstance(ratio, sp.Expr):
         return int(ratio)
-    low, high = (
-        self.floored(ratio),
-        self.arithmetic("-", 0, self.floored(self.arithmetic("-", 0, ratio))),
-    )
-    return self.chosen(self.relation(">=", ratio, 0), low, high)
+    positive = self.relation(">=", ratio, 0)
+    return self.chosen(positive, self.floored(ratio), _ceil(self, ratio, None))
 
 
 def _mod(self: Evaluator, x: Any, y: Any) -> Any:

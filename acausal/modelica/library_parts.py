@@ -9,7 +9,7 @@ import sympy as sp
 
 from acausal.errors import ModelError
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.given import Given, Modification
+from acausal.modelica.modifications import Given, Modification
 from acausal.modelica.values import nested, of
 from acausal.modeling import Component, Eq, Option, Variable, check_nested
 from acausal.netlist import NetlistError, Scope, is_structural, make, modify

@@ -10,7 +10,7 @@ import sympy as sp
 
 from acausal.errors import ModelError, shortened
 from acausal.modelica.classes import ClassNode
-from acausal.modelica.found import Literal
+from acausal.modelica.meanings import Literal
 from acausal.modelica.syntax import (
     Choice,
     Expression,
@@ -20,6 +20,7 @@ from acausal.modelica.values import (
     Absent,
     Record,
     each,
+    identity,
     type_of,
 )
 from acausal.modeling import (
@@ -130,9 +131,7 @@ class Operators(Arithmetic):
         if operator == "/" and isinstance(second, np.ndarray):
             raise self.wrong("an array is no divisor; ./ divides by each element")
         if operator == "^" and isinstance(first, np.ndarray):
-            found = np.array(
-                [[int(i == j) for j in range(len(first))] for i in range(len(first))], dtype=object
-            )
+            found = identity(len(first))
             for _ in range(self.whole(second, "an exponent")):
                 found = self._product(found, first)
             return found
@@ -177,6 +176,10 @@ class Operators(Arithmetic):
         if isinstance(value, sp.Expr):
             raise self.wrong("a number is neither true nor false")
         return super().truth(value)
+
+    def holds(self, test: Expression | None) -> Any:
+        """The condition of a branch; that of ``else`` is true."""
+        return True if test is None else self.truth(self.value(test))
 
     def number(self, value: Any) -> Any:
         """A value to calculate with."""
@@ -234,7 +237,7 @@ class Operators(Arithmetic):
         branches: list[tuple[Any, Any]] = []
         otherwise: Any = None
         for test, branch in expression.branches:
-            holds = self.truth(self.value(test))
+            holds = self.holds(test)
             if holds is True:
                 otherwise = self.value(branch)
                 break

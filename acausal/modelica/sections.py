@@ -9,8 +9,8 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError, ModelError
-from acausal.modelica.found import Literal
 from acausal.modelica.functions import Interpreter
+from acausal.modelica.meanings import Literal
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import (
     Branches,
@@ -94,9 +94,7 @@ class Reader(Interpreter):
     def _chosen(self, statement: Branches) -> list[Statement]:
         """The branch that is taken, which has to be known."""
         for test, body in statement.branches:
-            if test is None or self.known(
-                self.truth(self.value(test)), "a condition of connections"
-            ):
+            if self.known(self.holds(test), "a condition of connections"):
                 return body
         return []
 
@@ -187,7 +185,7 @@ class Reader(Interpreter):
         if not branches:
             return
         (test, body), *rest = branches
-        holds = True if test is None else self.truth(self.value(test))
+        holds = self.holds(test)
         if isinstance(holds, sp.Basic) and not self.varies(holds):
             holds = self.known(holds, "this condition")
         if isinstance(holds, bool):
@@ -267,7 +265,7 @@ class Reader(Interpreter):
         if not branches:
             return
         (test, body), *rest = branches
-        holds = True if test is None else self.truth(self.value(test))
+        holds = self.holds(test)
         if isinstance(holds, bool):
             yield from self._at_event(body) if holds else self._if_at_event(rest)
             return

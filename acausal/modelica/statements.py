@@ -6,11 +6,8 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from acausal.modelica.given import Bound
+from acausal.modelica.modifications import Bound
 from acausal.modelica.sections import Reader, collect
-from acausal.modelica.syntax import (
-    Whole,
-)
 from acausal.modelica.values import (
     as_array,
 )
@@ -26,21 +23,22 @@ from acausal.netlist import attribute
 
 def equations(build: Any) -> Iterator[Any]:
     """The equations and algorithms of a component, and those of variables that are given a value."""
-    for kind, stated, node in build.node.view().sections:
-        if kind == "equations":
-            yield from Reader(build.frame(node)).stated(stated)
-        elif kind == "algorithms":
-            yield from Reader(build.frame(node)).algorithm(stated)
+    yield from _read(build, "equations", "algorithms")
     for part, path, bound in build.bindings:
         yield from _bound(part, path, bound)
 
 
 def initial_equations(build: Any) -> Iterator[Any]:
     """The initial equations and algorithms of a component."""
+    yield from _read(build, "initial_equations", "initial_algorithms")
+
+
+def _read(build: Any, equations: str, algorithms: str) -> Iterator[Any]:
+    """What the sections of two kinds state, in the order of the text."""
     for kind, stated, node in build.node.view().sections:
-        if kind == "initial_equations":
+        if kind == equations:
             yield from Reader(build.frame(node)).stated(stated)
-        elif kind == "initial_algorithms":
+        elif kind == algorithms:
             yield from Reader(build.frame(node)).algorithm(stated)
 
 
@@ -69,11 +67,6 @@ def check(build: Any) -> None:
             name = re.sub(r"\W+", "_", ".".join((*route, symbol.path)))
             setattr(component, f"{name}_given", Output(unit=symbol.declaration.unit))
             component.connect(getattr(component, f"{name}_given"), symbol)
-
-
-def is_open(subscript: Any) -> bool:
-    """Whether a size is left open, ``:``."""
-    return isinstance(subscript, Whole)
 
 
 def assigned_at_events(build: Any) -> frozenset[str]:

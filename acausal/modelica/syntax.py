@@ -104,7 +104,7 @@ class Several:
 
 @dataclass(slots=True, eq=False)
 class Whole:
-    """A subscript ``:``."""
+    """``:``, a subscript, or a size that is left open."""
 
     at: int
 

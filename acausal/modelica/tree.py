@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from acausal.modelica.classes import ClassNode
-from acausal.modelica.found import Native, Predefined, Prefix, Value
 from acausal.modelica.grammar import parse
+from acausal.modelica.meanings import Native, Predefined, Prefix, Value
 from acausal.modelica.si_units import ATTRIBUTES, UNITS
 from acausal.modelica.tokens import read_source
 from acausal.netlist import CONSTANTS, Library, function

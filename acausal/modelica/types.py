@@ -8,9 +8,9 @@ from typing import Any, cast
 
 from acausal.errors import nearest
 from acausal.modelica.classes import ClassNode, Entry, View
-from acausal.modelica.found import Native, Predefined, Prefix, Value
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.given import Bound, Given, given_by, modification
+from acausal.modelica.meanings import Native, Predefined, Prefix, Value
+from acausal.modelica.modifications import Bound, Given, given_by, modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Argument, Declared, Expression
 from acausal.modeling import Component, Connector, Flow, Input, Output, Potential, Variable
@@ -79,10 +79,8 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
         case Prefix():
             raise frame.node.unknown(declared.type)
         case _:
-            what = "a package" if isinstance(found, Prefix) else "not a class"
-            raise frame.node.wrong(
-                declared.type.at, f"'{declared.type.text}' is {what}", len(declared.type.text)
-            )
+            word = declared.type.text
+            raise frame.node.wrong(declared.type.at, f"'{word}' is not a class", len(word))
 
 
 def type_of_class(node: ClassNode) -> Type:

@@ -65,6 +65,11 @@ def array_of(items: Sequence[Any]) -> np.ndarray[Any, Any]:
     return found
 
 
+def identity(n: int) -> np.ndarray[Any, Any]:
+    """The identity matrix."""
+    return array_of([[int(i == j) for j in range(n)] for i in range(n)])
+
+
 def each(function: Callable[..., Any], *values: Any) -> Any:
     """A function of scalars, applied to the elements of arrays; scalars go with every element.
 

@@ -9,11 +9,12 @@ import numpy as np
 
 from acausal.modelica import statements
 from acausal.modelica.classes import Entry
-from acausal.modelica.found import Literal
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.given import Bound, Modification
 from acausal.modelica.library_parts import Values, grouped
+from acausal.modelica.meanings import Literal
+from acausal.modelica.modifications import Bound, Modification
 from acausal.modelica.operators import Frame
+from acausal.modelica.syntax import Whole
 from acausal.modelica.types import Type, attributes_of
 from acausal.modelica.values import array_of, elements, nested, type_of, with_fields
 from acausal.modeling import (
@@ -196,7 +197,7 @@ def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]])
     """The sizes of an array; those that are open follow from its value."""
     found: list[int] = []
     for place, (expression, frame) in enumerate(sizes):
-        if not statements.is_open(expression):
+        if not isinstance(expression, Whole):
             found.append(build.size(expression, frame))
             continue
         given = value.value() if isinstance(value, Bound) else value

@@ -114,8 +114,8 @@ def first_states(
         for d, of in zip(data.values(), by_record(data, x0), strict=True)
     ]
     kinds = tuple(sorted({s.kind for s in starts}))
-    kind, states = [s.kind for s in starts], np.asarray([s.state for s in starts])
-    return FirstStates(array(kind, int), array(states), kinds)
+    kind, state = array([s.kind for s in starts], int), array([s.state for s in starts])
+    return FirstStates(kind, state, kinds)
 
 
 def differs(records: Iterable[str], x0: InitialState) -> TypeGuard[Mapping[str, OfRecord]]:

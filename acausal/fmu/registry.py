@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from acausal.errors import AcausalError
 from acausal.fmu.cosimulation import Stepped
-from acausal.fmu.evaluated import NEVER, Evaluated
+from acausal.fmu.model_exchange import NEVER, Evaluated
 from acausal.fmu.part import Part
 
 _COMPUTED: dict[str, Evaluated | Stepped] = {}
