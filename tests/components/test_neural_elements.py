@@ -24,7 +24,6 @@ from acausal.components import (
 from acausal.flattening.flat_model import flatten
 from acausal.networks import Energy, Law, law_of
 from tests.support.oscillator import force
-from tests.support.slow import all_slow_but
 
 DOMAINS = {
     "translational": tl.Flange,
@@ -124,7 +123,7 @@ def power(domain: str, run: ac.Solution, part: str) -> np.ndarray:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("domain", all_slow_but("translational", DOMAINS))
+@pytest.mark.parametrize("domain", DOMAINS)
 def test_energy_in_every_domain(domain: str) -> None:
     """What flows in is lost, and nowhere gained, or stored, and nowhere negative."""
     _, run = driven(domain)

@@ -21,12 +21,6 @@ def some_slow(
     ]
 
 
-def all_slow_but(quick: str, cases: Iterable[str]) -> list[Any]:
-    """The cases for ``parametrize``; all but one run with the slow tests."""
-    cases = list(cases)
-    return some_slow(cases, [c for c in cases if c != quick])
-
-
 def in_turn(
     cases: Iterable[str], n: int, first: int = 0, machines: Collection[str] = ()
 ) -> list[Any]:

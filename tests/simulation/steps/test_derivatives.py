@@ -10,7 +10,7 @@ import pytest
 import acausal as ac
 from acausal.components import blocks
 from tests.support.hybrid import Ball, Sampled, Step, ball_height, sampled_end
-from tests.support.slow import all_slow_but, some_slow
+from tests.support.slow import some_slow
 
 TIGHT: dict[str, Any] = {"rtol": 1e-10, "atol": 1e-12}
 STEPS: dict[str, Any] = {"adaptive": TIGHT, "fixed": {"dt": 0.01, "solver": "rk4"}}
@@ -102,7 +102,7 @@ def test_an_event_at_a_time_to_save(ball: ac.System) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", all_slow_but("fixed", STEPS))
+@pytest.mark.parametrize("kind", STEPS)
 def test_a_sampling_period_is_trained(kind: str) -> None:
     system = ac.compile(Sampled())
 
