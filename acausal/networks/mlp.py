@@ -14,6 +14,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import as_key, is_number
 from acausal.errors import DeclarationError, need_whole, shown
+from acausal.modeling import charge
 from acausal.networks.activations import ACTIVATIONS, checked
 from acausal.networks.arity import check_inputs
 
@@ -148,15 +149,19 @@ def _layers(
 
 
 def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) -> None:
-    """Check the sizes of a network.
+    """Check the sizes of a network, and charge its weights to the budget of a file.
 
     Raises:
         DeclarationError: if no network has them.
+        BudgetError: for more weights than the budget has elements.
     """
     sizes = ("in_size", in_size, 1), ("width", width, 1), ("depth", depth, 0)
     for name, size, least in sizes:
         if need_whole(size, f"a network's {name}", DeclarationError, least) > LARGEST:
             raise DeclarationError(f"a network's {name}={size}; give {LARGEST} or less.")
+    charge(
+        "elements", width * (in_size + width * depth), f"a network of width {width}, depth {depth}"
+    )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
         raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
 

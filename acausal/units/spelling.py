@@ -20,6 +20,9 @@ TOKEN = re.compile(
 )
 
 
+LONGEST = 200
+"""No unit has more letters."""
+
 PLAIN = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅", "0123456789-..")
 """Superscripts and raised dots in plain letters."""
 
@@ -35,6 +38,8 @@ def factors_of(text: str) -> UnitFactors:
     Raises:
         SpellingError: for text of another form, an empty one among them.
     """
+    if len(text) > LONGEST:
+        raise SpellingError(text)
     reader = _Reader(text.translate(PLAIN).replace("°C", "degC").replace("°F", "degF"))
     found = reader.product()
     if reader.tokens:

@@ -61,6 +61,10 @@ RUNAWAYS: dict[str, tuple[dict[str, Any], str]] = {
         big("acausal.components.neural.Characteristic", secondary=10**9),
         "components.big: Characteristic with secondary=1e+09 would have",
     ),
+    "weights": (
+        big("acausal.components.neural.Characteristic", width=9_999, depth=60),
+        "components.big: Characteristic: with a network of width 9999, depth 60 the model has at",
+    ),
     "neurons": (
         big("acausal.components.neural.Characteristic", width=10**9),
         "components.big: Characteristic with width=1e+09 would have",

@@ -30,6 +30,7 @@ from acausal.units.dimensions import (
 )
 from acausal.units.infer import RULES, examine
 from acausal.units.pint_units import pint_unit
+from tests.support.counted import calls_below
 from tests.support.parts import model
 
 # -- units -------------------------------------------------------------------------------------------
@@ -117,6 +118,11 @@ def test_what_is_no_unit(unit: str, meant: str | None) -> None:
     hint = f"did you mean '{meant}'?" if meant else "known are '1', 'm', "
     with pytest.raises(ac.UnitError, match=re.escape(f"'{unit}' is not a unit; {hint}")):
         read(unit)
+
+
+def test_a_long_text_is_no_unit() -> None:
+    with calls_below(10_000), pytest.raises(ac.UnitError, match=r"'m{77}\.\.\.' is not a unit"):
+        read(100_000 * "m")
 
 
 def test_a_unit_of_no_physics() -> None:
