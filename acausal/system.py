@@ -17,7 +17,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
 
-from acausal._jax import as_key, check_time, floating, is_real, need_double_precision
+from acausal._jax import array, as_key, check_time, floating, is_real, need_double_precision
 from acausal.codegen import (
     Edges,
     Events,
@@ -470,8 +470,8 @@ class System(LeavesCaches):
 
         if self.events is None:
             return self.values(t0, state(None), u0, packed)
-        blank = jnp.zeros(len(self.states))
-        at = self.values(jnp.asarray(t0, float), blank, u0, packed)
+        blank = array(np.zeros(len(self.states)))
+        at = self.values(array(t0), blank, u0, packed)
         start = self.initializer.discrete_start(packed)
         return start_of(self.events, at, start, state, self.describe_discrete)._replace(t=t0)
 

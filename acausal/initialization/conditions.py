@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -124,10 +125,24 @@ class Conditions(LeavesCaches):
         return {b.target: b for b in self.reduced.model.starts}
 
     def _starts(self, packed: Packed, members: Sequence[tuple[int, int]]) -> Array:
-        """Start values of variables, each with its sign; those of one expression side by side."""
+        """Start values of variables, each with its sign."""
+        if any(v in self._bindings for v, _ in members):
+            return self._computed(packed, tuple(members))
+        return array(self._numbers(members) * [sign for _, sign in members])
+
+    def _numbers(self, members: Sequence[tuple[int, int]]) -> np.ndarray:
+        """The start values that are numbers; zero for those of derivatives."""
         model, n = self.reduced.model, self.reduced.model.n_variables
-        number = [model.start[v] if v < n else 0.0 for v, _ in members]
-        x: Any = np.asarray(number, dtype=float)
+        return np.asarray([model.start[v] if v < n else 0.0 for v, _ in members], dtype=float)
+
+    @cached_property
+    def _computed(self) -> Callable[[Packed, tuple[tuple[int, int], ...]], Array]:
+        """`_compute`, compiled once for each choice of variables."""
+        return eqx.filter_jit(self._compute)
+
+    def _compute(self, packed: Packed, members: tuple[tuple[int, int], ...]) -> Array:
+        """Start values of which some are expressions; those of one expression side by side."""
+        x = jnp.asarray(self._numbers(members))
         groups: dict[Any, list[tuple[int, tuple[int, ...]]]] = {}
         for row, (variable, _) in enumerate(members):
             if (b := self._bindings.get(variable)) is not None:
@@ -135,12 +150,8 @@ class Conditions(LeavesCaches):
         for (expression, symbols), found in groups.items():
             rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
             values = read_parameters(self.parameters, arguments, packed)
-            x = (
-                jnp.asarray(x)
-                .at[rows]
-                .set(evaluate(expression, dict(zip(symbols, values.T, strict=True))))
-            )
-        return array(x * np.asarray([sign for _, sign in members], dtype=float))
+            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, values.T, strict=True))))
+        return x * np.asarray([sign for _, sign in members], dtype=float)
 
     def _initial(self, group: EquationGroup, at: Values) -> Array:
         """Residuals of initial equations; derivatives are taken along the vector field."""

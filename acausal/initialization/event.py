@@ -326,10 +326,10 @@ def before_events(
     x = initial_state(d)
     for _ in range(STARTS):
         found = begun(events, values._replace(x=x, d=start))
-        again = initial_state(found.d)
-        same = known(jnp.all((again == x) & jnp.all(found.d == d)))
-        x, d = again, found.d
-        if same is None or bool(same):
+        now, before = (initial_state(found.d), found.d), (x, d)
+        x, d = now
+        compared = known((now, before))
+        if compared is None or all(map(np.array_equal, *compared)):
             break
     return x, d
 

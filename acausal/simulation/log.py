@@ -11,7 +11,7 @@ from jax import lax
 from jax.typing import DTypeLike
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal._jax import known
+from acausal._jax import array, known
 from acausal.errors import DataError
 
 if TYPE_CHECKING:
@@ -87,10 +87,10 @@ class Log(NamedTuple):
             events: how many are remembered with their times. values: how many numbers on either side of them.
         """
         m = max(min(events, values // (2 * max(n_columns, 1))), 1)
-        sides = jnp.full((m, n_columns), jnp.nan, dtype)
-        which = jnp.full(events, -1, jnp.int32)
-        t, zero = jnp.full(events, jnp.nan, dtype), jnp.zeros((), jnp.int32)
-        return Log(t, which, zero, sides, sides, jnp.zeros(events, bool))
+        sides = array(np.full((m, n_columns), np.nan), dtype)
+        which, total = array(np.full(events, -1), np.int32), array(0, np.int32)
+        t, grazes = array(np.full(events, np.nan), dtype), array(np.zeros(events), bool)
+        return Log(t, which, total, sides, sides, grazes)
 
     def with_event(
         self,
