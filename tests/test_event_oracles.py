@@ -75,7 +75,7 @@ LONGER = (
 """Examples that take longest: the same elements as in the others, more of them."""
 
 
-@pytest.mark.cases(fast=2, slow=5)
+@pytest.mark.cases(fast=2, slow=3)
 @pytest.mark.parametrize("name", some_slow(NETLISTS, LONG, LONGER))
 def test_oracle(name: str, record_property: Any) -> None:
     errors = compare(name)

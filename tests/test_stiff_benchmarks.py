@@ -20,6 +20,7 @@ def rates(problem, y):
     return np.asarray(system.vector_field(0.0, x, None, system.parameters()))
 
 
+@pytest.mark.slow
 def test_pollution_ends_where_the_book_says() -> None:
     """Its first two concentrations after a minute, from section IV.10."""
     system = ac.compile(Pollution())
@@ -81,6 +82,7 @@ def test_all_solvers_agree_on_van_der_pol() -> None:
         assert points[0].rates > 100
 
 
+@pytest.mark.slow
 def test_a_plate_is_measured_beside_cvode() -> None:
     pytest.importorskip("sksundae")
     from benchmarks.stiff.plates import plates

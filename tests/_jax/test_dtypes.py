@@ -20,6 +20,7 @@ def vehicle():
     return system, system.parameters(0), (time, speed)
 
 
+@pytest.mark.slow
 def test_the_vehicle_and_its_gradient_are_near_those_in_double_precision(vehicle):
     system, params, road = vehicle
 

@@ -320,6 +320,7 @@ def test_simulations_that_cannot_be(typed, words, code: int, sentence: str) -> N
 # -- training -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_fit(typed, folder: Path) -> None:
     """What a stiffer spring does; the training finds its stiffness, and the simulation takes it."""
     stiffer = ("--set", "spring.c=60", "--points", "101", "--out", "run.csv")

@@ -79,6 +79,7 @@ def test_current_counts_charge(run):
     assert np.asarray(run["particle.soc"]) == pytest.approx(counted, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_what_goes_in_is_stored_or_lost(run):
     """Power in, less heat, is the rate of the energy at the mean charge: ``i (U - T dU/dT)``."""
     power = np.asarray(run["source.i"]) * -np.asarray(run["source.v"])

@@ -578,6 +578,7 @@ def test_filters_have_the_textbook_response(frequency_responses, name):
     assert np.allclose(responses[name], expected, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_normalized_filters_let_3_db_pass_less_at_the_cut_off(frequency_responses):
     _, responses = frequency_responses
     for kind in ("CriticalDamping", "Bessel", "ChebyshevI"):

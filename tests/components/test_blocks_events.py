@@ -201,7 +201,7 @@ class Averages(ac.Component):
         self.connect(self.wave.y, self.set.set)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_means_over_periods_and_resets():
     ts = np.array([0.25, 0.45, 0.6, 0.9, 1.1])
     sol = ac.simulate(ac.compile(Averages()), (0.0, 1.2), saveat=ts, rtol=1e-9, atol=1e-11)

@@ -1007,6 +1007,7 @@ def test_capacitor_and_inductor_are_charged(bench):
     assert np.allclose(bench["heated.T_heatPort"], 293.15)
 
 
+@pytest.mark.slow
 def test_a_resonance_keeps_its_energy(bench):
     assert np.allclose(bench["c.v"], 3 * np.cos(bench.t), atol=1e-6)
     energy = 0.5 * bench["c.v"] ** 2 + 2 * bench["l.i"] ** 2

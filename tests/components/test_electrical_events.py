@@ -227,6 +227,7 @@ def test_a_trigger_keeps_its_branch(ideal: bool) -> None:
     assert out[clear] == pytest.approx(np.where(phase < 0.5, -15, 15)[clear])
 
 
+@pytest.mark.slow
 def test_negative_feedback_leaves_a_limit() -> None:
     model = Circuit(
         "source.p r1.p",

@@ -372,6 +372,7 @@ def test_a_heated_pipe(bench):
     assert np.allclose(bench["outlet.T"], 293.15)
 
 
+@pytest.mark.slow
 def test_two_flows_mix_and_sensors_tell(bench):
     warm = 360 + 10 * bench["time"]
     mixed = (3 * warm + 280) / 4

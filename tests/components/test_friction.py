@@ -162,7 +162,7 @@ def bench():
     )
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_block_breaks_away_at_the_peak(bench):
     t, v = np.asarray(bench.t), np.asarray(bench["pushed.v"])
     gone = np.maximum(t - 1.5, 0)  # then 2 t - 2 accelerates it

@@ -142,6 +142,7 @@ def test_training_lowers_the_errors_and_parameters_come_back(made, params, syste
     assert errors.keys() == {"first", "rest", "trained"}
 
 
+@pytest.mark.slow
 def test_a_table_that_was_interrupted_goes_on(made, monkeypatch, tmp_path):
     tables, path = {"one": made, "two": made}, tmp_path / "out" / "lines.jsonl"
     calls: list[tuple[str, ...]] = []

@@ -55,6 +55,7 @@ def test_each_tool_agrees_with_acausal(shipped, doing, monkeypatch):
         assert row.seconds is None or row.seconds > 0
 
 
+@pytest.mark.slow
 def test_differences_are_told(shipped, monkeypatch):
     """Other parameters in acausal than in the files."""
     monkeypatch.setattr(elsewhere, "ROUNDS", 1)

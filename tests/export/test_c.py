@@ -326,6 +326,7 @@ def test_wrong_calls_are_refused(tmp_path: Path) -> None:
         ac.export.c(system, tmp_path, dtype=np.int32, overwrite=True)
 
 
+@pytest.mark.slow
 def test_a_model_may_be_called_like_a_word_of_c(tmp_path: Path) -> None:
     class Switch(Rectifier):
         pass

@@ -264,7 +264,7 @@ COARSE = {"Analog_SwitchWithArc", "Rotational_LossyGearDemo3"}
 """Examples that break down with these steps, in `acausal.simulate` as in C."""
 
 
-@pytest.mark.cases(slow=6)
+@pytest.mark.cases(slow=3)
 @pytest.mark.parametrize("name", some_slow(EXAMPLES, EXAMPLES, LONGER))
 def test_examples_in_c(name: str, tmp_path: Path) -> None:
     model = ac.load(FOLDER / f"{name}.json")

@@ -23,7 +23,7 @@ def test_oracles_are_there() -> None:
     assert NETLISTS
 
 
-@pytest.mark.cases(slow=8)
+@pytest.mark.cases(slow=4)
 @pytest.mark.parametrize("name", NETLISTS)
 def test_oracle_as_fmu(name: str, tmp_path: Path, record_property: Any) -> None:
     fmpy = need_fmpy()

@@ -68,6 +68,7 @@ def test_it_steps_from_point_to_point(masses: Callable[[str], Path], fmi: str) -
         np.testing.assert_allclose(run["plant.s"], by_fmpy(path, fmi, k), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_parameters_have_gradients_and_inputs_have_none(masses: Callable[[str], Path]) -> None:
     system = ac.compile(ac.FMU(masses("2.0"), {"f": 1.0}, kind="cs", step=STEP))
 
@@ -80,6 +81,7 @@ def test_parameters_have_gradients_and_inputs_have_none(masses: Callable[[str], 
         jax.grad(lambda k: ac.simulate(looped, 0.02, dt=STEP, params={"k": k})["area"][-1])(-2.0)
 
 
+@pytest.mark.slow
 def test_a_co_simulation_that_explodes_says_so() -> None:
     model = ac.FMU(foreign_fmu("Mass_Damper"), {"f": 0.0}, kind="cs", step=5e-3)
     run = ac.simulate(ac.compile(model), 5.0, saveat=[5.0], dt=5e-2)
@@ -87,6 +89,7 @@ def test_a_co_simulation_that_explodes_says_so() -> None:
         _ = run["y"]
 
 
+@pytest.mark.slow
 def test_the_kind_and_the_step_are_checked() -> None:
     only = foreign_fmu("FMU3Model")
     assert "in steps of 0.002 s" in repr(ac.FMU(only))

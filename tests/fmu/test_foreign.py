@@ -27,6 +27,7 @@ class Own(ac.Component):
         yield ac.Eq(self.m * ac.der(self.v), -self.d * self.v - self.c * (self.s - 1) - self.f)
 
 
+@pytest.mark.slow
 def test_a_mass_with_a_damper_is_that_of_our_equations() -> None:
     theirs, ours = ac.compile(ac.FMU(foreign_fmu("Mass_Damper"))), ac.compile(Own())
     names = {"damper.d": "d", "spring.c": "c", "mass.m": "m"}
@@ -78,6 +79,7 @@ class Area(ac.Component):
         yield ac.Eq(ac.der(self.area), self.ramp.out)
 
 
+@pytest.mark.slow
 def test_events_are_found_whose_indicators_jump() -> None:
     system = ac.compile(Area())
     for duration in (0.3999, 0.4, 0.4001):

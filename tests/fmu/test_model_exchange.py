@@ -246,6 +246,7 @@ def test_a_model_with_an_fmu_is_not_exported(exported: Exported, tmp_path: Path)
             write(system, tmp_path / "model.fmu")
 
 
+@pytest.mark.slow
 def test_the_command_line_takes_an_fmu(
     exported: Exported, capsys: pytest.CaptureFixture[str]
 ) -> None:

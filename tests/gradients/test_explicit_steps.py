@@ -8,7 +8,7 @@ from .models import CASES
 from .paths import DEAR, IN_TURN, PATHS, cases_of, check, paths_of
 
 
-@pytest.mark.cases(slow=5)
+@pytest.mark.cases(slow=3)
 @pytest.mark.parametrize("name", cases_of("explicit"))
 def test_gradients(name: str, record_property: Any) -> None:
     check(name, paths_of(name, "explicit"), record_property)

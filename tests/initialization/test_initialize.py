@@ -475,6 +475,7 @@ def test_parameters_that_follow_from_found_ones():
     assert pair.initial_state(x0={"a.mass.v": 0.0, "b.mass.v": 0.0})[3] == pytest.approx(2.0)
 
 
+@pytest.mark.slow
 def test_initial_values_by_name():
     found = ac.compile(hanging()).initialize(x0={np.str_("m.s"): 0.5}, steady=np.array(["m.v"]))
     assert float(found["m.s"]) == 0.5

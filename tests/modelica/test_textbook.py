@@ -116,6 +116,7 @@ def expected() -> dict[str, Any]:
     }
 
 
+@pytest.mark.slow
 def test_models_begin_as_their_solution(system: ac.System) -> None:
     params = system.parameters()
     x = np.asarray(system.initial_state(params))
@@ -164,6 +165,7 @@ def test_classes_share_their_form() -> None:
     assert len(system.flat.layout.forms) == len({type(c) for c in system.flat.layout.components})
 
 
+@pytest.mark.slow
 def test_a_ball_bounces(events: ac.Solution) -> None:
     h, v, begin, height = [], 0.0, 0.0, 1.0
     for t in TIMES:

@@ -147,6 +147,7 @@ def rectifier():
     )
 
 
+@pytest.mark.slow
 def test_a_rectifier():
     system = rectifier()
     fine = ac.simulate(system, 10.0, rtol=1e-9, atol=1e-11, max_steps=1_000_000)["c.v"]

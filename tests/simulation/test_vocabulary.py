@@ -69,6 +69,7 @@ def test_interpolants_of_numpy_and_scipy_are_inputs() -> None:
     np.testing.assert_allclose(found[1].x, found[2].x, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_gradients_and_batches_go_through_any_function() -> None:
     def last(c, push):
         params = {**plain().parameters(), "spring.c": c}
@@ -111,6 +112,7 @@ def test_inputs_are_named_once() -> None:
         plain().initial_state(u0=[1.0], inputs=[1.0])
 
 
+@pytest.mark.slow
 def test_stiff_is_a_solver() -> None:
     inputs = {PUSH: 10.0}
     by_name = ac.simulate(plain(), 1.0, inputs=inputs, solver="stiff")

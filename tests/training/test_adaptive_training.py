@@ -84,7 +84,7 @@ def test_a_stiff_model_is_identified_from_several_records(records: dict[str, ac.
     assert set(fit.records) == {"long", "short"}
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_sequences_take_adaptive_steps_side_by_side(records: dict[str, ac.Data]):
     fit = ac.fit(
         system(),
@@ -103,7 +103,7 @@ def test_sequences_take_adaptive_steps_side_by_side(records: dict[str, ac.Data])
     assert fit.loss < 0.9 * fit.loss_before
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_runs_of_one_loop_are_those_made_singly():
     """States, and their derivatives by parameters and by every run's first state."""
     t = np.concatenate([TIME[:6], TIME[:5]])

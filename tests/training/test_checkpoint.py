@@ -143,6 +143,7 @@ def test_a_killed_training_goes_on(tmp_path: Path):
 # -- what goes wrong ---------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_checkpoint_is_not_overwritten_by_another_training(interrupted: Path):
     before = interrupted.read_bytes()
     with pytest.raises(ac.TrainingError) as error:

@@ -67,6 +67,7 @@ def test_bands_hold_the_truth_as_often_as_they_say():
     assert 0.6 < np.mean(scores) < 1.4
 
 
+@pytest.mark.slow
 def test_standard_deviations_are_those_of_repeated_measurements():
     found: list[list[float]] = []
     for seed in range(12):
@@ -284,6 +285,7 @@ def test_residuals_of_a_fit():
 # -- the page ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_page_holds_everything_itself(tmp_path: Any):
     path = trained().report(tmp_path / "out", "An oscillator")
     text = path.read_text(encoding="utf-8")

@@ -60,6 +60,7 @@ def by_record() -> ac.CrossValidation:
     return compiled_and_found()[1]
 
 
+@pytest.mark.slow
 def test_each_record_is_left_out_in_turn():
     found = by_record()
     assert [fold.name for fold in found.folds] == ["a", "b", "c"]

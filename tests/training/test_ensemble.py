@@ -73,6 +73,7 @@ def test_copies_answer_as_the_ensemble_and_its_fits(tmp_path):
     assert "mass.m" in other.report(tmp_path).read_text()
 
 
+@pytest.mark.slow
 def test_members_side_by_side_find_the_same():
     """As on an accelerator: mapped over, L-BFGS with its line searches and all."""
     system, data = learned(), record(end=5.0)
@@ -156,6 +157,7 @@ def test_a_leg_ends_when_it_has_ended_for_all():
     assert 5 * (count - 1) < epochs
 
 
+@pytest.mark.slow
 def test_the_page_shows_bands(tmp_path: Path):
     text = trained().report(tmp_path, "Three").read_text(encoding="utf-8")
     for word in ("Three", "extra.net", "mass.m", "mass.a"):

@@ -51,6 +51,7 @@ def test_a_training_whose_gradient_explodes_ends_with_a_mend(strategy):
         train(epochs=60, strategy=strategy)
 
 
+@pytest.mark.slow
 def test_a_training_that_finds_nothing_is_told_of_its_steps():
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")

@@ -33,6 +33,7 @@ def test_ranges_are_those_of_the_trained_record(fit):
     assert low < 0 < high
 
 
+@pytest.mark.slow
 def test_an_fmu_has_its_flag_and_its_card(fit, tmp_path):
     need_compiler()
     path = fit.export(tmp_path / "oscillator.fmu", notes={"loss of the linear model": 0.44})

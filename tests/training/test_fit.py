@@ -125,6 +125,7 @@ def test_uneven_records_are_integrated_from_sample_to_sample():
 # -- training ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_hardening_spring_is_learned():
     fit = ac.fit(
         learned(), record(), ["mass.a"], sequence_length=0.5, batch_size=16, epochs=400,
@@ -208,7 +209,7 @@ def test_users_losses_regularizers_and_optimizers():
     np.testing.assert_allclose(fit.history.penalties["small_mass"], 4e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_an_optimizer_with_a_line_search():
     fit = ac.fit(
         learned(), record(end=2.0), "mass.a", optimizer=optax.lbfgs(), epochs=10, progress=False
@@ -292,6 +293,7 @@ def explosive():
     return learned().parameters() | {"extra.net": Explosive(jnp.asarray(0.0))}
 
 
+@pytest.mark.slow
 def test_a_diverging_sequence_is_left_out_and_told():
     data = broken(slice(400, 500))
     with pytest.warns(UserWarning, match="Something diverged in .* of 150 epochs"):
@@ -519,6 +521,7 @@ def test_a_parameter_at_zero_cannot_be_modified():
         )
 
 
+@pytest.mark.slow
 def test_what_needs_numbers_says_so_where_jax_traces():
     system, data = plain(), record()
     calls = (

@@ -169,6 +169,7 @@ def test_a_training_ends_at_the_same_update_however_often_it_is_looked_at(monkey
     np.testing.assert_array_equal(each.history.loss, whole.history.loss)
 
 
+@pytest.mark.slow
 def test_networks_are_trained_with_a_leg_before():
     fit = ac.fit(
         learned(), record(end=5.0), "mass.a", strategy=("equation_error", "gauss_newton"),

@@ -52,6 +52,7 @@ def test_events_are_counted_in_every_record(fit: ac.Fit) -> None:
         assert counts[-1] == events(end, C)
 
 
+@pytest.mark.slow
 def test_a_change_of_their_number_is_said(fit: ac.Fit) -> None:
     changes = [c for c in fit.history.event_changes if c.record == "long"]
     counts = fit.history.events["long"]

@@ -61,6 +61,7 @@ def test_the_best_is_the_one_that_predicts_what_was_held_out():
     assert f"held out  {fit.validation_loss:.4g}" in repr(fit)
 
 
+@pytest.mark.slow
 def test_patience_ends_a_training():
     fit = trained()
     assert fit.history.epochs == fit.best_epoch + PATIENCE * EVERY < EPOCHS

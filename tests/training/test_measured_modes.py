@@ -43,6 +43,7 @@ def test_a_given_mode_is_an_input_and_needs_no_events(
     np.testing.assert_allclose(again["T"], sol["T"], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_training_takes_the_measured_mode(
     driven: ac.System, run: tuple[ac.Solution, tuple[np.ndarray, np.ndarray]]
 ) -> None:
@@ -125,7 +126,7 @@ class Charged(ac.Component):
         self.connect(self.source.n, self.ground.p)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_switching_signal_is_held_from_sample_to_sample() -> None:
     system = ac.compile(Charged())
     assert system.held_inputs == {"switch.control"}

@@ -71,6 +71,7 @@ def test_penalties_of_an_oscillator_are_its_formulas(regularizer: Modal, expecte
     assert float(found) == pytest.approx(expected, rel=1e-9, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_jacobians_are_those_of_linearizations_farther_out():
     system, seen = learned(), context(learned())
     params, t = system.parameters(0), seen.trajectory
@@ -81,6 +82,7 @@ def test_jacobians_are_those_of_linearizations_farther_out():
     np.testing.assert_allclose(A[-1], expected, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_the_gradient_of_a_penalty_is_that_of_differences():
     """Through the network along the record."""
     system, seen = learned(), context(learned())

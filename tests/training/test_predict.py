@@ -48,6 +48,7 @@ def test_a_start_that_is_not_measured_is_found_and_the_band_holds():
     assert not given.found
 
 
+@pytest.mark.slow
 def test_the_band_is_that_of_the_parameters_and_the_noise():
     fit, part = trained(), clean().between(0, 8)
     inputs = ac.Data(part.time, {"push.f": part["push.f"]})
@@ -69,6 +70,7 @@ def test_the_band_is_that_of_the_parameters_and_the_noise():
     np.testing.assert_allclose(found.predicted[:, 0], at(mass), atol=1e-9)
 
 
+@pytest.mark.slow
 def test_parameters_of_a_record_are_found_or_given():
     def run(d: float, seed: int, *names: str) -> ac.Data:
         t = clean().time[:301]
@@ -122,6 +124,7 @@ def test_errors_stand_in_a_table_and_what_leaves_the_range_is_told(tmp_path: Pat
         trained().predict(ac.Data(parts["a"].time, {"mass.s": parts["a"]["mass.s"]}))
 
 
+@pytest.mark.slow
 def test_conformal_bands_take_the_place_of_two_standard_deviations():
     fit = trained()
     band = fit.conformal(noisy(clean().between(8, 14), 4, "mass.s", "mass.v"), 0.8)

@@ -82,6 +82,7 @@ def test_one_record_after_the_other_is_worth_both_together(
     )  # the stiffness, of which b knows more
 
 
+@pytest.mark.slow
 def test_what_the_first_record_alone_tells_is_kept(
     first: ac.Fit, second: ac.Fit, records: dict[str, ac.Data]
 ):
@@ -93,6 +94,7 @@ def test_what_the_first_record_alone_tells_is_kept(
     assert np.any(np.abs(values(forgetful) - values(first))[1:] > 5 * sigma[1:])
 
 
+@pytest.mark.slow
 def test_likelihoods_add_what_is_known(first: ac.Fit, second: ac.Fit, records: dict[str, ac.Data]):
     fit = trained(records["b"], prior=first, loss=ac.Likelihood(noise={"mass.s": NOISE}))
     assert np.all(np.abs(values(fit) - values(second)) < 0.5 * deviations(second))
@@ -137,7 +139,7 @@ def test_what_a_record_alone_determines_knows_no_prior(first: ac.Fit, second: ac
 # -- laws --------------------------------------------------------------------------------------------
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_law_is_kept_where_new_data_do_not_reach():
     """First a large motion, then a small one, with a hardening spring to learn."""
     system = ac.compile(Oscillator(cubic=80.0))

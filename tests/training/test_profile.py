@@ -54,6 +54,7 @@ def test_the_profile_of_a_linear_case_is_that_of_the_confidence(fit: ac.Fit, mas
     assert mass.summary().startswith("'mass.m' is identifiable: with 95 % confidence between 1.9")
 
 
+@pytest.mark.slow
 def test_every_point_is_a_training_with_the_parameter_left_out(fit: ac.Fit, mass: ac.Profile):
     k = 2
     held = {**fit.params, "mass.m": mass.values[k]}
@@ -99,7 +100,7 @@ def test_a_flat_profile_is_not_identifiable(loss: str, tmp_path: Path):
     assert "&#x27;other.c&#x27; is not identifiable" in page
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_networks_are_trained_along():
     """A spring beside a learned one takes any part of it; without the network it would be known."""
     fit = ac.fit(

@@ -314,6 +314,7 @@ def test_parameters_of_records_are_found():
     assert fit.params["mass.m"] == pytest.approx(TRUE["mass.m"], rel=0.01)
 
 
+@pytest.mark.slow
 def test_a_tight_spread_ties_and_free_values_are_not_tied():
     data, fit = with_offsets()
     tied = train(data, per_record={"spring.c": 1e-4}, x0="fit")

@@ -69,7 +69,7 @@ def starts() -> Starts:
     return found
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_several_starts_find_what_a_single_one_misses():
     with pytest.warns(UserWarning, match=r"spring\.d.*limit"):
         alone = train(starts=1)
@@ -95,6 +95,7 @@ def test_the_given_start_is_the_first_and_trains_as_it_does_alone():
     assert table.loss[0] <= alone.loss * (1 + 1e-9)
 
 
+@pytest.mark.slow
 def test_only_the_best_go_on():
     table, plan = starts(), halving(12, 40)
     assert plan.rungs == (Rung(12, 3), Rung(24, 2))

@@ -72,13 +72,14 @@ def _complex_height(h0: complex, e: complex, t: float) -> complex:
     return v * (t - begin) - g * (t - begin) ** 2 / 2
 
 
+@pytest.mark.slow
 def test_forward_and_reverse_modes_agree(ball: ac.System) -> None:
     function = height(ball, 1.5, **TIGHT)
     backwards, forwards = jax.grad(function, (0, 1)), jax.jacfwd(function, (0, 1))
     np.testing.assert_allclose(backwards(1.0, 0.8), forwards(1.0, 0.8), rtol=1e-12)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_many_balls_side_by_side(ball: ac.System) -> None:
     heights = jnp.asarray([0.5, 1.0, 2.0])
     function = jax.value_and_grad(lambda h: height(ball, 1.5, **TIGHT)(h, 0.8))
@@ -130,7 +131,7 @@ def test_a_switching_time_and_a_threshold_of_a_later_event(step: ac.System, kind
     np.testing.assert_allclose(found, [-1.0, -1 / 0.8], rtol=1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_twins_meet_the_ground_together() -> None:
     class Twins(ac.Component):
         def __init__(self) -> None:
@@ -149,6 +150,7 @@ def test_twins_meet_the_ground_together() -> None:
     assert jax.grad(sum_of_heights)(1.0) == pytest.approx(2 * sp_derivatives(1.5)[0], rel=1e-8)
 
 
+@pytest.mark.slow
 def test_a_time_that_lies_far_away_spoils_no_gradient() -> None:
     class Late(ac.Component):
         rate = ac.Parameter(3.0)

@@ -29,6 +29,7 @@ def test_a_thermostat_switches_where_it_should(thermostat: ac.System) -> None:
     assert "_event" not in " ".join(sol.names)
 
 
+@pytest.mark.slow
 def test_fixed_steps_end_at_events_too(thermostat: ac.System) -> None:
     fine = ac.simulate(thermostat, (0.0, 9.0), saveat=[9.0], rtol=1e-10, atol=1e-12)
     coarse = ac.simulate(thermostat, (0.0, 9.0), dt=0.25, solver="rk4")

@@ -55,7 +55,7 @@ def test_a_condition_that_changes_does_not_graze(shot: ac.System, top: float) ->
     assert str(events[0]) == f"t = {events[0].t:.9g} s: h > top"
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_training_names_the_condition_that_grazes(shot: ac.System) -> None:
     ts = np.linspace(0.0, 0.7, 71)
     records = {n: ac.Data(ts, {"above": 0.2 * ts}) for n in ("first", "second")}
