@@ -42,7 +42,7 @@ ship: $(READY) ## the quarter vehicle, trained and written as FMU, C, ONNX, Stab
 # that it does not know, so the newest version gets those that all of them have. Trainings in LONG run long enough to gain.
 QUICK := --xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true
 QUICKER := $(QUICK) --xla_cpu_use_fusion_emitters=false --xla_cpu_parallel_codegen_split_count=1
-LONG := tests/examples tests/test_docs.py tests/test_notebooks.py
+LONG := tests/examples
 test: export XLA_FLAGS ?= $(QUICKER)
 test: $(READY) ## all tests but the slow ones
 	$(BIN)/python -m pytest $(PYTEST_ARGS)

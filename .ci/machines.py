@@ -21,8 +21,8 @@ QUICK = (
     "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true "
     "--xla_cpu_use_fusion_emitters=false"
 )
-SHORT = ("tests/training",)
-LONG = ("tests/test_docs.py", "tests/test_notebooks.py", "tests/examples")
+SHORT = ("tests/training", "tests/test_docs.py", "tests/test_notebooks.py")
+LONG = ("tests/examples",)
 SEEDS = {f"seed-{seed}": (seed, "") for seed in range(1, 6)}
 ISAS = {isa: (1, f"--xla_cpu_max_isa={isa}") for isa in ("AVX2", "SSE4_2")}
 SWAPPED = "swapped"  # the programs that are optimized elsewhere are not, and the others are

@@ -638,7 +638,18 @@ GALLERY: dict[str, Wrong] = {
     "a function of a dict": (
         lambda: own(lambda s: [ac.Eq(ac.der(s.x), ac.sign({1: 2}))]),
         ac.DeclarationError,
-        ("Equations: der(x) = sign({1: 2}): '{1: 2}' cannot be computed",),
+        (
+            "Equations, line ",
+            "what sign(...) takes is dict {1: 2}; an expression or a number is needed",
+        ),
+    ),
+    "a sine of a text": (
+        lambda: own(lambda s: [ac.Eq(ac.der(s.x), ac.sin("x"))]),
+        ac.DeclarationError,
+        (
+            "Equations, line ",
+            "an argument of sin(...) is str 'x'; an expression or a number is needed",
+        ),
     ),
     "a derivative of nothing": (
         lambda: own(lambda s: [ac.Eq(ac.der(None), 1)]),

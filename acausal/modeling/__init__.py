@@ -4,23 +4,7 @@ In: classes that a user writes. Out: a tree of `Component` with sympy equations 
 It knows neither JAX nor files, nor any later stage.
 """
 
-from sympy import (
-    acos as acos,
-    asin as asin,
-    asinh as asinh,
-    atan as atan,
-    atan2 as atan2,
-    cos as cos,
-    cosh as cosh,
-    exp as exp,
-    log as log,
-    pi as pi,
-    sin as sin,
-    sinh as sinh,
-    sqrt as sqrt,
-    tan as tan,
-    tanh as tanh,
-)
+from sympy import pi as pi
 
 from acausal.modeling.budget import (
     PYTHON as PYTHON,
@@ -82,11 +66,25 @@ from acausal.modeling.functions import (
     COMPUTABLE as COMPUTABLE,
     Abs as Abs,
     Prescribed as Prescribed,
+    acos as acos,
+    asin as asin,
+    asinh as asinh,
+    atan as atan,
+    atan2 as atan2,
+    cos as cos,
+    cosh as cosh,
+    exp as exp,
     floor as floor,
+    log as log,
     maximum as maximum,
     minimum as minimum,
     prescribed as prescribed,
     sign as sign,
+    sin as sin,
+    sinh as sinh,
+    sqrt as sqrt,
+    tan as tan,
+    tanh as tanh,
 )
 from acausal.modeling.icon import Icon as Icon, Side as Side
 from acausal.modeling.names import (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
 from typing import Any
 
 import sympy as sp
@@ -9,11 +11,34 @@ import sympy as sp
 from acausal.modeling.symbols import ModuleCall, number_or_expression, time
 from acausal.modeling.whole import floor as floor
 
-maximum, minimum = sp.Max, sp.Min
+
+def _of_expressions(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The same function of numbers and expressions alone: sympy would read a text as an expression, and run it."""
+
+    @wraps(function, assigned=("__name__", "__qualname__", "__doc__"), updated=())
+    def checked(*arguments: Any) -> Any:
+        where = f"an argument of {checked.__name__}(...)"
+        return function(*(number_or_expression(a, where) for a in arguments))
+
+    return checked
+
+
+acos, asin, asinh, atan, atan2 = map(
+    _of_expressions, (sp.acos, sp.asin, sp.asinh, sp.atan, sp.atan2)
+)
+cos, cosh, exp, log = map(_of_expressions, (sp.cos, sp.cosh, sp.exp, sp.log))
+sin, sinh, sqrt, tan, tanh = map(_of_expressions, (sp.sin, sp.sinh, sp.sqrt, sp.tan, sp.tanh))
+maximum, minimum = _of_expressions(sp.Max), _of_expressions(sp.Min)
 
 
 class Abs(sp.Abs):
     """The absolute value of a real number (sympy's own expects complex ones, as in ``Abs(log(x))``)."""
+
+    def __new__(cls, argument: Any, **options: Any) -> Any:
+        """Of an expression or a number; sympy would read a text."""
+        return super().__new__(
+            cls, number_or_expression(argument, "what Abs(...) takes"), **options
+        )
 
     def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         argument: Any = self.args[0]
@@ -22,6 +47,12 @@ class Abs(sp.Abs):
 
 class sign(sp.sign):  # noqa: N801 (a mathematician's name)
     """-1, 0 or 1; piecewise constant, so its derivative counts as zero."""
+
+    def __new__(cls, argument: Any, **options: Any) -> Any:
+        """Of an expression or a number; sympy would read a text."""
+        return super().__new__(
+            cls, number_or_expression(argument, "what sign(...) takes"), **options
+        )
 
     def _eval_derivative(self, s: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
         return sp.S.Zero

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import as_key, is_number
+from acausal._jax import as_key, is_number, traced
 from acausal.errors import DeclarationError, need_whole, shown
 from acausal.modeling import charge
 from acausal.networks.activations import ACTIVATIONS, checked
@@ -97,7 +97,7 @@ class MLP(Layered):
         self.activation = checked("relu" if activation is None else activation)
         self.input_scale = 1.0 if input_scale is None else input_scale
         self.output_scale = 1.0 if output_scale is None else output_scale
-        check_sizes(in_size, width, depth, self.input_scale)
+        check_sizes(in_size, width, depth, self.input_scale, self.output_scale)
         if not is_number(last_layer):
             raise DeclarationError(
                 f"last_layer={shown(last_layer)} is not a factor; give a number."
@@ -148,8 +148,10 @@ def _layers(
     return weights, (bias, *(jnp.zeros(n) for n in others))
 
 
-def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) -> None:
-    """Check the sizes of a network, and charge its weights to the budget of a file.
+def check_sizes(
+    in_size: int, width: int, depth: int, input_scale: Scale = 1.0, output_scale: float = 1.0
+) -> None:
+    """Check the sizes and scales of a network, and charge its weights to the budget of a file.
 
     Raises:
         DeclarationError: if no network has them.
@@ -164,6 +166,9 @@ def check_sizes(in_size: int, width: int, depth: int, input_scale: Scale = 1.0) 
     )
     if isinstance(input_scale, tuple) and len(input_scale) != in_size:
         raise DeclarationError(f"{len(input_scale)} input scales for {in_size} inputs")
+    scales = *(input_scale if isinstance(input_scale, tuple) else (input_scale,)), output_scale
+    if not all(is_number(s) and (traced(s) or s > 0) for s in scales):
+        raise DeclarationError("input_scale and output_scale are magnitudes; give positive numbers")
 
 
 def uniform(key: Array, shape: tuple[int, ...], limit: float) -> Array:

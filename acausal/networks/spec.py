@@ -81,12 +81,7 @@ class NetworkSpec:
                 )
         need_whole(self.secondary, "secondary", DeclarationError, 0)
         inner, outer = self.scales
-        check_sizes(self.in_size, self.width, self.depth, inner)
-        scales = inner if isinstance(inner, tuple) else (inner,)
-        if not all(_is_number(s) and s > 0 for s in (*scales, outer)):
-            raise DeclarationError(
-                "input_scale and output_scale are magnitudes; give positive numbers"
-            )
+        check_sizes(self.in_size, self.width, self.depth, inner, outer)
         for name, value in (("floor", self.floor), ("start", self.start)):
             if not (_is_number(value) and value >= 0):
                 raise DeclarationError(

@@ -1,6 +1,7 @@
 """Networks are called with as many scalars as they have inputs; nothing is broadcast."""
 
 import jax.numpy as jnp
+import numpy as np
 import pytest
 
 import acausal as ac
@@ -51,3 +52,11 @@ def test_a_second_input_of_a_law_of_one_is_not_ignored(network):
         network(jnp.ones(3))
     with pytest.raises(ac.DeclarationError, match="takes real numbers, not '1'"):
         network("1")
+
+
+@pytest.mark.parametrize(
+    "scales", [{"input_scale": "1"}, {"input_scale": 0.0}, {"output_scale": np.inf}]
+)
+def test_scales_are_positive_numbers(scales):
+    with pytest.raises(ac.DeclarationError, match="are magnitudes; give positive numbers"):
+        ac.MLP(**scales, key=0)
