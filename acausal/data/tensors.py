@@ -51,6 +51,8 @@ def read_arrays(path: Path) -> tuple[Arrays, dict[str, Any]]:
     """
     from safetensors import SafetensorError, safe_open
 
+    if path.is_dir():
+        raise DataError(f"'{path}' is a folder; give the path of a file.")
     try:
         with safe_open(path, framework="numpy") as file:
             metadata = file.metadata() or {}
