@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import jax.numpy as jnp
 import numpy as np
-import sympy as sp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
@@ -48,7 +47,7 @@ from acausal.units import check_dimensions
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from acausal.reporting import PlainTable
+    from acausal.reporting import Formulas, PlainTable
 
 Params = Mapping[str, Any] | Packed
 
@@ -216,13 +215,15 @@ class System(LeavesCaches):
         return bool(len(self.reduced.discrete)) and self._find(name)[0] in self.reduced.discrete
 
     @cached_property
-    def equations(self) -> tuple[sp.Equality, ...]:
+    def equations(self) -> Formulas:
         """The explicit differential equations as sympy, ``Derivative(state, time) = ...`` in the order of `states`.
 
         Symbols have dotted names; networks are functions named by their parameter. Unknowns of nonlinear
-        loops keep their names, and the loops' equations follow at the end.
+        loops keep their names, and the loops' equations follow at the end. The tuple shows as formulas.
         """
-        return explicit_equations(self.program, self.layout, self.reduced.name)
+        from acausal.reporting import Formulas
+
+        return Formulas(explicit_equations(self.program, self.layout, self.reduced.name))
 
     @cached_property
     def nominal(self) -> Float[np.ndarray, " n_states"]:

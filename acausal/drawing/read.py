@@ -46,7 +46,7 @@ class _Reader:
         self.parts: dict[int, Component] = {}  # that stand alone, by the number of their box
         self.from_outside: dict[int, list[Any]] = {}  # connected ends, by box
         self.gates: dict[str, int] = {}
-        for label, parts in _families(model):
+        for label, parts in [*_families(model)] or _itself(model):
             number = self._add_box(parts[0], label, len(parts))
             self.box_of |= {part._node.name: number for part in parts}
             if len(parts) == 1:
@@ -206,6 +206,11 @@ def _families(component: Component) -> Iterator[tuple[str, list[Component]]]:
         else:
             for part in parts:
                 yield part._node.name, [part]
+
+
+def _itself(component: Component) -> list[tuple[str, list[Component]]]:
+    """A component without parts is drawn as its icon."""
+    return [] if component.ICON is None else [(component._node.name, [component])]
 
 
 def learns(part: Component) -> bool:
