@@ -38,7 +38,7 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
-from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, with_inputs
+from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, unconnected, with_inputs
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce
@@ -146,6 +146,11 @@ class System(LeavesCaches):
     def outputs(self) -> tuple[str, ...]:
         """Names of the output signals that nothing takes: those of sensors, and those that the model declares."""
         return tuple(map(self.flat.layout.variable, self.flat.outputs.tolist()))
+
+    @cached_property
+    def unconnected(self) -> tuple[str, ...]:
+        """Names of the connectors of parts that nothing is connected to: no flow goes through them."""
+        return unconnected(self.flat.layout)
 
     @cached_property
     def held_inputs(self) -> frozenset[str]:
@@ -319,7 +324,7 @@ class System(LeavesCaches):
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
 
         Raises:
-            DataError: for an unknown name or a missing module.
+            DataError: for an unknown name, or a value that does not fit.
         """
         need_double_precision()
         if params is None:

@@ -34,6 +34,11 @@ FUNCTIONS: dict[str, Callable[..., Any]]
 """Functions that expressions in files may call, by the last word of their Modelica name."""
 
 
+def __dir__() -> list[str]:
+    """The packages complete before they are imported."""
+    return sorted({*globals(), *PACKAGES})
+
+
 def __getattr__(name: str) -> Any:
     """The packages are imported when they are asked for."""
     if name in PACKAGES:

@@ -143,6 +143,21 @@ def test_check(typed) -> None:
     assert "2 states, 1 input, 3 parameters, 0 networks" in out
 
 
+def test_check_lists_what_nothing_is_connected_to(typed, folder: Path) -> None:
+    path = "acausal.components.translational."
+    parts = {
+        "mass": {"class": path + "Mass", "with": {"m": 1.0}},
+        "spring": {"class": path + "Spring", "with": {"c": 1.0}},
+    }
+    joined = [["mass.flange_b", "spring.flange_a"]]
+    (folder / "free.json").write_text(json.dumps({"components": parts, "connections": joined}))
+    code, out, _ = typed("check", "free.json")
+    assert code == 0
+    assert "nothing is connected to mass.flange_a, spring.flange_b: no flow" in out
+    _, out, _ = typed("check", "free.json", "--json")
+    assert json.loads(out)["unconnected"] == ["mass.flange_a", "spring.flange_b"]
+
+
 def test_check_for_programs(typed) -> None:
     code, out, _ = typed("check", "oscillator.json", "--json")
     found = json.loads(out)

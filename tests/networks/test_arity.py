@@ -51,3 +51,8 @@ def test_a_second_input_of_a_law_of_one_is_not_ignored(network):
         network(jnp.ones(3))
     with pytest.raises(ac.DeclarationError, match="takes real numbers, not '1'"):
         network("1")
+
+
+def test_a_network_without_a_key_says_where_keys_come_from():
+    with pytest.raises(ac.DataError, match=r"give key=0.*ac\.Module\(lambda key: "):
+        ac.networks.MLP()
