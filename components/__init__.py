@@ -21,9 +21,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .modelica import ENUMERATIONS, MODELICA, NOT_COVERED
+from .modelica import ALSO_CALLED, ENUMERATIONS, MODELICA, NOT_COVERED
 
-__all__ = ["ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
+__all__ = ["ALSO_CALLED", "ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
 
 PACKAGES = (*MODELICA.values(), "hydraulic", "neural")
 
