@@ -179,7 +179,8 @@ def simulate(
 
 def _warn_of_few_points(solution: Solution, span: float) -> None:
     """Warn where a source repeats between two points of the default output: curves do not show what it does."""
-    counts = known((solution.statistics.steps, solution.statistics.edges, solution.t[0]))
+    made = solution.statistics
+    counts = None if made is None else known((made.steps, made.edges, solution.t[0]))
     if counts is None or np.ndim(counts[0]):
         return
     steps, edges, start = (float(count) for count in counts)
