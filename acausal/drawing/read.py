@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from acausal.drawing.joined import UnionFind
-from acausal.drawing.ports import SIGNAL, joined, ports_of, side_of_gate
+from acausal.drawing.ports import SIGNAL, color_of, joined, ports_of, side_of_gate
 from acausal.drawing.references import with_local_references
 from acausal.drawing.scheme import OPPOSITE, Box, End, Kind, Net, Port, Scheme
 from acausal.modeling import Component, Connector, Icon, Input, Module, owner_and_name
@@ -137,7 +137,8 @@ class _Reader:
                 continue
             seen.add(tuple(sorted(ends)))
             names = {f.end: _full_name(given[f]) for f in reversed(fine)}
-            kind, color = _kind_and_color(given[fine[0]])
+            kinds = [_kind_and_color(given[f]) for f in fine]
+            kind, color = next((k for k in kinds if k[1] != SIGNAL), kinds[0])
             if kind != "connector":
                 ends.sort(key=lambda end: not self._is_source(end))
             own = tuple(self._own(end, used) for end in ends)
@@ -234,7 +235,7 @@ def _kind_and_color(end: Any) -> tuple[Kind, str]:
         end = end.end
     if isinstance(end, Connector):
         return "connector", end.COLOR
-    return ("input" if isinstance(end.declaration, Input) else "output"), SIGNAL
+    return ("input" if isinstance(end.declaration, Input) else "output"), color_of(end.declaration)
 
 
 def _full_name(end: Any) -> str:
