@@ -87,9 +87,10 @@ def listing(names: Iterable[object], limit: int = 12) -> str:
 def nearest(name: object, known: Iterable[str]) -> str:
     """A clause that names the nearest known name, or the known ones where none is near."""
     candidates = list(map(str, known))
-    close = get_close_matches(str(name)[:200], candidates, n=1, cutoff=0.6)
+    alike = {candidate.casefold(): candidate for candidate in candidates}
+    close = get_close_matches(str(name)[:200].casefold(), alike, n=1, cutoff=0.6)
     if close:
-        return f"did you mean '{close[0]}'?"
+        return f"did you mean '{alike[close[0]]}'?"
     if not candidates:
         return "there are none to choose from."
     return f"known are {listing(candidates)}."

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import jax.numpy as jnp
 import numpy as np
-import sympy as sp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 from numpy.typing import ArrayLike as Numbers
@@ -39,7 +38,7 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
-from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, with_inputs
+from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, unconnected, with_inputs
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce
@@ -48,7 +47,7 @@ from acausal.units import check_dimensions
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from acausal.reporting import PlainTable
+    from acausal.reporting import Formulas, PlainTable
 
 Params = Mapping[str, Any] | Packed
 
@@ -149,6 +148,11 @@ class System(LeavesCaches):
         return tuple(map(self.flat.layout.variable, self.flat.outputs.tolist()))
 
     @cached_property
+    def unconnected(self) -> tuple[str, ...]:
+        """Names of the connectors of parts that nothing is connected to: no flow goes through them."""
+        return unconnected(self.flat.layout)
+
+    @cached_property
     def held_inputs(self) -> frozenset[str]:
         """Names of the inputs that are truth values, whole numbers or modes: they are held from sample to sample."""
         declared = map(self.flat.layout.variable_declaration, self.flat.inputs.tolist())
@@ -216,13 +220,15 @@ class System(LeavesCaches):
         return bool(len(self.reduced.discrete)) and self._find(name)[0] in self.reduced.discrete
 
     @cached_property
-    def equations(self) -> tuple[sp.Equality, ...]:
+    def equations(self) -> Formulas:
         """The explicit differential equations as sympy, ``Derivative(state, time) = ...`` in the order of `states`.
 
         Symbols have dotted names; networks are functions named by their parameter. Unknowns of nonlinear
-        loops keep their names, and the loops' equations follow at the end.
+        loops keep their names, and the loops' equations follow at the end. The tuple shows as formulas.
         """
-        return explicit_equations(self.program, self.layout, self.reduced.name)
+        from acausal.reporting import Formulas
+
+        return Formulas(explicit_equations(self.program, self.layout, self.reduced.name))
 
     @cached_property
     def nominal(self) -> Float[np.ndarray, " n_states"]:
@@ -318,7 +324,7 @@ class System(LeavesCaches):
         """Parameters as few arrays, bound ones computed; worth doing once before a loop.
 
         Raises:
-            DataError: for an unknown name or a missing module.
+            DataError: for an unknown name, or a value that does not fit.
         """
         need_double_precision()
         if params is None:

@@ -21,9 +21,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from .modelica import ENUMERATIONS, MODELICA, NOT_COVERED
+from .modelica import ALSO_CALLED, ENUMERATIONS, MODELICA, NOT_COVERED
 
-__all__ = ["ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
+__all__ = ["ALSO_CALLED", "ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
 
 PACKAGES = (*MODELICA.values(), "hydraulic", "neural")
 
@@ -32,6 +32,11 @@ RECORDS: dict[str, Any]
 
 FUNCTIONS: dict[str, Callable[..., Any]]
 """Functions that expressions in files may call, by the last word of their Modelica name."""
+
+
+def __dir__() -> list[str]:
+    """The packages complete before they are imported."""
+    return sorted({*globals(), *PACKAGES})
 
 
 def __getattr__(name: str) -> Any:

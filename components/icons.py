@@ -47,10 +47,10 @@ FIXED = ac.Icon(
 )
 GEAR = element("M-30 0H-9M-9 -8H-1V8H-9ZM-1 -15H8V15H-1ZM8 0H30")
 PLANETARY = ac.Icon(
-    "M-30 0H-8M-8 -5H8V5H-8ZM-8 -14H8V-7H-8ZM8 0H30M-12 -18H12V-14H-12ZM-8 7H8V14H-8ZM-12 14H12V18H-12Z",
+    "M-30 0H-8M-8 -5H8V5H-8ZM-8 -14H8V-7H-8ZM-12 -18H12V-14H-12ZM-8 7H8V14H-8ZM-12 14H12V18H-12Z",
     size=(60.0, 40.0),
 )
-BACKLASH = element("M-30 0H-6M-6 -10V10M-6 -10H12M-6 10H12M4 -6V6M4 0H30")
+BACKLASH = element("M-30 0H-22V-11H-14V4H-8V-11H4V4H10V-11M30 0H22V11H1V-4H-5V11H-14")
 CLUTCH = element(
     "M-30 0H-4M-4 -13V13M4 -13V13M4 0H30", fills="M-11 -18L-4 -15L-11 -12ZM11 -18L4 -15L11 -12Z"
 )
@@ -170,6 +170,18 @@ CHARGE = ac.Icon("M-14 -10H14V10H-14ZM14 -4H18V4H14M-8 0H0M-4 -4V4M4 0H10", size
 
 SENSOR = ac.Icon(ROUND + "M0 6L7 -8M-9 -6L-7 -4M0 -11V-8M9 -6L7 -4", size=(28.0, 28.0))
 SENSOR2 = element(ENDS + ROUND + "M0 6L7 -8M-9 -6L-7 -4M0 -11V-8")
+
+
+def meter(text: str) -> ac.Icon:
+    """A sensor at one end, with the sign of what it measures."""
+    return replace(SENSOR, strokes=ROUND, text=text)
+
+
+def meter2(text: str) -> ac.Icon:
+    """A sensor between two ends."""
+    return replace(SENSOR2, strokes=ENDS + ROUND, text=text)
+
+
 NEURAL = ac.Icon(
     "M-13 -6L0 -10M-13 -6L0 0M-13 -6L0 10M-13 6L0 -10M-13 6L0 0M-13 6L0 10M0 -10L13 0M0 0H13M0 10L13 0",
     "M-15.5 -6a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0 -5 0M-15.5 6a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0 -5 0"

@@ -44,6 +44,22 @@ NOT_COVERED: dict[str, str] = {
 }
 """Package of Modelica -> names of the classes that are not here; those that are here say so themselves."""
 
+ALSO_CALLED: dict[str, str] = {
+    "electrical.RotationalEMF": "Modelica.Electrical.Analog.Basic.EMF dc motor machine generator",
+    "electrical.TranslationalEMF": "linear motor voice coil loudspeaker",
+    "electrical.IdealizedOpAmpLimited": "Modelica.Electrical.Analog.Ideal.IdealizedOpAmpLimted",
+    "electrical.SineVoltage": "freqHz AC source",
+    "electrical.SineCurrent": "freqHz AC source",
+    "electrical.PulseVoltage": "pwm square wave",
+    "electrical.PulseCurrent": "pwm square wave",
+    "electrical.ConstantVoltage": "dc source battery",
+    "blocks.Sine": "freqHz",
+    "blocks.Pulse": "pwm duty cycle square wave",
+    "blocks.Hysteresis": "thermostat two-point controller",
+    "blocks.OnOffController": "thermostat two-point bang-bang",
+}
+"""What users and earlier versions of Modelica call classes, by their path below `acausal.components`."""
+
 ENUMERATIONS: tuple[str, ...] = (
     "AnalogFilter",
     "Extrapolation",

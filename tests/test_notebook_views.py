@@ -47,6 +47,28 @@ def balanced(text: str) -> bool:
     return len(opened) == len(re.findall(r"</[\w:]+>", text))
 
 
+def test_a_component_shows_picture_parameters_connectors_and_parts() -> None:
+    model = Oscillator(tl.Damper(d=2.0))
+    assert balanced(text := model._repr_html_())
+    for piece in ("<svg", "Parts (5)", "Damper"):
+        assert piece in text
+    assert balanced(text := model.damper._repr_html_())
+    for piece in ("<svg", ">2.0<", "N.s/m", "Connectors (2)"):
+        assert piece in text
+
+
+def test_equations_show_as_formulas(system: ac.System) -> None:
+    assert str(system.equations).startswith("der(mass.s) = mass.v\nder(mass.v) = ")
+    assert balanced(text := system.equations._repr_html_())
+    assert text.count("<math") == 2
+
+
+def test_the_times_of_a_fit_add_up(fit: ac.Fit) -> None:
+    line = next(line for line in str(fit).splitlines() if line.startswith("  time"))
+    total, compiling, updates, rest = (float(n) for n in re.findall(r"([\d.e-]+) s\b", line))
+    assert compiling + updates + rest == pytest.approx(total, rel=0.02)
+
+
 def test_a_system_shows_equations_diagram_and_tables(system: ac.System) -> None:
     text = system._repr_html_()
     assert balanced(text)

@@ -142,7 +142,7 @@ def test_every_figure_is_shown_once_and_results_show_html(kernel: None, tmp_path
         "ac.diagram(Two())",
         "system",
         "run",
-        "ac.sliders(system, {'a.k': (0.1, 10.0)}, (0, 1), dt=0.1)",
+        "ac.sliders(system, (0, 1), {'a.k': (0.1, 10.0)}, dt=0.1)",
         FIT,
     ]
     book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(c) for c in cells])

@@ -40,6 +40,24 @@ def test_simulating_needs_nothing_for_training_or_drawing():
     assert not {"matplotlib", "networkx", "optax", "pandas", "rich"}.intersection(found)
 
 
+def test_packages_of_the_library_are_completed_before_their_import():
+    loaded(
+        "import sys, acausal.components as c\n"
+        "assert {'rotational', 'electrical'} <= set(dir(c))\n"
+        "assert 'acausal.components.rotational' not in sys.modules"
+    )
+
+
+def test_single_precision_of_the_environment_is_kept_and_refused_with_a_sentence():
+    code = """import os; os.environ['JAX_ENABLE_X64'] = '0'
+import acausal as ac
+class A(ac.Component): x = ac.Variable()
+try: ac.compile(A())
+except ac.AcausalError as error: assert 'JAX_ENABLE_X64' in str(error)
+else: raise SystemExit(1)"""
+    assert "jax" in loaded(code)
+
+
 def test_public_names_stand_once():
     assert len(ac.__all__) == len(set(ac.__all__)) > 50
 

@@ -21,6 +21,11 @@ def as_key(key: Any) -> Array:
     """
     if is_whole(key):
         return jax.random.key(operator.index(key))
+    if key is None:
+        raise DataError(
+            "A network's weights are drawn with a key: give key=0, or any other seed; in a component, make it where "
+            "its parameters are: net = ac.Module(lambda key: ac.MLP(key=key))."
+        )
     dtype, shape = getattr(key, "dtype", None), getattr(key, "shape", None)
     is_new = dtype is not None and jnp.issubdtype(dtype, jax.dtypes.prng_key)
     if not ((is_new and shape == ()) or (dtype == np.uint32 and shape == (2,))):

@@ -11,13 +11,17 @@ from acausal.errors import AcausalError
 
 
 def configure() -> None:
-    """Compute in double precision, compile small loops as a whole, keep compiled programs between processes."""
+    """Compute in double precision, compile small loops as a whole, keep compiled programs between processes.
+
+    A ``JAX_ENABLE_X64`` of the user's stays as it is: `need_double_precision` says what needs it.
+    """
     import jax
     from jaxlib.version import __version__ as jaxlib_version
 
     from acausal._jax import compilation_cache, xla
 
-    jax.config.update("jax_enable_x64", True)
+    if "JAX_ENABLE_X64" not in os.environ:
+        jax.config.update("jax_enable_x64", True)
     xla.compile_small_loops(os.environ, jaxlib_version)
     compilation_cache.begin(os.environ)
 
@@ -32,6 +36,7 @@ def need_double_precision() -> None:
 
     if not jax.config.jax_enable_x64:  # pyright: ignore[reportAttributeAccessIssue]
         raise AcausalError(
-            "Double precision was switched off after the import of acausal, which needs it to find initial values: "
-            "jax.config.update('jax_enable_x64', True); to simulate or fit in single precision, give dtype='float32'."
+            "JAX's double precision is switched off, by JAX_ENABLE_X64 or after the import of acausal, which needs it "
+            "to find initial values: jax.config.update('jax_enable_x64', True); to simulate or fit in single "
+            "precision, give dtype='float32'."
         )

@@ -40,7 +40,11 @@ NEGLIGIBLE = 1e-9
 """Eigenvalues below this part of the largest count as zero."""
 
 
-@dataclass(frozen=True, eq=False)
+MOST_STATES = 10
+"""Matrices of more states are not shown, nor are more modes."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Linearization:
     """A model near a point: ``d(dx)/dt = A dx + B du``, ``dy = C dx + D du``.
 
@@ -282,8 +286,40 @@ class Linearization:
 
     def __repr__(self) -> str:
         shape = f"{len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs"
-        modes = ", ".join(f"{v if v.imag else v.real:.4g}" for v in self.eigenvalues()[:8])
-        return f"Linearization({shape}; eigenvalues {modes})"
+        modes = [f"  {text}" for text in self._modes()]
+        small = len(self.states) <= MOST_STATES
+        matrices = [
+            f"  {name} = " + np.array2string(np.asarray(m), precision=4, prefix=" " * 6)
+            for name, m in zip("ABCD", self, strict=True)
+            if small and m.size
+        ]
+        return "\n".join([f"Linearization({shape})", *modes, *matrices])
+
+    def _modes(self) -> list[str]:
+        """The first modes, in words: a pair of complex eigenvalues is one."""
+        values = [
+            (v, z) for v, z in zip(self.eigenvalues(), self.damping(), strict=True) if v.imag >= 0
+        ]
+        texts = [
+            f"{v.real:.4g} ± {v.imag:.4g}j: {abs(v) / (2 * np.pi):.4g} Hz, damping {z:.3g}"
+            if v.imag
+            else f"{v.real:.4g}" + (f": time constant {-1 / v.real:.4g} s" if v.real < 0 else "")
+            for v, z in values[:MOST_STATES]
+        ]
+        more = [f"... and {len(values) - MOST_STATES} more"] if len(values) > MOST_STATES else []
+        return [f"mode {text}" for text in texts] + more
+
+    def _repr_html_(self) -> str:
+        from acausal.reporting import View, html_table
+
+        view = View("Linearization", "; ".join(self._modes()))
+        rows = {"A": self.states, "B": self.states, "C": self.outputs, "D": self.outputs}
+        columns = {"A": self.states, "B": self.inputs, "C": self.states, "D": self.inputs}
+        for (name, down), m in zip(rows.items(), self, strict=True):
+            if m.size and len(self.states) <= MOST_STATES:
+                cells = [(n, *row) for n, row in zip(down, np.asarray(m).tolist(), strict=True)]
+                view.folded(name, html_table(("", *columns[name]), cells), opened=True)
+        return str(view)
 
 
 def _weights(

@@ -18,7 +18,7 @@ from jax import Array
 from jax.core import Tracer
 from jaxtyping import Float
 
-from acausal._jax import array
+from acausal._jax import array, as_key
 from acausal.codegen.lower import evaluate
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.reading import read_elements
@@ -54,16 +54,18 @@ def _make(name: str, value: Any, key: Array) -> Any:
 
 
 def pack(layout: ParameterLayout, params: Mapping[str, Any] | Packed) -> Packed:
-    """Collect a parameter dict into arrays; numbers that it lacks keep the model's values.
+    """Collect a parameter dict into arrays; what it lacks is the model's own, networks those of key 0.
 
     Raises:
-        DataError: for an unknown name, a missing module, what is not a number or is outside of its declared range.
+        DataError: for an unknown name, what is not a number or is outside of its declared range.
     """
     if isinstance(params, Packed):
         return params
     if not isinstance(params, Mapping):
         raise DataError(f"params are numbers and networks by name, not {shown(params)}")
     layout.check_names(params)
+    if any(name not in params for name in layout.module_names):
+        params = {**default_parameters(layout, as_key(0)), **params}
     own = layout.model.value[layout.free]
     given = [params.get(name, value) for name, value in zip(layout.names, own, strict=True)]
     wrong = [n for n, v in zip(layout.names, given, strict=True) if not _is_number(v)]

@@ -73,14 +73,11 @@ class ParameterLayout(LeavesCaches):
         return {i: value for i, value in values if getattr(value, "is_fixed", False)}
 
     def check_names(self, params: Mapping[str, Any]) -> None:
-        """Refuse unknown names and missing modules.
+        """Refuse unknown names.
 
         Raises:
-            DataError: that names them.
+            DataError: that names the first.
         """
-        missing = [name for name in self.module_names if name not in params]
-        if missing:
-            raise DataError(f"params lacks {listing(missing)}; start from system.parameters(key)")
         if len(params) == len(self.names) + len(self.module_names) and all(
             n in params for n in self.names
         ):
@@ -93,6 +90,16 @@ class ParameterLayout(LeavesCaches):
                     hint = nearest(name, [*self.names, *self.module_names])
                     reason = f"the model has no parameter '{name}'; {hint}"
                 raise DataError(f"params: {reason}")
+
+    def need_modules(self, params: Mapping[str, Any]) -> None:
+        """Refuse parameters without all networks, where fresh ones in their places would be taken for trained ones.
+
+        Raises:
+            DataError: that names them.
+        """
+        missing = [name for name in self.module_names if name not in params]
+        if missing:
+            raise DataError(f"params lacks {listing(missing)}; start from system.parameters(key)")
 
     def range_of(self, name: str) -> tuple[float, float]:
         """The least and the largest value of a free parameter that its declaration allows."""

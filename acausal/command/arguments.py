@@ -8,12 +8,15 @@ from argparse import (
     ArgumentTypeError,
     Namespace,
     RawDescriptionHelpFormatter,
+    _ArgumentGroup,  # pyright: ignore[reportPrivateUsage]
     _SubParsersAction,  # pyright: ignore[reportPrivateUsage] (argparse has no public name for it)
 )
 from collections.abc import Callable
+from pathlib import Path
 from textwrap import dedent, fill
 from typing import Any, TypeAlias
 
+import acausal as ac
 from acausal.command.output import Output
 
 Parsers: TypeAlias = "_SubParsersAction[ArgumentParser]"
@@ -77,6 +80,21 @@ def add_model(parser: ArgumentParser, several: str | None = None) -> None:
     )
     words = "another part in the place of one, such as suspension.damper=neural.Resistance"
     add_by_name(parser, "--replace", text=words, read=text_by_name, metavar="PART=CLASS")
+
+
+def add_overwrite(parser: _ArgumentGroup | ArgumentParser) -> None:
+    """Whether what exists is replaced; the same for all commands that write."""
+    parser.add_argument("--overwrite", action="store_true", help="replace what exists")
+
+
+def need_new(path: str | Path | None, args: Namespace, remedy: str) -> None:
+    """Refuse a path that exists, unless it is to be replaced.
+
+    Raises:
+        DataError: with both ways out.
+    """
+    if path is not None and not args.overwrite and Path(path).exists():
+        raise ac.DataError(f"'{path}' exists; give another {remedy}, or --overwrite.")
 
 
 def add_parameters(parser: ArgumentParser) -> None:

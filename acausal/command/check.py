@@ -58,6 +58,10 @@ def _check(text: str, args: Namespace, out: Output) -> None:
     events = system.events is not None
     listed = ", ".join(f"{n} {what}" if n == 1 else f"{n} {what}s" for what, n in counts.items())
     out.say(f"{title_of(system)} is right: {listed}" + ", events" * events)
+    if system.unconnected:
+        out.say(
+            f"  nothing is connected to {', '.join(system.unconnected)}: no flow goes through them"
+        )
     roles = zip(start.states, start.roles, strict=True)
     out.result(
         {
@@ -69,6 +73,7 @@ def _check(text: str, args: Namespace, out: Output) -> None:
             "parameters": list(system.layout.names),
             "networks": list(networks),
             "events": events,
+            "unconnected": list(system.unconnected),
             "open_starts": [name for name, role in roles if role in ("chosen", "start")],
         }
     )

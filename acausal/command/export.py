@@ -12,6 +12,7 @@ from acausal.command.arguments import (
     Parsers,
     add_command,
     add_model,
+    add_overwrite,
     add_parameters,
 )
 from acausal.command.exit_codes import UsageError
@@ -53,7 +54,7 @@ def add(parsers: Parsers) -> None:
     parser.add_argument("path", help=f"where it is written ({endings})")
     parser.add_argument("--form", choices=list(FORMS), help="by default that of the path's ending")
     add_parameters(parser)
-    parser.add_argument("--overwrite", action="store_true", help="replace a file that exists")
+    add_overwrite(parser)
     own = parser.add_argument_group("options of some forms")
     for option, arguments in OPTIONS.items():
         forms = [name for name, form in FORMS.items() if option in form.options]

@@ -14,7 +14,9 @@ from acausal.command.arguments import (
     add_by_name,
     add_command,
     add_model,
+    add_overwrite,
     add_parameters,
+    need_new,
     value_by_name,
 )
 from acausal.command.model import parameters_of, system_of, title_of
@@ -50,7 +52,7 @@ def add(parsers: Parsers) -> None:
     results.add_argument(
         "--out", metavar="FILE", help="the trained parameters; by default MODEL-trained.safetensors"
     )
-    results.add_argument("--overwrite", action="store_true", help="replace the file if it exists")
+    add_overwrite(results)
     results.add_argument("--report", metavar="FOLDER", help="write a page about the training")
     add_reading(parser)
 
@@ -78,8 +80,8 @@ def run(args: Namespace, out: Output) -> None:
     system = system_of(args)
     title = title_of(system)
     path = Path(_file_name(title) if args.out is None else args.out)
-    if path.exists() and not args.overwrite:
-        raise ac.DataError(f"'{path}' exists; give another file by --out, or --overwrite.")
+    need_new(path, args, "file by --out")
+    need_new(args.report and Path(args.report) / "index.html", args, "folder by --report")
     data = read_records(args.data, args)
     start = parameters_of(args, system) if args.params is not None or args.set else None
     keywords["progress"] = not args.json

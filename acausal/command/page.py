@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from pathlib import Path
 
 import acausal as ac
-from acausal.command.arguments import Parsers, add_command, add_model
+from acausal.command.arguments import (
+    Parsers,
+    add_command,
+    add_model,
+    add_overwrite,
+    need_new,
+)
 from acausal.command.model import system_of, title_of
 from acausal.command.output import Output
 
@@ -25,10 +32,12 @@ def add(parsers: Parsers) -> None:
     )
     add_model(parser)
     parser.add_argument("folder", help="where index.html is written")
+    add_overwrite(parser)
 
 
 def run(args: Namespace, out: Output) -> None:
     """Write the page."""
+    need_new(Path(args.folder) / "index.html", args, "folder")
     system = system_of(args)
     file = str(ac.page(system, args.folder))
     out.say(f"wrote {file}")

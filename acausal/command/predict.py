@@ -13,7 +13,9 @@ from acausal.command.arguments import (
     add_by_name,
     add_command,
     add_model,
+    add_overwrite,
     add_parameters,
+    need_new,
     number_by_name,
 )
 from acausal.command.fit import add_training, keywords_of
@@ -51,11 +53,14 @@ def add(parsers: Parsers) -> None:
     results = parser.add_argument_group("results")
     results.add_argument("--out", metavar="FOLDER", help="write every record's bands as CSV")
     results.add_argument("--report", metavar="FOLDER", help="write a page about the predictions")
+    add_overwrite(results)
     add_reading(parser)
 
 
 def run(args: Namespace, out: Output) -> None:
     """Predict, print the errors, and write files."""
+    need_new(args.out, args, "folder by --out")
+    need_new(args.report and Path(args.report) / "index.html", args, "folder by --report")
     system = system_of(args)
     data, training = read_records(args.data, args), read_records(args.training, args)
     keywords: dict[str, Any] = {

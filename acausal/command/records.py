@@ -25,6 +25,9 @@ def add_reading(parser: ArgumentParser) -> None:
     """How files of data are read."""
     group = parser.add_argument_group("how data are read")
     group.add_argument("--time", metavar="COLUMN", help="the column with the times ('time')")
+    group.add_argument(
+        "--group", metavar="COLUMN", help="the column that says which run a row belongs to"
+    )
     group.add_argument("--columns", nargs="+", metavar="NAME", help="read these columns alone")
     group.add_argument(
         "--rename",
@@ -59,6 +62,7 @@ def read_records(paths: list[str], args: Namespace) -> ac.Data | dict[str, ac.Da
     (name,) = names
     options: dict[str, Any] = {"missing": args.missing}
     options |= {"columns": args.columns} if args.columns else {}
+    options |= {"group": args.group} if args.group else {}
     options |= {"rename": dict(args.rename)} if args.rename else {}
     if args.time is not None:
         if name == "from_mdf":

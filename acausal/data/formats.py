@@ -71,6 +71,7 @@ class Formats(ABC):
         separator: str | None = None,
         decimal: str | None = None,
         encoding: str = "utf-8-sig",
+        group: str | None = None,
         **options: Unpack[CsvOptions],
     ) -> Any:
         """Read a file whose first line names the columns, as ``name`` or ``name [unit]``.
@@ -85,14 +86,20 @@ class Formats(ABC):
             separator: of the columns: a comma, a semicolon, a tab or a blank; by default guessed from the first line.
             decimal: the decimal mark, ``"."`` or ``","``; by default guessed from the first rows.
             encoding: of the text.
-            options: see `ReadOptions`.
+            group: name of a column that says which run a row belongs to. The result are records by run then.
+            columns: names of the columns to read, besides the times; by default all.
+            rename: names in the file, and the model's variables that they are: ``{"ch 7": "mass.a"}``.
+            units: units by name of the signal in the record; they count, not those of the file.
+            before_start, after_end, missing: as of `acausal.Data`.
 
         Raises:
             DataError: for a file that cannot be read, with the line's number and what was guessed.
         """
-        selection, others = _split("from_csv", {**options, "interpolation": interpolation}, time)
+        selection, others = _split(
+            "from_csv", {**options, "interpolation": interpolation}, time, group
+        )
 
-        def read(file: Path) -> Table:
+        def read(file: Path) -> Table | dict[str, Table]:
             return readers.read_csv(
                 file, selection, separator=separator, decimal=decimal, encoding=encoding
             )
@@ -101,19 +108,24 @@ class Formats(ABC):
 
     @classmethod
     def from_parquet(
-        cls, path: Paths, *, time: str = "time", **options: Unpack[ReadOptions]
+        cls,
+        path: Paths,
+        *,
+        time: str = "time",
+        group: str | None = None,
+        **options: Unpack[ReadOptions],
     ) -> Any:
         """Read a Parquet file as its data frame, see `from_dataframe`; needs ``acausal[parquet]``.
 
         Arguments:
             path: one or many files, see `Formats`.
             time: name of the column, or of the index, with the times.
-            options: see `ReadOptions`.
+            group, options: as of `from_csv`, and ``interpolation``.
 
         Raises:
             DataError: for a file that cannot be read.
         """
-        selection, others = _split("from_parquet", options, time)
+        selection, others = _split("from_parquet", options, time, group)
         return cls._of_files(
             path, "from_parquet", lambda file: readers.read_parquet(file, selection), others
         )
@@ -128,7 +140,7 @@ class Formats(ABC):
         Arguments:
             path: one or many files, see `Formats`.
             time: name of the variable with the times.
-            options: see `ReadOptions`; a MATLAB file has no units of its own.
+            options: as of `from_csv`, and ``interpolation``; a MATLAB file has no units of its own.
 
         Raises:
             DataError: for a file that cannot be read.
@@ -147,7 +159,7 @@ class Formats(ABC):
 
         Arguments:
             path: one or many files, see `Formats`.
-            options: see `ReadOptions`.
+            options: as of `from_csv`, and ``interpolation``.
 
         Raises:
             DataError: for a file that cannot be read.
@@ -159,8 +171,13 @@ class Formats(ABC):
 
     @classmethod
     def from_dataframe(
-        cls, frame: DataFrame, *, time: str = "time", **options: Unpack[ReadOptions]
-    ) -> Self:
+        cls,
+        frame: DataFrame,
+        *,
+        time: str = "time",
+        group: str | None = None,
+        **options: Unpack[ReadOptions],
+    ) -> Any:
         """A record of a pandas DataFrame.
 
         Units are those of ``frame.attrs["units"]`` (by name), of a column's ``attrs["units"]``, or of column names
@@ -169,13 +186,13 @@ class Formats(ABC):
         Arguments:
             frame: a column for each signal; the times are a column, or the index.
             time: name of the column, or of the index, with the times.
-            options: see `ReadOptions`.
+            group, options: as of `from_csv`, and ``interpolation``.
 
         Raises:
             DataError: for anything else.
         """
-        selection, others = _split("from_dataframe", options, time)
-        return cls._of_table(readers.read_data_frame(frame, selection), others)
+        selection, others = _split("from_dataframe", options, time, group)
+        return cls._of_tables(readers.read_runs(frame, selection), others)
 
     @classmethod
     def from_xarray(cls, dataset: Any, **options: Unpack[ReadOptions]) -> Self:
@@ -185,7 +202,7 @@ class Formats(ABC):
 
         Arguments:
             dataset: the data set.
-            options: see `ReadOptions`.
+            options: as of `from_csv`, and ``interpolation``.
 
         Raises:
             DataError: for anything else.
@@ -214,17 +231,33 @@ class Formats(ABC):
         cls,
         path: object,
         function: str,
-        read: Callable[[Path], Table],
+        read: Callable[[Path], Table | dict[str, Table]],
         options: Mapping[str, Any],
     ) -> Self | dict[str, Self]:
         found = readers.files(path, function)
         if isinstance(found, Path):
-            return cls._of_table(read(found), options)
-        return {name: cls._of_table(read(file), options) for name, file in found.items()}
+            return cls._of_tables(read(found), options)
+        records: dict[str, Self] = {}
+        for name, file in found.items():
+            one = cls._of_tables(read(file), options)
+            records |= (
+                {f"{name}/{run}": r for run, r in one.items()}
+                if isinstance(one, dict)
+                else {name: one}
+            )
+        return records
+
+    @classmethod
+    def _of_tables(
+        cls, tables: Table | dict[str, Table], options: Mapping[str, Any]
+    ) -> Self | dict[str, Self]:
+        if isinstance(tables, dict):
+            return {run: cls._of_table(table, options) for run, table in tables.items()}
+        return cls._of_table(tables, options)
 
 
 def _split(
-    function: str, options: Mapping[str, Any], time: str = "time"
+    function: str, options: Mapping[str, Any], time: str = "time", group: str | None = None
 ) -> tuple[Selection, dict[str, Any]]:
     """What is read, and the options of the record itself."""
     known = ReadOptions.__annotations__
@@ -233,4 +266,4 @@ def _split(
         raise DataError(f"{function} has no option '{unknown}': {nearest(unknown, known)}")
     of_selection = {n: options[n] for n in ("columns", "rename", "units") if n in options}
     others = {n: option for n, option in options.items() if n not in of_selection}
-    return Selection(time, **of_selection), others
+    return Selection(time, group=group, **of_selection), others

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from dataclasses import replace
 from html import escape
 
+from acausal.drawing.crossings import Point
 from acausal.drawing.placed import PlacedBox, Rect
+from acausal.drawing.reach import reach
 from acausal.drawing.scheme import OPPOSITE, Footing
 from acausal.drawing.sizes import LINE, SMALL, hangs, label_of, named_ports
 from acausal.drawing.strokes import INTO, arrow, at, n, rectangle, text, titled
@@ -47,7 +49,9 @@ def _leads(placed: PlacedBox) -> Iterator[str]:
             "left": (icon.left, y), "right": (icon.right, y), "top": (x, icon.top), "bottom": (x, icon.bottom)
         }[side]  # fmt: skip
         plain = placed.box.icon.frame or placed.box.is_port
-        data = at((x, y), end) if plain else at((x, y)) + _to_pin(placed, number)
+        data = (
+            at((x, y), end) if plain else at((x, y)) + _to_stroke(placed, _to_pin(placed, number))
+        )
         width = 1.6 if port.kind == "connector" else 1.2
         pieces.setdefault(f'stroke="{port.color}" stroke-width="{width}"', []).append(data)
         if port.kind == "input" and not placed.box.is_port:
@@ -56,18 +60,41 @@ def _leads(placed: PlacedBox) -> Iterator[str]:
         yield f'<path d="{"".join(lines)}" {style}/>'
 
 
-def _to_pin(placed: PlacedBox, number: int) -> str:
-    """The way from a port to the end of an unframed picture."""
-    icon, (_, y), side = placed.icon, placed.ports[number], placed.side(number)
+def _to_pin(placed: PlacedBox, number: int) -> tuple[Point, ...]:
+    """Points on the way from a port to the edge of an unframed picture; the last is on the edge."""
+    icon, (x, y), side = placed.icon, placed.ports[number], placed.side(number)
     if hangs(placed.box):
-        return f"H{n(icon.x)}V{n(icon.top)}"
+        return (icon.x, y), (icon.x, icon.top)
     if placed.facing.upright:
-        return f"H{n(icon.x)}V{n(icon.top if y < icon.y else icon.bottom)}"
+        return (icon.x, y), (icon.x, icon.top if y < icon.y else icon.bottom)
     if side in ("top", "bottom"):
-        return f"V{n(icon.top if side == 'top' else icon.bottom)}"
+        return ((x, icon.top if side == "top" else icon.bottom),)
     alone = sum(placed.side(other) == side for other in placed.ports) == 1
-    edge = f"H{n(icon.left if side == 'left' else icon.right)}"
-    return edge + (f"V{n(icon.y)}" if alone and not placed.box.icon.sides else "")
+    edge = icon.left if side == "left" else icon.right
+    return ((edge, y), (edge, icon.y)) if alone and not placed.box.icon.sides else ((edge, y),)
+
+
+def _to_stroke(placed: PlacedBox, points: tuple[Point, ...]) -> str:
+    """The way along points to the edge of a picture, and on to its strokes."""
+    icon, drawn = placed.icon, placed.box.icon
+    (_, (a, b, c, d)), (x, y) = _turn(placed), points[-1]
+    upright = abs(x - icon.x) * icon.height < abs(y - icon.y) * icon.width
+    u, v = (0, 1 if y < icon.y else -1) if upright else (1 if x < icon.x else -1, 0)
+    p, q = x - icon.x, y - icon.y
+    start, way = (a * p + c * q, b * p + d * q), (a * u + c * v, b * u + d * v)
+    length = reach(drawn.strokes + drawn.fills, start, way)
+    inside = () if length is None else ((x + u * length, y + v * length),)
+    return at(*points, *inside).replace("M", "L", 1)
+
+
+def _turn(placed: PlacedBox) -> tuple[str, tuple[int, int, int, int]]:
+    """How a picture is turned: as an SVG transform, and as a matrix in rows."""
+    if placed.facing.upright:
+        down = placed.ports[min(placed.ports)][1] < placed.icon.y
+        return (" rotate(90)", (0, -1, 1, 0)) if down else (" rotate(-90)", (0, 1, -1, 0))
+    if placed.facing.mirrored:
+        return " scale(-1 1)", (-1, 0, 0, 1)
+    return "", (1, 0, 0, 1)
 
 
 def _frame(placed: PlacedBox) -> Iterator[str]:
@@ -87,15 +114,7 @@ def _frame(placed: PlacedBox) -> Iterator[str]:
 
 def _picture(placed: PlacedBox) -> Iterator[str]:
     drawn, icon = placed.box.icon, placed.icon
-    turn, (a, b, c, d) = "", (1, 0, 0, 1)
-    if placed.facing.upright:
-        first = min(placed.ports)
-        down = placed.ports[first][1] < icon.y
-        turn, (a, b, c, d) = (
-            (" rotate(90)", (0, -1, 1, 0)) if down else (" rotate(-90)", (0, 1, -1, 0))
-        )
-    elif placed.facing.mirrored:
-        turn, (a, b, c, d) = " scale(-1 1)", (-1, 0, 0, 1)
+    turn, (a, b, c, d) = _turn(placed)
     if drawn.strokes or drawn.fills:
         place = f"translate({n(icon.x)} {n(icon.y)}){turn}"
         yield f'<g transform="{place}" stroke="currentColor" stroke-width="1.4">'

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from acausal.drawing.scheme import Kind, Port
 from acausal.modeling import Component, Connector, Declaration, Icon, Input, Output, Side
 
-SIGNAL = "#6f7fa3"
-"""Colour of signals."""
+SIGNAL, BOOLEAN, INTEGER = "#6f7fa3", "#b650a8", "#c27c2c"
+"""Colours of signals: of real numbers, truth values and whole numbers."""
 
 FEW = 4
 """A vector of signals with more elements than this is one port."""
@@ -35,7 +35,7 @@ def ports_of(part: Component, icon: Icon, *, is_list: bool = False) -> tuple[Por
     free = [n for n in connectors if n not in BELOW] if len(connectors) > 1 else connectors
     ports: list[Port] = []
     for name, d in declared:
-        color = d.COLOR if isinstance(d, Connector) else SIGNAL
+        color = color_of(d)
         usual = _usual(name, d, free)
         stated = name in icon.sides and not icon.reference
         side = icon.sides[name] if stated else usual
@@ -51,6 +51,13 @@ def ports_of(part: Component, icon: Icon, *, is_list: bool = False) -> tuple[Por
         for element in _elements(part, name, d, is_list):
             ports.append(Port(element, kind, side, color))
     return tuple(ports)
+
+
+def color_of(declared: Declaration | Connector) -> str:
+    """Colour of the wires of a connector, or of a signal of a kind."""
+    if isinstance(declared, Connector):
+        return declared.COLOR
+    return {"bool": BOOLEAN, "int": INTEGER}.get(getattr(declared, "kind", "real"), SIGNAL)
 
 
 def joined(name: str, elements: int) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from acausal.drawing.joined import UnionFind
-from acausal.drawing.ports import SIGNAL, joined, ports_of, side_of_gate
+from acausal.drawing.ports import SIGNAL, color_of, joined, ports_of, side_of_gate
 from acausal.drawing.references import with_local_references
 from acausal.drawing.scheme import OPPOSITE, Box, End, Kind, Net, Port, Scheme
 from acausal.modeling import Component, Connector, Icon, Input, Module, owner_and_name
@@ -46,7 +46,7 @@ class _Reader:
         self.parts: dict[int, Component] = {}  # that stand alone, by the number of their box
         self.from_outside: dict[int, list[Any]] = {}  # connected ends, by box
         self.gates: dict[str, int] = {}
-        for label, parts in _families(model):
+        for label, parts in [*_families(model)] or _itself(model):
             number = self._add_box(parts[0], label, len(parts))
             self.box_of |= {part._node.name: number for part in parts}
             if len(parts) == 1:
@@ -137,7 +137,8 @@ class _Reader:
                 continue
             seen.add(tuple(sorted(ends)))
             names = {f.end: _full_name(given[f]) for f in reversed(fine)}
-            kind, color = _kind_and_color(given[fine[0]])
+            kinds = [_kind_and_color(given[f]) for f in fine]
+            kind, color = next((k for k in kinds if k[1] != SIGNAL), kinds[0])
             if kind != "connector":
                 ends.sort(key=lambda end: not self._is_source(end))
             own = tuple(self._own(end, used) for end in ends)
@@ -208,6 +209,11 @@ def _families(component: Component) -> Iterator[tuple[str, list[Component]]]:
                 yield part._node.name, [part]
 
 
+def _itself(component: Component) -> list[tuple[str, list[Component]]]:
+    """A component without parts is drawn as its icon."""
+    return [] if component.ICON is None else [(component._node.name, [component])]
+
+
 def learns(part: Component) -> bool:
     """Whether there is a network in a component."""
     return any(isinstance(d, Module) for _, d in part._node.declarations()) or any(
@@ -229,7 +235,7 @@ def _kind_and_color(end: Any) -> tuple[Kind, str]:
         end = end.end
     if isinstance(end, Connector):
         return "connector", end.COLOR
-    return ("input" if isinstance(end.declaration, Input) else "output"), SIGNAL
+    return ("input" if isinstance(end.declaration, Input) else "output"), color_of(end.declaration)
 
 
 def _full_name(end: Any) -> str:

@@ -108,6 +108,7 @@ def model_text(
     need_known("export", params)
     given = system.parameters() if params is None else params
     system.pack(given)
+    system.layout.need_modules(given)
     vector = ParameterVector(system, given)
     scheme = scheme_named(solver)
     code = write_code(vector, wanted, derivatives=derivatives, column=scheme.implicit, watch=watch)

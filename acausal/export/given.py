@@ -36,4 +36,5 @@ def all_parameters(system: System, params: Mapping[str, Any] | None) -> dict[str
     if not isinstance(params, Mapping):
         raise DataError(f"params are numbers and networks by name, not {shown(params)}")
     system.pack(params)
+    system.layout.need_modules(params)
     return {**{name: own[name] for name in system.layout.names}, **params}

@@ -5,6 +5,7 @@ It knows declarations; neither JAX nor any later stage.
 """
 
 from acausal.flattening.bindings import Binding as Binding, binding_levels as binding_levels
+from acausal.flattening.connections import unconnected as unconnected
 from acausal.flattening.equation_group import (
     EquationGroup as EquationGroup,
     GuardGroup as GuardGroup,

@@ -208,6 +208,20 @@ def _declared(layout: Layout, role: type) -> list[int]:
     return np.sort(np.concatenate(found)).tolist() if found else []
 
 
+def unconnected(layout: Layout) -> tuple[str, ...]:
+    """Connectors of parts that nothing is connected to, by dotted name: no flow goes through them."""
+    _, *parts = (component._node for component in layout.components)
+    nodes = (layout.components[0]._node, *parts)
+    ends = (owner_and_name(end) for node in nodes for pair in node.connections for end in pair)
+    taken = {(id(owner), name) for owner, name in ends}
+    return tuple(
+        f"{node.path}.{name}"
+        for node in parts
+        for name, declared in node.declarations()
+        if isinstance(declared, Connector) and (id(node), name) not in taken
+    )
+
+
 def _unconnected_flows(layout: Layout, pairs: Integers) -> Integers:
     connected = np.zeros(int(layout.variable_base[-1]) + 1, dtype=bool)
     sides = pairs.ravel()

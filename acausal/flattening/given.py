@@ -68,6 +68,8 @@ def _given(model: FlatModel, name: str) -> int:
     if index is not None and index in targets:
         return index
     known = [model.layout.variable(v) for v in targets.tolist() if not _hidden(model, v)]
+    if index is not None and index in model.inputs:
+        raise DeclarationError(f"inputs: '{name}' is an input already; leave it out")
     if not known:
         raise DeclarationError(f"inputs: the model has no discrete variables, so '{name}' is none")
     raise DeclarationError(

@@ -124,7 +124,7 @@ class Initializer(LeavesCaches):
         """Initial states, shape (n_states,), for given discrete variables; see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
             return self._whole(x0)
-        x, plan = self._posed(packed, {} if x0 is None else x0, steady, least_squares)
+        x, plan = self._posed(packed, self.by_state(x0 or {}), steady, least_squares)
         at = Values(array(t0), x, u0, packed, d)
         return x if plan is None else self._found(plan, at)[0]
 
@@ -159,6 +159,7 @@ class Initializer(LeavesCaches):
         x0 = {} if x0 is None else x0
         if not isinstance(x0, Mapping):
             raise DataError(f"x0={shown(x0)} has no names; give the states by name.")
+        x0 = self.by_state(x0)
         x, plan = self._posed(packed, x0, steady, least_squares)
         at = Values(jnp.asarray(t0, float), x, u0, packed)
         roles = [
@@ -198,7 +199,6 @@ class Initializer(LeavesCaches):
         least_squares: bool,
     ) -> tuple[Array, Plan | None]:
         """The states to begin with, and the conditions that remain to be met, if any."""
-        self._known("x0", names_in(given, "x0"))
         x: Any = self.conditions.starts(packed)
         is_known = not traced(x, list(given.values()))
         x = np.array(x) if is_known else x
@@ -234,6 +234,29 @@ class Initializer(LeavesCaches):
         overruled = bool(given) and not (plan.moved or plan.resting)
         nothing = not (plan.starts or plan.resting or self.reduced.model.initial)
         return x, None if overruled or nothing else plan
+
+    def by_state(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Values by state; a variable that is a state under another name gives the state's.
+
+        Raises:
+            DataError: for what is not a state, or two values of one.
+        """
+        found: dict[str, Any] = {}
+        for name in names_in(given, "x0"):
+            state, value = name, given[name]
+            index = self.reduced.model.layout.find_variable(name)
+            if name not in self.names and index is not None:
+                node, sign = self.reduced.resolve(index)
+                places = np.flatnonzero(self.reduced.states == node).tolist()
+                state = self.names[places[0]] if places else name
+                value = -value if sign < 0 and is_number(value) else value
+            self._known("x0", [state])
+            if state in found:
+                raise DataError(
+                    f"x0: '{name}' and the state '{state}' are the same; give one of them"
+                )
+            found[state] = value
+        return found
 
     def _known(self, argument: str, names: Sequence[str]) -> None:
         for name in names:

@@ -37,7 +37,9 @@ from acausal.modeling.declarations import (
 )
 from acausal.modeling.documentation import (
     declarations_of as declarations_of,
+    sections as sections,
     signature as signature,
+    unit_and_doc as unit_and_doc,
 )
 from acausal.modeling.endpoints import (
     Endpoint as Endpoint,
@@ -93,6 +95,7 @@ from acausal.modeling.names import (
     names_in as names_in,
     names_matching as names_matching,
 )
+from acausal.modeling.summary import value_text as value_text
 from acausal.modeling.symbols import (
     Eq as Eq,
     GivenModule as GivenModule,

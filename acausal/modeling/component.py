@@ -5,18 +5,24 @@ from __future__ import annotations
 import copy
 import itertools
 from collections.abc import Iterable, Mapping, Sequence
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 from acausal.errors import ConnectionError, DeclarationError, nearest
 from acausal.modeling.budget import charge
 from acausal.modeling.connector import Connector, check_name
 from acausal.modeling.declarations import Declaration
-from acausal.modeling.documentation import DocumentationOf, SignatureOf
+from acausal.modeling.documentation import (
+    DocumentationOf,
+    SignatureOf,
+    check_positional,
+)
 from acausal.modeling.endpoints import Endpoint, check_lengths, check_pair, is_vector
 from acausal.modeling.icon import Icon
 from acausal.modeling.modifiers import record_modifier
 from acausal.modeling.node import Node
 from acausal.modeling.replacing import replace_part
+from acausal.modeling.summary import summary
 from acausal.modeling.symbols import Eq
 
 
@@ -55,6 +61,7 @@ class Component:
 
     def __new__(cls, *args: Any, **kwargs: Any) -> Self:
         """An empty component; nothing depends on a subclass calling ``super().__init__``."""
+        check_positional(cls, args)
         charge("components", 1, cls.__name__)
         self = super().__new__(cls)
         self.__dict__["_node"] = Node(self, cls._declared)
@@ -75,8 +82,10 @@ class Component:
                 if isinstance(value, Declaration | Connector):
                     declared_as = value._name if isinstance(value, Connector) else value.name
                     check_name(base, name, declared_as, _is_taken)
+                    _refuse_hidden_connector(base, name, declared.get(name), value)
                     declared[name] = value
                 elif name in declared:
+                    _refuse_hidden_connector(base, name, declared[name], value)
                     del declared[name]
         cls._declared = declared
         text = vars(cls).get("__doc__")
@@ -218,11 +227,24 @@ class Component:
         return self._node.read(declared)
 
     def __repr__(self) -> str:
-        return f"<{self._node.label}>"
+        return summary(self._node)
+
+    def _repr_html_(self) -> str:
+        # Views lie in a room above, which draws; only a notebook asks for them.
+        return import_module("acausal.reporting").component_view(self)
 
 
 def _is_taken(name: str) -> bool:
     return name == "_node" or hasattr(Component, name)
+
+
+def _refuse_hidden_connector(cls: type, name: str, hidden: Any, value: Any) -> None:
+    if isinstance(hidden, Connector) and not isinstance(value, Connector):
+        kind = type(value).__name__
+        raise DeclarationError(
+            f"{cls.__name__}.{name}: this {kind} would hide the connector '{name}' that the class inherits; "
+            "choose another name"
+        )
 
 
 def _is_list_of_parts(value: Any) -> bool:

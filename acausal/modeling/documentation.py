@@ -6,11 +6,11 @@ Both are descriptors that read the declarations when somebody asks, so that impo
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from acausal.errors import shortened
+from acausal.errors import DeclarationError, shortened, shown
 from acausal.modeling.declarations import (
     Declaration,
     Discrete,
@@ -109,6 +109,24 @@ def signature(cls: type) -> inspect.Signature:
     return inspect.Signature([*explicit, *stated, *(others if has_parts else ())])
 
 
+def check_positional(cls: type, args: Sequence[Any]) -> None:
+    """Refuse values without a name, unless the class's ``__init__`` takes them.
+
+    Raises:
+        DeclarationError: with the name of the first value that the class can be given.
+    """
+    parameters = signature(cls).parameters.values() if args else ()
+    by_place = (inspect.Parameter.POSITIONAL_ONLY, inspect.Parameter.POSITIONAL_OR_KEYWORD)
+    if any(p.kind is p.VAR_POSITIONAL for p in parameters):
+        return
+    if len(args) > sum(p.kind in by_place for p in parameters):
+        name = next((p.name for p in parameters if p.kind is p.KEYWORD_ONLY), "...")
+        value = shown(args[-1])
+        raise DeclarationError(
+            f"{cls.__name__} takes values by name, not {value} alone; write {cls.__name__}({name}={value})"
+        )
+
+
 _KERNEL = "acausal.modeling.component"
 """The module of the ``__init__`` that takes declarations only."""
 
@@ -193,3 +211,8 @@ def _remark(declared: Declared) -> str:
     if when and not when.removeprefix("not ").startswith("_"):
         parts.append(f"only with {when}")
     return "; ".join(parts)
+
+
+def unit_and_doc(declared: Declared) -> tuple[str, str]:
+    """Unit and description; of a connector there are none."""
+    return (declared.unit, declared.doc) if isinstance(declared, Declaration) else ("", "")

@@ -22,7 +22,7 @@ def endpoint_label(end: Any) -> str:
     if isinstance(end, Reference):
         path = end.owner.path
         return f"{path}.{end.path}" if path else end.path
-    return repr(end)
+    return repr(end).partition("\n")[0]
 
 
 def check_pair(a: Any, b: Any) -> None:

@@ -31,11 +31,13 @@ class Entry:
         name: where it is below its library: ``"electrical.Resistor"``.
         cls: the class.
         modelica: its name in Modelica; an empty text if it has none there.
+        also: what else it is called, as the library lists it.
     """
 
     name: str
     cls: type[Component] | type[Connector]
     modelica: str
+    also: str = ""
 
     @cached_property
     def summary(self) -> str:
@@ -65,7 +67,7 @@ class Entry:
             return NEAR
         if word in self.name.lower():
             return WITHIN
-        if word in self.modelica.lower():
+        if word in f"{self.modelica} {self.also}".lower():
             return MODELICA
         return MENTIONED if word in self.summary.lower() else None
 
@@ -108,8 +110,9 @@ def find(text: str = "", *, unit: str | None = None) -> Found:
     """Search the installed libraries for components and connectors.
 
     Arguments:
-        text: words, of which every one must occur in the class's name, in Modelica's name of it, or in the first
-            sentence of its description; upper or lower case. Without any, all classes fit.
+        text: words, of which every one must occur in the class's name, in Modelica's name of it (versions 3 and 4), in
+            what else it is called (``"thermostat"``), or in the first sentence of its description; upper or lower
+            case. Without any, all classes fit.
         unit: of one of its parameters, variables or connectors, such as ``"N.m"``; ``"N*m"`` is the same.
 
     Returns:
@@ -148,9 +151,9 @@ def entries(libraries: Sequence[Library]) -> tuple[Entry, ...]:
                 if cls.__module__.startswith(own) and (
                     known is None or _place(path, cls) < _place(known.name, cls)
                 ):
-                    found[cls] = Entry(
-                        path, cls, modelica.get(cls, "") if "." in modelica.get(cls, "") else ""
-                    )
+                    name = modelica.get(cls, "")
+                    also = library.also_called.get(path, "")
+                    found[cls] = Entry(path, cls, name if "." in name else "", also)
     return tuple(found.values())
 
 

@@ -9,6 +9,8 @@ name where the library lists one. These attributes of the module are read:
   such as ``{"Modelica.Blocks": "blocks"}``. That module is imported when a file names one of them.
 - ``NOT_COVERED``: packages of Modelica, each with the names of classes that are not there, such as
   ``{"Modelica.Blocks.Math": "Exponentiation"}``.
+- ``ALSO_CALLED``: what else classes are called, words by the Python path below the module, such as
+  ``{"blocks.Hysteresis": "thermostat"}``, for `acausal.find`.
 - ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water()}``.
 - ``FUNCTIONS``: functions of numbers that expressions may call, by the last word of their name.
 - ``ENUMERATIONS``: names of enumeration types; their values are read as the last word, a text.
@@ -113,6 +115,11 @@ class Library:
     def records(self) -> dict[str, Any]:
         """Constants and records by the last word of their name."""
         return getattr(self.module, "RECORDS", {})
+
+    @property
+    def also_called(self) -> dict[str, str]:
+        """What else classes are called, by their Python path below the module."""
+        return getattr(self.module, "ALSO_CALLED", {})
 
     @property
     def _packages(self) -> dict[str, str]:

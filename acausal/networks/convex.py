@@ -50,7 +50,7 @@ class Convex(Layered):
         activation: str = "softplus",
         *,
         last_layer: float = 0.1,
-        key: Key,
+        key: Key | None = None,
     ) -> None:
         self.activation = checked(activation, SMOOTH_AND_CONVEX, "a convex network")
         if depth < 1:

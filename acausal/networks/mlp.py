@@ -90,7 +90,7 @@ class MLP(Layered):
         input_scale: Scale | None = None,
         output_scale: float | None = None,
         last_layer: float = 0.1,
-        key: Key,
+        key: Key | None = None,
     ) -> None:
         given = {"activation": activation, "input_scale": input_scale, "output_scale": output_scale}
         self.left_open = tuple(name for name, value in given.items() if value is None)
@@ -119,7 +119,7 @@ class MLP(Layered):
 
 
 def layers(
-    in_size: int, width: int, depth: int, last_layer: float, key: Key
+    in_size: int, width: int, depth: int, last_layer: float, key: Key | None
 ) -> tuple[tuple[Array, ...], tuple[Array, ...]]:
     """Fresh weights, of shape (rows, columns), and biases of ``depth`` hidden layers and the last one."""
     return _layers(in_size, width, depth, last_layer, as_key(key))

@@ -48,7 +48,7 @@ class Monotone(Layered):
         activation: str = "relu",
         *,
         last_layer: float = 0.1,
-        key: Key,
+        key: Key | None = None,
     ) -> None:
         self.activation = checked(activation, INCREASING, "a monotone network")
         own, others = jax.random.split(as_key(key))

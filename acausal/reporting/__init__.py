@@ -15,7 +15,9 @@ from acausal.reporting.frequency import (
 from acausal.reporting.html import Page as Page, write_json as write_json
 from acausal.reporting.model_view import (
     MOST_EQUATIONS as MOST_EQUATIONS,
+    Formulas as Formulas,
     Quantity as Quantity,
+    component_view as component_view,
     equations_as_latex as equations_as_latex,
     system_view as system_view,
 )

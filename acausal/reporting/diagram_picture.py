@@ -23,9 +23,11 @@ UNSAID = dict.fromkeys(("Creator", "Date", "Format", "Type"))
 def diagram_svg(model: Component) -> str:
     """The parts of a model and their connections as an ``<svg>`` element.
 
-    Empty for a model without parts or with more than `MOST_PARTS`, and where nothing is installed that draws.
+    Of a component without parts it is its icon. Empty for one that has neither, for a model of more than `MOST_PARTS`,
+    and where nothing is installed that draws.
     """
-    if not 0 < len(model._node.children) <= MOST_PARTS:
+    parts = len(model._node.children)
+    if parts > MOST_PARTS or (not parts and model.ICON is None):
         return ""
     try:
         drawn: Any = diagram(model)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import html
+import inspect
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import sympy as sp
 
-from acausal.modeling import Component
+from acausal.modeling import Component, sections, unit_and_doc, value_text
 from acausal.reporting.diagram_picture import diagram_svg
 from acausal.reporting.mathml import latex, mathml, name_as_mathml, names_in
 from acausal.reporting.short_names import Short, shorten
@@ -62,6 +63,43 @@ def system_view(
         if group:
             content = _table(heading, group, names if equations else {})
             view.folded(f"{heading} ({len(group)})", content, opened=heading == "States")
+    return str(view)
+
+
+class Formulas(tuple[sp.Equality, ...]):
+    """Equations of sympy that show as formulas, at the prompt and in a notebook."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        lines = [f"{_left(e.lhs)} = {e.rhs}" for e in self[:MOST_EQUATIONS]]
+        more = [f"... and {len(self) - MOST_EQUATIONS} more"] if len(self) > MOST_EQUATIONS else []
+        return "\n".join([*lines, *more])
+
+    def _repr_html_(self) -> str:
+        names = shorten(names_in(self))
+        view = View(f"Equations ({len(self)})")
+        for equation in self[:MOST_EQUATIONS]:
+            view.html(mathml(equation, names))
+        return str(view)
+
+
+def _left(side: Any) -> str:
+    return f"der({side.expr})" if isinstance(side, sp.Derivative) else str(side)
+
+
+def component_view(component: Component) -> str:
+    """HTML of a component that is not compiled: its picture, parts, and what it declares with values and units."""
+    node, doc = component._node, inspect.cleandoc(type(component).__doc__ or "")
+    view = View(node.label, " ".join(doc.partition("\n\n")[0].split()).replace("``", ""))
+    view.html(diagram_svg(component))
+    for title, members in sections(dict(node.declarations())):
+        rows = [(name, value_text(node, name, d), *unit_and_doc(d)) for name, d in members.items()]
+        content = html_table(("name", "value", "unit", ""), rows)
+        view.folded(f"{title} ({len(rows)})", content, opened=title == "Parameters")
+    if node.children:
+        parts = [(name, type(part).__name__) for name, part in node.children.items()]
+        view.folded(f"Parts ({len(parts)})", html_table(("name", "class"), parts), opened=True)
     return str(view)
 
 

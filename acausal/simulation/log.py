@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -27,6 +28,9 @@ That is enough for all `LOG` events of models with up to 104 of them. There are 
 side by side need a thousand times the room.
 """
 
+LINES = 18
+"""Events that a list of them shows."""
+
 JUMP = "an input jumps"
 """What is said of an event that no condition made."""
 
@@ -41,6 +45,7 @@ class Event(NamedTuple):
             ``None`` where more events happened than a run remembers with values.
         grazes: whether the condition hardly changes at its instant. A little more or less, and there is no event: a
             gradient through it does not exist, or is huge.
+        effect: what it did, such as ``"clutch: backward sliding begins"``; empty where that is not known.
     """
 
     t: float
@@ -49,15 +54,26 @@ class Event(NamedTuple):
     before: Mapping[str, float] | None
     after: Mapping[str, float] | None
     grazes: bool = False
+    effect: str = ""
 
     def __str__(self) -> str:
         """In words."""
-        words = f"t = {self.t:.9g} s: {self.condition}"
+        words = f"t = {self.t:.9g} s: {self.effect or self.condition}"
         if not self.grazes:
             return words
         return (
             f"{words} (it hardly changes there: a gradient through it does not exist, or is huge)"
         )
+
+
+class EventList(tuple[Event, ...]):
+    """Events in order of time, a line for each of the first."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        more = [f"... and {len(self) - LINES} more"] if len(self) > LINES else []
+        return "\n".join([*map(str, self[:LINES]), *more]) or "no events"
 
 
 class Log(NamedTuple):
@@ -153,7 +169,7 @@ class Log(NamedTuple):
             for w in self.kept().which.tolist()
         ]
 
-    def events(self, system: System) -> tuple[Event, ...]:
+    def events(self, system: System) -> EventList:
         """The events, as far as they are kept."""
         log = self.kept()
         names, places, signs = _columns(system)
@@ -168,8 +184,31 @@ class Log(NamedTuple):
                 None if changed is None else {names[i]: float(side[k, i]) for i in changed}
                 for side in sides
             )
-            found.append(Event(t, condition, component, before, after, bool(log.grazes[k])))
-        return tuple(found)
+            effect = "" if before is None else _effect(system, before, after or {})
+            grazes = bool(log.grazes[k])
+            found.append(Event(t, condition, component, before, after, grazes, effect))
+        return EventList(found)
+
+
+def _effect(system: System, before: Mapping[str, float], after: Mapping[str, float]) -> str:
+    """What an event did: the new values in the words of their declarations, such as ``0 stuck, 1 sliding``.
+
+    Where the declarations have no words, what ceased to be true, or other changes.
+    """
+    layout = system.flat.layout
+    begun, ended, changed = list[str](), list[str](), list[str]()
+    for name, value in after.items():
+        index = layout.find_variable(name)
+        doc = "" if index is None else layout.variable_declaration(index).doc
+        words = dict(re.findall(r"(?:^|, )(-?\d+) (?:where |while )?([^,]+)", doc))
+        component = name.rpartition(".")[0]
+        if (said := words.get(f"{value:g}")) is not None:
+            begun.append(f"{component}: {said}" if component else said)
+        elif words:
+            ended.append(f"{name} becomes false")
+        else:
+            changed.append(f"{name} {before[name]:.4g} → {value:.4g}")
+    return "; ".join(begun or ended or changed)
 
 
 def _columns(system: System) -> tuple[list[str], list[int], np.ndarray]:

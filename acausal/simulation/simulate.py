@@ -13,7 +13,7 @@ from jax.typing import DTypeLike
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
-from acausal._jax import array, is_real, need_double_precision, precision, select, traced
+from acausal._jax import array, is_real, known, need_double_precision, precision, select, traced
 from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
@@ -38,6 +38,9 @@ LOGGER = logging.getLogger(__name__)
 
 SHARE = 50
 """Adaptive steps are not longer than this part of the span."""
+
+STEPS_OF_A_SINE = 8
+"""At least so many steps are made in a period of a sine of time."""
 
 POINTS = 500
 """Points that an adaptive simulation saves by default."""
@@ -157,7 +160,7 @@ def simulate(
     if called != "auto":
         with_events = system.events is not None
         chosen = solvers.solver_named(solver, fixed=ends is not None, events=with_events)
-    return simulate_in_steps(
+    solution = simulate_in_steps(
         run,
         saved,
         chosen,
@@ -169,6 +172,29 @@ def simulate(
         forward=forward,
         max_step=longest,
     )
+    if saveat is None and ends is None:
+        _warn_of_few_points(solution, end - start)
+    return solution
+
+
+def _warn_of_few_points(solution: Solution, span: float) -> None:
+    """Warn where a source repeats between two points of the default output: curves do not show what it does."""
+    made = solution.statistics
+    counts = None if made is None else known((made.steps, made.edges, solution.t[0]))
+    if counts is None or np.ndim(counts[0]):
+        return
+    steps, edges, start = (float(count) for count in counts)
+    apart, system = span / POINTS, solution.system
+    period = np.inf if system.inputs or not edges else 2 * span / edges  # inputs bend at samples
+    if steps > STEPS_OF_A_SINE * POINTS and system.edges:
+        step = system.edges.ahead(solution.values.packed, start, 1e-9 * span).longest
+        period = min(period, STEPS_OF_A_SINE * float(step))
+    if period < apart:
+        warnings.warn(
+            f"The {POINTS} points of the output are {apart:.3g} s apart, and a source has a period of about "
+            f"{period:.3g} s, which curves do not show. Give saveat=..., or a shorter span.",
+            stacklevel=user_level(),
+        )
 
 
 def _span(t: float | tuple[float, float]) -> tuple[float, float]:

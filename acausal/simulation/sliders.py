@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 LOGARITHMIC = 20.0
 """A slider whose positive bounds are further apart than by this factor is logarithmic."""
 
+Ranges = Mapping[str, tuple[float, float]] | str | Sequence[str]
+
+FACTOR = 4.0
+"""A parameter without bounds varies by so much."""
+
 STEPS = 200
 """Positions of a slider."""
 
@@ -47,8 +52,8 @@ class Range:
 
 def sliders(
     system: System,
-    ranges: Mapping[str, tuple[float, float]],
-    t: tuple[float, float],
+    t: float | tuple[float, float],
+    ranges: Ranges = (),
     *,
     show: str | Sequence[str] = (),
     params: Mapping[str, Any] | None = None,
@@ -59,8 +64,9 @@ def sliders(
 
     Arguments:
         system: a compiled model.
-        ranges: by parameter, or by input that is to be constant, the least and the largest value.
-        t: start and end of the simulations, in seconds.
+        t: start and end of the simulations, or the end if they start at 0, in seconds.
+        ranges: by parameter, or by input that is to be constant, the least and the largest value. A list of parameters
+            lets each vary by a factor of four, within the bounds that it declares.
         show: variables to plot; by default the states.
         params, inputs: as for `acausal.simulate`, for what no slider moves.
         options: further arguments of `acausal.simulate`.
@@ -74,6 +80,10 @@ def sliders(
             `acausal.simulate` refuses.
     """
     need_compiled(system, "sliders")
+    if isinstance(t, str | Mapping) or (isinstance(t, Sequence) and any(map(_is_text, t))):
+        raise DataError(
+            f"sliders: t={shown(t)} is not a time; give it first, ac.sliders(system, 10.0, {shown(t)})."
+        )
     try:
         import ipywidgets as widgets
     except ModuleNotFoundError:
@@ -106,7 +116,7 @@ class Moved:
 
     system: System
     ranges: tuple[Range, ...]
-    t: tuple[float, float]
+    t: float | tuple[float, float]
     show: str | Sequence[str]
     params: Mapping[str, Any]
     inputs: Mapping[str, Any]
@@ -143,7 +153,7 @@ class Moved:
 
 def ranges_of(
     system: System,
-    ranges: Mapping[str, tuple[float, float]],
+    ranges: Ranges,
     params: Mapping[str, Any] | None = None,
 ) -> tuple[Range, ...]:
     """The sliders' ranges, checked; their values are the parameters', or the middle for an input.
@@ -156,7 +166,7 @@ def ranges_of(
     system.pack(given)
     found: list[Range] = []
     if not isinstance(ranges, Mapping):
-        raise DataError(f"ranges={shown(ranges)} have no names; give (least, largest) by name.")
+        ranges = {name: _around(system, name, given) for name in names_in(ranges, "ranges")}
     for name, bounds in ranges.items():
         if name not in known:
             raise DataError(
@@ -175,6 +185,20 @@ def ranges_of(
         value = float(given[name]) if name in given else 0.5 * (low + high)
         found.append(Range(name, low, high, min(max(value, low), high), system.unit(name)))
     return tuple(found)
+
+
+def _is_text(value: object) -> bool:
+    return isinstance(value, str)
+
+
+def _around(system: System, name: str, params: Mapping[str, Any]) -> tuple[float, float]:
+    """Bounds by `FACTOR` around a parameter's value, within those that it declares."""
+    value = float(params.get(name, 0.0))
+    if name in params and not value:
+        raise DataError(f"ranges: '{name}' is 0; give the least and the largest value by name.")
+    least, largest = system.layout.range_of(name) if name in params else (-np.inf, np.inf)
+    low, high = sorted((value / FACTOR, value * FACTOR))
+    return max(low, least), min(high, largest)
 
 
 def _slider(widgets: Any, one: Range) -> Any:

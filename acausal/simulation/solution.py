@@ -23,7 +23,7 @@ from acausal.files import need_path, write_files
 from acausal.modeling import ByName, names_in, names_matching
 from acausal.simulation.finite import warn_of_nonfinite
 from acausal.simulation.inputs import TimeFunction, evaluate_all
-from acausal.simulation.log import Event, Log
+from acausal.simulation.log import EventList, Log
 from acausal.simulation.statistics import Statistics
 
 if TYPE_CHECKING:
@@ -104,13 +104,15 @@ class Solution(ByName):
         return empty if self.values.d is None else self.values.d
 
     @property
-    def events(self) -> tuple[Event, ...]:
+    def events(self) -> EventList:
         """What has happened, in order of time: instants, the condition that changed there first, and what it changed.
+
+        It prints a line for each of the first.
 
         Raises:
             DataError: while JAX traces, and for runs side by side (`jax.vmap`).
         """
-        return () if self.log is None else self.log.events(self.system)
+        return EventList() if self.log is None else self.log.events(self.system)
 
     @cached_property
     def before(self) -> Solution:

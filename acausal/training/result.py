@@ -509,6 +509,15 @@ class Fit:
             self.history,
         )
 
+    def _times(self) -> str:
+        """What the time was spent on; the parts add up."""
+        each, epochs = self.seconds_per_epoch, self.history.epochs
+        rest = max(self.seconds - self.compile_seconds - each * epochs, 0.0)
+        return (
+            f"{self.compile_seconds:.3g} s to compile, {each * epochs:.3g} s for {epochs} epochs of "
+            f"{each * 1e3:.3g} ms, {rest:.3g} s for the rest"
+        )
+
     def __repr__(self) -> str:
         times = self.problem.timing
         changes = ", ".join(
@@ -520,7 +529,7 @@ class Fit:
         lines = [
             f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",
             f"  loss      {self.loss_before:.4g} before, {self.loss:.4g} after epoch {self.best_epoch}",
-            f"  time      {self.seconds:.3g} s, {self.seconds_per_epoch * 1e3:.3g} ms an epoch",
+            f"  time      {self.seconds:.3g} s: {self._times()}",
         ]
         if self.validation_loss is not None:
             lines.insert(2, f"  held out  {self.validation_loss:.4g}")

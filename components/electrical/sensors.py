@@ -13,7 +13,7 @@ __modelica__ = "Modelica.Electrical.Analog.Sensors"
 class PotentialSensor(ac.Component):
     """Potential of a pin: ``phi = p.v`` [V]."""
 
-    ICON = icons.SENSOR
+    ICON = icons.meter("V")
 
     p = PositivePin()
     phi = ac.Output(unit="V", doc="potential of the pin")
@@ -26,7 +26,7 @@ class PotentialSensor(ac.Component):
 class VoltageSensor(ac.Component):
     """Voltage between two pins: ``v = p.v - n.v`` [V]; no current flows."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("V")
 
     p = PositivePin()
     n = NegativePin()
@@ -41,7 +41,7 @@ class VoltageSensor(ac.Component):
 class CurrentSensor(ac.Component):
     """Current in a branch: ``i = p.i`` [A]; the voltage is zero."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("A")
 
     p = PositivePin()
     n = NegativePin()
@@ -55,6 +55,8 @@ class CurrentSensor(ac.Component):
 
 class PowerSensor(ac.Component):
     """Power: ``power = v i`` [W] with the voltage from ``pv`` to ``nv`` and the current from ``pc`` to ``nc``."""
+
+    ICON = icons.meter2("W")
 
     pc = PositivePin()
     nc = NegativePin()
@@ -76,6 +78,8 @@ class PowerSensor(ac.Component):
 
 class MultiSensor(PowerSensor):
     """Voltage ``v`` [V] from ``pv`` to ``nv``, current ``i`` [A] from ``pc`` to ``nc`` and ``power = v i`` [W]."""
+
+    ICON = icons.meter2("VA")
 
     i = ac.Output(unit="A", doc="current")
     v = ac.Output(unit="V", doc="voltage")

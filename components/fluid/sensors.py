@@ -66,6 +66,8 @@ class FlowSensor(PartialAdiabatic):
 class PressureSensor(AbsoluteSensor):
     """Absolute pressure: ``y = flowPort.p`` [Pa]."""
 
+    ICON = icons.meter("p")
+
     y = ac.Output(unit="Pa", doc="pressure")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -75,6 +77,8 @@ class PressureSensor(AbsoluteSensor):
 
 class TemperatureSensor(AbsoluteSensor):
     """Absolute temperature of what is mixed at the port: ``y = flowPort.h / cp`` [K]."""
+
+    ICON = icons.meter("T")
 
     cp = ac.Parameter(
         lambda self: self.medium.cp, unit="J/(kg.K)", doc="heat capacity at constant pressure"
@@ -89,6 +93,8 @@ class TemperatureSensor(AbsoluteSensor):
 class RelPressureSensor(RelativeSensor):
     """Pressure drop: ``y = flowPort_a.p - flowPort_b.p`` [Pa]."""
 
+    ICON = icons.meter2("Δp")
+
     y = ac.Output(unit="Pa", doc="pressure drop from a to b")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -98,6 +104,8 @@ class RelPressureSensor(RelativeSensor):
 
 class RelTemperatureSensor(RelativeSensor):
     """Temperature difference: ``y = (flowPort_a.h - flowPort_b.h) / cp`` [K]."""
+
+    ICON = icons.meter2("ΔT")
 
     cp = ac.Parameter(
         lambda self: self.medium.cp, unit="J/(kg.K)", doc="heat capacity at constant pressure"
@@ -112,6 +120,8 @@ class RelTemperatureSensor(RelativeSensor):
 class MassFlowSensor(FlowSensor):
     """Mass flow rate: ``y = flowPort_a.m_flow`` [kg/s]."""
 
+    ICON = icons.meter2("m")
+
     y = ac.Output(unit="kg/s", doc="mass flow rate from a to b")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -122,6 +132,8 @@ class MassFlowSensor(FlowSensor):
 class VolumeFlowSensor(FlowSensor):
     """Volume flow rate: ``y = V_flow`` [m3/s]."""
 
+    ICON = icons.meter2("V")
+
     y = ac.Output(unit="m3/s", doc="volume flow rate from a to b")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -131,6 +143,8 @@ class VolumeFlowSensor(FlowSensor):
 
 class EnthalpyFlowSensor(FlowSensor):
     """Enthalpy flow rate: ``y = flowPort_a.H_flow`` [W]."""
+
+    ICON = icons.meter2("H")
 
     y = ac.Output(unit="W", doc="enthalpy flow rate from a to b")
 

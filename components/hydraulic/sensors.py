@@ -12,7 +12,7 @@ from .water import RHO
 class Pressure(ac.Component):
     """Pressure ``p = port.p`` [Pa]."""
 
-    ICON = icons.SENSOR
+    ICON = icons.meter("p")
 
     port = FluidPort()
     p = ac.Output(unit="Pa", doc="pressure at the port")
@@ -25,7 +25,7 @@ class Pressure(ac.Component):
 class RelativePressure(ac.Component):
     """Pressure drop ``p_rel = port_a.p - port_b.p`` [Pa]."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("Δp")
 
     port_a = FluidPort()
     port_b = FluidPort()
@@ -50,11 +50,15 @@ class PartialFlowSensor(PartialTwoPortTransport):
 class MassFlowRate(PartialFlowSensor):
     """Mass flow rate ``m_flow`` [kg/s] from ``port_a`` to ``port_b``, without a pressure drop."""
 
+    ICON = icons.meter2("m")
+
     m_flow = ac.Output(unit="kg/s", doc="mass flow rate from a to b")
 
 
 class VolumeFlowRate(PartialFlowSensor):
     """Volume flow rate ``V_flow = m_flow / rho`` [m3/s] from ``port_a`` to ``port_b``, without a pressure drop."""
+
+    ICON = icons.meter2("V")
 
     rho = ac.Parameter(RHO, unit="kg/m3", min=0, doc="density of the liquid")
     V_flow = ac.Output(unit="m3/s", doc="volume flow rate from a to b")

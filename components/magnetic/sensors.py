@@ -13,7 +13,7 @@ __modelica__ = "Modelica.Magnetic.FluxTubes.Sensors"
 class MagneticPotentialDifferenceSensor(TwoPortElementary):
     """Magnetic potential difference: ``V_m = port_p.V_m - port_n.V_m`` [A]; no flux passes."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("Θ")
 
     V_m = ac.Output(unit="A", doc="magnetic potential difference")
     Phi = ac.Variable(unit="Wb", doc="magnetic flux from port_p to port_n, zero")
@@ -29,7 +29,7 @@ class MagneticPotentialDifferenceSensor(TwoPortElementary):
 class MagneticFluxSensor(TwoPortElementary):
     """Flux in a branch: ``Phi = port_p.Phi`` [Wb]; ``port_p.V_m = port_n.V_m``."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("Φ")
 
     Phi = ac.Output(unit="Wb", doc="magnetic flux from port_p to port_n")
 

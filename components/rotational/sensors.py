@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import PartialAbsoluteSensor, PartialRelativeSensor
 
@@ -11,6 +12,8 @@ __modelica__ = "Modelica.Mechanics.Rotational.Sensors"
 
 class AngleSensor(PartialAbsoluteSensor):
     """Absolute angle: ``phi = flange.phi`` [rad]."""
+
+    ICON = icons.meter("φ")
 
     phi = ac.Output(unit="rad", doc="absolute angle of the flange")
 
@@ -22,6 +25,8 @@ class AngleSensor(PartialAbsoluteSensor):
 class SpeedSensor(PartialAbsoluteSensor):
     """Absolute speed: ``w = der(flange.phi)`` [rad/s]."""
 
+    ICON = icons.meter("ω")
+
     w = ac.Output(unit="rad/s", doc="absolute speed of the flange")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -31,6 +36,8 @@ class SpeedSensor(PartialAbsoluteSensor):
 
 class AccSensor(PartialAbsoluteSensor):
     """Absolute acceleration: ``a = der(w)`` [rad/s2] with ``w = der(flange.phi)``."""
+
+    ICON = icons.meter("α")
 
     w = ac.Variable(unit="rad/s", doc="absolute speed of the flange")
     a = ac.Output(unit="rad/s2", doc="absolute acceleration of the flange")
@@ -44,6 +51,8 @@ class AccSensor(PartialAbsoluteSensor):
 class RelAngleSensor(PartialRelativeSensor):
     """Relative angle: ``phi_rel = flange_b.phi - flange_a.phi`` [rad]."""
 
+    ICON = icons.meter2("φ")
+
     phi_rel = ac.Output(unit="rad", doc="angle from flange_a to flange_b")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -54,6 +63,8 @@ class RelAngleSensor(PartialRelativeSensor):
 
 class RelSpeedSensor(PartialRelativeSensor):
     """Relative speed: ``w_rel = der(phi_rel)`` [rad/s], ``phi_rel = flange_b.phi - flange_a.phi``."""
+
+    ICON = icons.meter2("ω")
 
     phi_rel = ac.Variable(unit="rad", doc="angle from flange_a to flange_b")
     w_rel = ac.Output(unit="rad/s", doc="relative speed")
@@ -67,6 +78,8 @@ class RelSpeedSensor(PartialRelativeSensor):
 
 class RelAccSensor(PartialRelativeSensor):
     """Relative acceleration: ``a_rel = der(w_rel)`` [rad/s2] with ``w_rel = der(phi_rel)``."""
+
+    ICON = icons.meter2("α")
 
     phi_rel = ac.Variable(unit="rad", doc="angle from flange_a to flange_b")
     w_rel = ac.Variable(unit="rad/s", doc="relative speed")
@@ -91,6 +104,8 @@ class _CutSensor(PartialRelativeSensor):
 class TorqueSensor(_CutSensor):
     """Cut torque: ``tau = flange_a.tau`` [N.m]."""
 
+    ICON = icons.meter2("τ")
+
     tau = ac.Output(unit="N.m", doc="torque in flange_a, = -flange_b.tau")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -101,6 +116,8 @@ class TorqueSensor(_CutSensor):
 class PowerSensor(_CutSensor):
     """Power through the cut: ``power = flange_a.tau der(flange_a.phi)`` [W]."""
 
+    ICON = icons.meter2("W")
+
     power = ac.Output(unit="W", doc="power into flange_a")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -110,6 +127,8 @@ class PowerSensor(_CutSensor):
 
 class MultiSensor(_CutSensor):
     """Speed ``w`` [rad/s], cut torque ``tau`` [N.m] and ``power = tau w`` [W] at once."""
+
+    ICON = icons.meter2("ωτ")
 
     power = ac.Output(unit="W", doc="power into flange_a")
     w = ac.Output(unit="rad/s", doc="absolute speed of the flanges")

@@ -1,6 +1,7 @@
 """Sources, sensors and conversions of temperatures in degrees Celsius."""
 
 import acausal as ac
+from acausal.components import icons
 
 from . import scales, sensors, sources
 
@@ -21,6 +22,8 @@ class PrescribedTemperature(scales.Celsius, sources.PrescribedTemperature):
 
 class TemperatureSensor(scales.Celsius, sensors.TemperatureSensor):
     """Absolute temperature ``T = port.T - 273.15`` [degC]."""
+
+    ICON = icons.meter("T")
 
     T = ac.Output(unit="degC", doc="absolute temperature of the port")
 

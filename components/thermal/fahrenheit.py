@@ -1,6 +1,7 @@
 """Sources, sensors and conversions of temperatures in degrees Fahrenheit."""
 
 import acausal as ac
+from acausal.components import icons
 
 from . import scales, sensors, sources
 
@@ -21,6 +22,8 @@ class PrescribedTemperature(scales.Fahrenheit, sources.PrescribedTemperature):
 
 class TemperatureSensor(scales.Fahrenheit, sensors.TemperatureSensor):
     """Absolute temperature ``T = 9/5 port.T - 459.67`` [degF]."""
+
+    ICON = icons.meter("T")
 
     T = ac.Output(unit="degF", doc="absolute temperature of the port")
 

@@ -1,6 +1,7 @@
 """Sources, sensors and conversions of temperatures in degrees Rankine."""
 
 import acausal as ac
+from acausal.components import icons
 
 from . import scales, sensors, sources
 
@@ -21,6 +22,8 @@ class PrescribedTemperature(scales.Rankine, sources.PrescribedTemperature):
 
 class TemperatureSensor(scales.Rankine, sensors.TemperatureSensor):
     """Absolute temperature ``T = 9/5 port.T`` [degR]."""
+
+    ICON = icons.meter("T")
 
     T = ac.Output(unit="degR", doc="absolute temperature of the port")
 

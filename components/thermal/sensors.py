@@ -14,7 +14,7 @@ __modelica__ = "Modelica.Thermal.HeatTransfer.Sensors"
 class TemperatureSensor(scales.Kelvin):
     """Absolute temperature: ``T = port.T`` [K]."""
 
-    ICON = icons.SENSOR
+    ICON = icons.meter("T")
 
     T = ac.Output(unit="K", doc="absolute temperature of the port")
     port = HeatPort()
@@ -27,7 +27,7 @@ class TemperatureSensor(scales.Kelvin):
 class RelTemperatureSensor(ac.Component):
     """Temperature difference: ``T_rel = port_a.T - port_b.T`` [K]."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("T")
 
     port_a = HeatPort()
     port_b = HeatPort()
@@ -42,7 +42,7 @@ class RelTemperatureSensor(ac.Component):
 class HeatFlowSensor(ac.Component):
     """Heat flow rate: ``Q_flow = port_a.Q_flow`` [W] from ``port_a`` to ``port_b``, which are equally warm."""
 
-    ICON = icons.SENSOR2
+    ICON = icons.meter2("Q")
 
     port_a = HeatPort()
     port_b = HeatPort()

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 import acausal as ac
+from acausal.components import icons
 
 from .interfaces import PartialAbsoluteSensor, PartialRelativeSensor
 
@@ -11,6 +12,8 @@ __modelica__ = "Modelica.Mechanics.Translational.Sensors"
 
 class PositionSensor(PartialAbsoluteSensor):
     """Absolute position: ``s = flange.s`` [m]."""
+
+    ICON = icons.meter("s")
 
     s = ac.Output(unit="m", doc="absolute position of the flange")
 
@@ -22,6 +25,8 @@ class PositionSensor(PartialAbsoluteSensor):
 class SpeedSensor(PartialAbsoluteSensor):
     """Absolute speed: ``v = der(flange.s)`` [m/s]."""
 
+    ICON = icons.meter("v")
+
     v = ac.Output(unit="m/s", doc="absolute speed of the flange")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -31,6 +36,8 @@ class SpeedSensor(PartialAbsoluteSensor):
 
 class AccSensor(PartialAbsoluteSensor):
     """Absolute acceleration: ``a = der(v)`` [m/s2] with ``v = der(flange.s)``."""
+
+    ICON = icons.meter("a")
 
     v = ac.Variable(unit="m/s", doc="absolute speed of the flange")
     a = ac.Output(unit="m/s2", doc="absolute acceleration of the flange")
@@ -44,6 +51,8 @@ class AccSensor(PartialAbsoluteSensor):
 class RelPositionSensor(PartialRelativeSensor):
     """Distance: ``s_rel = flange_b.s - flange_a.s`` [m]."""
 
+    ICON = icons.meter2("s")
+
     s_rel = ac.Output(unit="m", doc="distance from flange_a to flange_b")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -54,6 +63,8 @@ class RelPositionSensor(PartialRelativeSensor):
 
 class RelSpeedSensor(PartialRelativeSensor):
     """Relative speed: ``v_rel = der(s_rel)`` [m/s] with ``s_rel = flange_b.s - flange_a.s``."""
+
+    ICON = icons.meter2("v")
 
     s_rel = ac.Variable(unit="m", doc="distance from flange_a to flange_b")
     v_rel = ac.Output(unit="m/s", doc="relative speed")
@@ -67,6 +78,8 @@ class RelSpeedSensor(PartialRelativeSensor):
 
 class RelAccSensor(PartialRelativeSensor):
     """Relative acceleration: ``a_rel = der(v_rel)`` [m/s2] with ``v_rel = der(s_rel)``."""
+
+    ICON = icons.meter2("a")
 
     s_rel = ac.Variable(unit="m", doc="distance from flange_a to flange_b")
     v_rel = ac.Variable(unit="m/s", doc="relative speed")
@@ -91,6 +104,8 @@ class _CutSensor(PartialRelativeSensor):
 class ForceSensor(_CutSensor):
     """Cut force: ``f = flange_a.f`` [N]."""
 
+    ICON = icons.meter2("f")
+
     f = ac.Output(unit="N", doc="force in flange_a, = -flange_b.f")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -101,6 +116,8 @@ class ForceSensor(_CutSensor):
 class PowerSensor(_CutSensor):
     """Power through the cut: ``power = flange_a.f der(flange_a.s)`` [W]."""
 
+    ICON = icons.meter2("W")
+
     power = ac.Output(unit="W", doc="power into flange_a")
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -110,6 +127,8 @@ class PowerSensor(_CutSensor):
 
 class MultiSensor(_CutSensor):
     """Speed ``v`` [m/s], cut force ``f`` [N] and ``power = f v`` [W] at once."""
+
+    ICON = icons.meter2("vf")
 
     power = ac.Output(unit="W", doc="power into flange_a")
     f = ac.Output(unit="N", doc="force in flange_a, = -flange_b.f")

@@ -40,7 +40,10 @@ def test_eigenvalues_and_damping(linearized: ac.Linearization) -> None:
     expected = -1 + 1j * np.sqrt(99) * np.array([-1, 1])
     np.testing.assert_allclose(linearized.eigenvalues(), expected)
     np.testing.assert_allclose(linearized.damping(), [0.1, 0.1])
-    assert "eigenvalues -1-9.95j, -1+9.95j" in repr(linearized)
+    assert "mode -1 ± 9.95j: 1.592 Hz, damping 0.1\n  A = [[   0.    1.]" in repr(linearized)
+    view = linearized._repr_html_()
+    assert "1.592 Hz" in view
+    assert view.count("<table>") == 4
 
 
 def test_real_eigenvalues_are_complex_numbers_too() -> None:
@@ -50,7 +53,7 @@ def test_real_eigenvalues_are_complex_numbers_too() -> None:
         values, row.T, row, np.zeros((1, 1)), ("a", "b"), ("u",), ("y",), row[0], np.zeros(1)
     )
     assert overdamped.eigenvalues().dtype == complex
-    assert "eigenvalues -2, -3" in repr(overdamped)
+    assert "mode -2: time constant 0.5 s\n  mode -3" in repr(overdamped)
 
 
 def test_frequency_response_of_position_and_acceleration(linearized: ac.Linearization) -> None:

@@ -191,10 +191,13 @@ def test_a_bound_parameter_cannot_be_set():
         system.pack({**system.parameters(), "last.gain": 1.0})
 
 
-def test_modules_must_be_given():
+def test_some_numbers_may_be_given_with_and_without_networks():
     system = ac.compile(Box())
-    with pytest.raises(ac.DataError, match=r"params lacks 'net', 'parts\[1\]\.net'"):
-        system.pack({"c": 1.0})
+    given = system.pack({"c": 1.0})
+    whole = system.pack({**system.parameters(), "c": 1.0})
+    assert eqx.tree_equal(given, whole)
+    with pytest.raises(ac.DataError, match="no parameter 'd'; "):
+        system.pack({"d": 1.0})
 
 
 def test_a_function_that_makes_no_module_is_told():

@@ -143,6 +143,40 @@ def test_check(typed) -> None:
     assert "2 states, 1 input, 3 parameters, 0 networks" in out
 
 
+def test_check_lists_what_nothing_is_connected_to(typed, folder: Path) -> None:
+    path = "acausal.components.translational."
+    parts = {
+        "mass": {"class": path + "Mass", "with": {"m": 1.0}},
+        "spring": {"class": path + "Spring", "with": {"c": 1.0}},
+    }
+    joined = [["mass.flange_b", "spring.flange_a"]]
+    (folder / "free.json").write_text(json.dumps({"components": parts, "connections": joined}))
+    code, out, _ = typed("check", "free.json")
+    assert code == 0
+    assert "nothing is connected to mass.flange_a, spring.flange_b: no flow" in out
+    _, out, _ = typed("check", "free.json", "--json")
+    assert json.loads(out)["unconnected"] == ["mass.flange_a", "spring.flange_b"]
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("page", "oscillator.json", "out"),
+        ("simulate", "oscillator.json", *PUSH, "--out", "out/index.html"),
+        ("export", "oscillator.json", "out/index.mo"),
+        ("fit", "oscillator.json", "a.csv", "--targets", "mass.s", "--report", "out"),
+    ],
+)
+def test_what_exists_is_replaced_only_if_asked(typed, folder: Path, command: tuple[str]) -> None:
+    (folder / "out").mkdir()
+    for name in ("index.html", "index.mo"):
+        (folder / "out" / name).write_text("mine")
+    _, _, err = typed(*command)
+    assert "exists" in err
+    assert "overwrite" in err
+    assert (folder / "out" / "index.html").read_text() == "mine"
+
+
 def test_check_for_programs(typed) -> None:
     code, out, _ = typed("check", "oscillator.json", "--json")
     found = json.loads(out)

@@ -485,3 +485,21 @@ def test_initial_values_by_name():
     assert "m.s" in found
     with pytest.raises(ac.DataError, match=r"'m\.a' is not a state"):
         found["m.a"]
+
+
+def test_a_state_can_be_given_by_another_name():
+    class Twins(ac.Component):
+        x = ac.Variable()
+        other = ac.Variable()
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), -self.x)
+            yield ac.Eq(self.other, -self.x)
+
+    system = ac.compile(Twins())
+    (state,) = system.states
+    alias = "other" if state == "x" else "x"
+    assert float(system.initial_state(x0={alias: 2.0})[0]) == -2.0
+    assert system.initialize(x0={alias: 2.0}).roles == ("given",)
+    with pytest.raises(ac.DataError, match="are the same; give one of them"):
+        system.initial_state(x0={"x": 2.0, "other": -2.0})

@@ -39,7 +39,7 @@ def test_a_path_leads_through_parts_and_lists():
     model.box.grid = [[Mass(m=1.0)], [Mass(m=2.0)]]
     assert model.box.masses[1]._node.path == "box.masses[2]"
     assert model.box.grid[1][0]._node.path == "box.grid[2,1]"
-    assert repr(model.box.masses[0]) == "<Mass 'box.masses[1]'>"
+    assert repr(model.box.masses[0]).startswith("Mass 'box.masses[1]'")
     assert repr(model.box.masses[0].flange_a) == "box.masses[1].flange_a (Flange)"
 
 
@@ -366,3 +366,27 @@ def test_vector_variables_of_connectors():
 def test_numbers_of_numpy_are_numbers():
     assert Device(gain=np.float32(2.0))._node.modifiers["gain"] == 2.0
     assert Device(matrix=np.eye(2))._node.modifiers["matrix"].shape == (2, 2)
+
+
+def test_values_without_a_name_are_refused_with_the_class_and_a_name():
+    with refused(ac.DeclarationError, "Mass takes values by name", "Mass(m=2)"):
+        Mass(2)
+
+
+def test_a_name_in_the_other_case_is_found():
+    with refused(ac.DeclarationError, "did you mean 'm'?"):
+        Mass(M=2.0)
+
+
+@pytest.mark.parametrize("value", [ac.Parameter(2.0), 2.0])
+def test_a_connector_cannot_be_hidden(value: object):
+    with refused(ac.DeclarationError, "Bad.flange_a", "hide the connector"):
+        type("Bad", (Mass,), {"flange_a": value, "__module__": __name__})
+
+
+def test_a_component_shows_its_values_connectors_and_parts():
+    assert str(Mass(m=2.0)).splitlines()[:2] == ["Mass", "  parameters m = 2.0 kg, L = 0.0 m"]
+    model = Model()
+    model.mass = Mass(m=1.0)
+    assert str(model) == "Model\n  parts      mass (Mass)"
+    assert repr(model.mass).startswith("Mass 'mass'\n")

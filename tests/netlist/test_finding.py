@@ -51,3 +51,24 @@ def test_all_classes_are_found_once_each() -> None:
 def test_what_is_no_text_is_refused() -> None:
     with pytest.raises(ac.DataError, match="not a text"):
         ac.find(3)  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("thermostat", "blocks.Hysteresis"),
+        ("pwm", "blocks.Pulse"),
+        ("dc motor", "electrical.RotationalEMF"),
+        ("EMF", "electrical.RotationalEMF"),
+        ("Modelica.Electrical.Analog.Basic.EMF", "electrical.RotationalEMF"),
+        ("freqHz", "blocks.Sine"),
+        ("Modelica.Blocks.Discrete.ZeroOrderHold", "blocks.discrete.ZeroOrderHold"),
+    ],
+)
+def test_what_a_class_is_called_elsewhere_is_found(text: str, name: str) -> None:
+    assert name in ac.find(text).names
+
+
+def test_what_is_called_otherwise_exists() -> None:
+    for path in ac.components.ALSO_CALLED:
+        assert path in ac.find(path.rpartition(".")[2]).names

@@ -60,3 +60,8 @@ def test_a_second_input_of_a_law_of_one_is_not_ignored(network):
 def test_scales_are_positive_numbers(scales):
     with pytest.raises(ac.DeclarationError, match="are magnitudes; give positive numbers"):
         ac.MLP(**scales, key=0)
+
+
+def test_a_network_without_a_key_says_where_keys_come_from():
+    with pytest.raises(ac.DataError, match=r"give key=0.*ac\.Module\(lambda key: "):
+        ac.networks.MLP()

@@ -8,6 +8,7 @@ import pytest
 
 import acausal as ac
 from acausal.codegen import newton
+from acausal.components import blocks as bl
 from acausal.data.record import Data
 from acausal.simulation.solvers import RK4, SOLVERS
 from tests.support.counted import compilations
@@ -564,3 +565,19 @@ def test_a_model_without_a_real_solution_says_so_after_one_search(monkeypatch):
             ac.simulate(system, (0, 1), solver="heun", **steps)
         jax.effects_barrier()
         assert 1000 < next(evaluations) - before < 100_000  # one search takes 25,000
+
+
+@pytest.mark.parametrize("source", [bl.Sine(f=1000.0), bl.Pulse(period=1e-3)])
+def test_points_further_apart_than_a_period_are_warned_of(source: ac.Component) -> None:
+    class Fast(ac.Component):
+        def __init__(self) -> None:
+            super().__init__()
+            self.source, self.lag = source, bl.FirstOrder(T=0.01)
+            self.connect(self.source.y, self.lag.u)
+
+    system = ac.compile(Fast())
+    with pytest.warns(
+        UserWarning, match=r"points of the output are 0\.002 s apart.* about 0\.001 s"
+    ):
+        ac.simulate(system, 1.0)
+    ac.simulate(system, 1.0, saveat=[1.0])

@@ -67,10 +67,21 @@ def test_what_cannot_be_moved_is_refused(system: ac.System, ranges: Any, message
         ranges_of(system, ranges)
 
 
+def test_names_alone_vary_by_a_factor_within_their_bounds(system: ac.System) -> None:
+    (spring,) = ranges_of(system, ["spring.c"])
+    assert (spring.low, spring.high) == (12.5, 200.0)
+    with pytest.raises(ac.DataError, match="the least and the largest value"):
+        ranges_of(system, ["push.f"])
+    with pytest.raises(
+        ac.DataError, match=r"not a time; give it first, ac\.sliders\(system, 10\.0, "
+    ):
+        ac.sliders(system, ["spring.c"])  # pyright: ignore
+
+
 def test_widgets_follow(system: ac.System) -> None:
     pytest.importorskip("ipywidgets")
     box = ac.sliders(
-        system, {"spring.c": (1.0, 100.0)}, (0.0, 1.0), dt=0.01, inputs={"push.f": 1.0}
+        system, (0.0, 1.0), {"spring.c": (1.0, 100.0)}, dt=0.01, inputs={"push.f": 1.0}
     )
     knob, picture = box.children
     before = picture.value

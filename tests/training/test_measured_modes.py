@@ -93,6 +93,18 @@ def test_only_discrete_variables_are_given(names: Any, message: str) -> None:
         ac.compile(Thermostat(), inputs=names)
 
 
+def test_an_input_is_not_given_again() -> None:
+    class Driven(ac.Component):
+        u = ac.Input()
+        x = ac.Variable()
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), self.u)
+
+    with pytest.raises(ac.ModelError, match="'u' is an input already; leave it out"):
+        ac.compile(Driven(), inputs=["u"])
+
+
 def test_a_mode_alone_is_no_target() -> None:
     ts = np.linspace(0.0, 1.0, 11)
     data = ac.Data(ts, {"n": np.floor(2 * ts), "h": 1 - ts, "v": -ts})

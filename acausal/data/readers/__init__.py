@@ -8,8 +8,8 @@ from acausal.data.readers.data_frame import (
     data_frame as data_frame,
     frame_units as frame_units,
     is_data_frame as is_data_frame,
-    read_data_frame as read_data_frame,
     read_parquet as read_parquet,
+    read_runs as read_runs,
 )
 from acausal.data.readers.files import files as files
 from acausal.data.readers.mat_file import read_mat as read_mat

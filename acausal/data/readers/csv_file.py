@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from acausal.data.readers.csv_dialect import Dialect, dialect_of
 from acausal.data.readers.table import Selection, Table, headers, need_time
@@ -32,8 +32,8 @@ def read_csv(
     separator: str | None = None,
     decimal: str | None = None,
     encoding: str = "utf-8-sig",
-) -> Table:
-    """A table from a file whose first line that is not blank names the columns.
+) -> Table | dict[str, Table]:
+    """A table from a file whose first line that is not blank names the columns; or one of each run, by name.
 
     Raises:
         DataError: for a file that cannot be read, with the line's number.
@@ -57,7 +57,7 @@ def read_csv(
 
 def _read(
     file: TextIO, path: Path, selection: Selection, separator: str | None, decimal: str | None
-) -> Table:
+) -> Table | dict[str, Table]:
     lines = enumerate(file, 1)
     number, header = next(((n, line) for n, line in lines if line.strip()), (0, ""))
     if not number:
@@ -68,22 +68,32 @@ def _read(
     names, units = headers(dialect.header(header), f"{path}, line {number}")
     need_time(selection, names, str(path))
     chosen = [selection.time, *selection.names(names, str(path))]
-    blocks = [
-        _numbers(block, [names.index(n) for n in chosen], names, dialect, path)
-        for block in _blocks(head, lines)
-    ]
-    columns = {
-        name: np.concatenate([block[:, i] for block in blocks]) for i, name in enumerate(chosen)
-    }
+    blocks, runs = list[Float[np.ndarray, "rows columns"]](), list[str]()
+    for block in _blocks(head, lines):
+        blocks.append(_numbers(block, [names.index(n) for n in chosen], names, dialect, path))
+        if selection.group is not None:
+            place = names.index(selection.group)
+            runs += [dialect.cells(line)[place].strip() for _, line in block if line.strip()]
+    values = np.concatenate(blocks)
     unit_of_time = {"time": units[selection.time]} if selection.time in units else {}
     units = {n: u for n, u in units.items() if n != selection.time} | unit_of_time
-    return selection.table(
-        columns.pop(selection.time),
-        columns,
-        units,
-        str(path),
-        lambda row: f"line {_line_of(path, row, file.encoding)}",
-    )
+
+    def table(rows: Int[np.ndarray, " rows"], source: str) -> Table:
+        columns = dict(zip(chosen, values[rows].T, strict=True))
+        return selection.table(
+            columns.pop(selection.time),
+            columns,
+            units,
+            source,
+            lambda row: f"line {_line_of(path, int(rows[row]), file.encoding)}",
+        )
+
+    if selection.group is None:
+        return table(np.arange(len(values)), str(path))
+    return {
+        run: table(np.flatnonzero(np.asarray(runs) == run), f"{path}, run '{run}'")
+        for run in dict.fromkeys(runs)
+    }
 
 
 def _blocks(

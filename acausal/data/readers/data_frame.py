@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 import numpy as np
 
 from acausal.data.readers.table import Selection, Table, headers, library, need_time, seconds
-from acausal.errors import DataError, reason, shown
+from acausal.errors import DataError, nearest, reason, shown
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Index
@@ -51,6 +51,20 @@ def read_data_frame(frame: object, selection: Selection, source: str = "") -> Ta
     return selection.table(seconds(time), signals, units, source)
 
 
+def read_runs(frame: object, selection: Selection, source: str = "") -> Table | dict[str, Table]:
+    """`read_data_frame`, with a table of each run where the selection has a column that names them."""
+    if selection.group is None or not is_data_frame(frame):
+        return read_data_frame(frame, selection, source)
+    if selection.group not in frame.columns:
+        known = [n for n in frame.columns if isinstance(n, str)]
+        raise DataError(
+            f"{source or 'The data frame'} has no column '{selection.group}': {nearest(selection.group, known)}"
+        )
+    parts = frame.groupby(selection.group, sort=False)
+    what = f"{source}, run" if source else "Run"
+    return {str(run): read_data_frame(part, selection, f"{what} '{run}'") for run, part in parts}
+
+
 def frame_units(signals: object) -> dict[str, str] | None:
     """Units in the attributes of a data frame with a column for each signal; None where there are none."""
     if not is_data_frame(signals):
@@ -58,8 +72,8 @@ def frame_units(signals: object) -> dict[str, str] | None:
     return _units(signals, {n: n for n in signals.columns if isinstance(n, str)}) or None
 
 
-def read_parquet(path: Path, selection: Selection) -> Table:
-    """A table from a Parquet file; the units are those that its data frame had."""
+def read_parquet(path: Path, selection: Selection) -> Table | dict[str, Table]:
+    """A table, or one of each run, from a Parquet file; the units are those that its data frame had."""
     pandas = library("pandas", "parquet", "A Parquet file")
     library("pyarrow", "parquet", "A Parquet file")
     try:
@@ -68,7 +82,7 @@ def read_parquet(path: Path, selection: Selection) -> Table:
         raise DataError(f"{path} cannot be read: {reason(e)}.") from None
     except Exception as e:  # pyarrow has errors of its own for each way in which a file is broken
         raise DataError(f"{path} is not a Parquet file: {shown(str(e))}.") from None
-    return read_data_frame(frame, selection, str(path))
+    return read_runs(frame, selection, str(path))
 
 
 def data_frame(

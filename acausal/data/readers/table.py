@@ -46,12 +46,14 @@ class Selection:
         columns: the columns to read, besides the times; by default all.
         rename: names in the source, and what they are called in the record.
         units: units by name in the record; these count, not those of the source.
+        group: name of a column that says which run a row belongs to; each run is a table of its own then.
     """
 
     time: str = "time"
     columns: Sequence[str] | None = None
     rename: Mapping[str, str] | None = None
     units: Mapping[str, str] | None = None
+    group: str | None = None
 
     def names(self, known: Collection[str], source: str) -> list[str]:
         """The columns to read, without that of the times.
@@ -64,10 +66,11 @@ class Selection:
                 f"rename={shown(self.rename)} has no names; give {{'column': 'mass.s'}}."
             )
         columns = None if self.columns is None else names_in(self.columns, "columns")
-        for name in (*(columns or ()), *names_in(self.rename or (), "rename")):
+        group = () if self.group is None else names_in(self.group, "group")
+        for name in (*(columns or ()), *names_in(self.rename or (), "rename"), *group):
             if name not in known:
                 raise DataError(f"{source} has no column '{name}': {nearest(name, known)}")
-        return [n for n in (known if columns is None else columns) if n != self.time]
+        return [n for n in (known if columns is None else columns) if n not in (self.time, *group)]
 
     def table(
         self,

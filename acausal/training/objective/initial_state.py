@@ -160,12 +160,8 @@ def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
         if x0 == "fit" and not trained:
             return Start(MODEL, measured)
         return Start(KINDS.index(x0), np.full(len(system.states), np.nan))
-    given: Mapping[str, float] = {} if isinstance(x0, str) else x0
+    given = system.initializer.by_state({} if isinstance(x0, str) else x0)
     for name, value in given.items():
-        if name not in system.states:
-            raise DataError(
-                f"x0: '{name}' is not a state of the model: {nearest(name, system.states)}"
-            )
         if not is_number(value):
             raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
     state = np.array([given.get(n, v) for n, v in zip(system.states, measured, strict=True)], float)

@@ -294,3 +294,18 @@ def test_a_large_file_is_not_held_as_python_numbers(write):
     record = 3 * 8 * n
     peak = peak_of(lambda: ac.Data.from_csv(path, columns=["x"]))
     assert peak <= 2 * record + 20e6  # a block of lines as text
+
+
+def test_a_column_names_the_runs(write):
+    """Runs may be interleaved, and each has its own times."""
+    path = write("run,time,x\nwarm,0,1\nwarm,1,2\ncold,0,3\ncold,0.5,4\nwarm,2,5\n")
+    runs = ac.Data.from_csv(path, group="run")
+    assert list(runs) == ["warm", "cold"]
+    assert runs["warm"]["x"].tolist() == [1, 2, 5]
+    assert runs["cold"].time.tolist() == [0, 0.5]
+    assert "no column 'ru': did you mean 'run'?" in refused(
+        lambda: ac.Data.from_csv(path, group="ru")
+    )
+    broken = write("run,time,x\nwarm,0,1\ncold,0,\nwarm,2,5\ncold,1,2\n")
+    assert "run 'cold'" in (told := refused(lambda: ac.Data.from_csv(broken, group="run")))
+    assert "line 3" in told

@@ -279,3 +279,15 @@ def test_a_library_that_is_absent_is_named(tmp_path, monkeypatch, module, extra,
     assert refused(lambda: call(tmp_path / "file")).endswith(
         f"needs {module}: pip install 'acausal[{extra}]'."
     )
+
+
+def test_a_column_of_a_data_frame_names_the_runs():
+    pd = pytest.importorskip("pandas")
+    frame = pd.DataFrame(
+        {"run": [2, 1, 2, 1], "time": [0.0, 0.0, 1.0, 1.0], "x": [1.0, 2.0, 3.0, 4.0]}
+    )
+    runs = ac.Data.from_dataframe(frame, group="run")
+    assert list(runs) == ["2", "1"]
+    assert runs["2"]["x"].tolist() == [1.0, 3.0]
+    with pytest.raises(ac.DataError, match="no column 'Run': did you mean 'run'"):
+        ac.Data.from_dataframe(frame, group="Run")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.simulation.log import LOG, Log
+from acausal.simulation.log import LOG, EventList, Log, _effect
 from tests.support.hybrid import GRAVITY, Ball, Thermostat
 
 FALL = (2 / GRAVITY) ** 0.5
@@ -53,6 +53,31 @@ def test_events_name_the_component_and_what_has_changed(run: Any) -> None:
     assert jump.before == jump.after == {}
     switched = [e for e in run.events if e.component == "zone"][-1]
     assert (switched.before, switched.after) == ({"zone.on": 1.0}, {"zone.on": 0.0})
+
+
+def test_events_print_what_happened_a_line_each(run: Any) -> None:
+    first = str(run.events).splitlines()[0]
+    assert first.endswith("ball.v -4.429 → 3.544; ball.n 0 → 1")
+    many = str(EventList(run.events[:1] * 100)).splitlines()
+    assert len(many) == 19
+    assert many[-1] == "... and 82 more"
+
+
+def test_an_event_is_told_in_the_words_of_what_came_true() -> None:
+    class Contact(ac.Component):
+        mode = ac.Discrete(0, kind="int", doc="0 stuck, 1 sliding")
+        begins = ac.Discrete(0, kind="bool", doc="1 where sliding begins")
+        count = ac.Discrete(0, kind="int")
+        x = ac.Variable(start=0.0, fixed=True)
+
+        def equations(self) -> Iterator[Any]:
+            yield ac.Eq(ac.der(self.x), 1)
+            yield ac.When(self.x > 1, *(ac.Eq(v, 1) for v in (self.mode, self.begins, self.count)))
+
+    system = ac.compile(Contact())
+    before = {"mode": 0.0, "begins": 0.0, "count": 0.0}
+    assert _effect(system, before, dict.fromkeys(before, 1.0)) == "sliding; sliding begins"
+    assert _effect(system, {"begins": 1.0}, {"begins": 0.0}) == "begins becomes false"
 
 
 def test_any_variable_on_both_sides_of_an_instant(run: Any) -> None:
