@@ -5,6 +5,7 @@ from types import ModuleType
 from typing import Any
 
 from . import constants
+from .arrays import ARRAYS
 from .fluid import media
 from .magnetic import hard_magnetic, soft_magnetic
 from .translational.utilities import GenerateStribeckFrictionTable
@@ -25,6 +26,7 @@ RECORDS: dict[str, Any] = {
 """Name -> record or number; `BaseData` is that of soft magnetic materials."""
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **ARRAYS,
     "GenerateStribeckFrictionTable": GenerateStribeckFrictionTable,
 }
-"""Name -> function of numbers."""
+"""Name -> function of numbers or arrays."""

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex
 
 import acausal as ac
+from acausal.components.blocks.surfaces import Surface as Surface
 from acausal.modeling.declarations import (
     Input as BooleanInput,
     Input as BooleanVectorInput,
@@ -234,8 +235,10 @@ __all__ = [
     "StateSpace",
     "Step",
     "Sum",
+    "Surface",
     "Switch",
     "Switching",
+    "TableData",
     "Tan",
     "Tanh",
     "TerminateSimulation",
@@ -578,25 +581,6 @@ class PartialBooleanMISO(ac.Component):
     """output signal, 1 or 0"""
     def __init__(self, **modifiers: Any) -> None: ...
 
-class PartialColumns(ac.Component):
-    """What tables with several columns of values share."""
-
-    table: ClassVar[ac.Option]
-    """rows of the argument and values"""
-    columns: ClassVar[ac.Option]
-    """columns of the table that are outputs, counted from 1"""
-    smoothness: ClassVar[ac.Option]
-    """kind of interpolation"""
-    extrapolation: ClassVar[ac.Option]
-    """what holds outside of the table"""
-    tableOnFile: ClassVar[ac.Option]
-    """tables on files are not read"""
-    verboseRead: ClassVar[ac.Option]
-    """without effect"""
-    verboseExtrapolation: ClassVar[ac.Option]
-    """without effect"""
-    def __init__(self, **modifiers: Any) -> None: ...
-
 class PartialStart(ac.Component):
     """What blocks with one state ``y`` share: ``initType`` and ``y_start``."""
 
@@ -821,6 +805,38 @@ class Switching(ac.Component):
     """output for each"""
     def __init__(self, *, expr: Sequence[Any] | None = ..., **modifiers: Any) -> None: ...
 
+class TableData(ac.Component):
+    """A table that is given by its rows, or lies in a file."""
+
+    table: ClassVar[ac.Option]
+    """rows of the argument and values"""
+    tableOnFile: ClassVar[ac.Option]
+    """whether the table lies in a file"""
+    tableName: ClassVar[ac.Option]
+    """name of the table in the file"""
+    fileName: ClassVar[ac.Option]
+    """path of the file"""
+    delimiter: ClassVar[ac.Option]
+    """what separates the numbers in a file .csv"""
+    nHeaderLines: ClassVar[ac.Option]
+    """lines at the begin of a file .csv without numbers"""
+    verboseRead: ClassVar[ac.Option]
+    """without effect"""
+    verboseExtrapolation: ClassVar[ac.Option]
+    """without effect"""
+    def __init__(
+        self,
+        *,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
+    ) -> None: ...
+
 class TerminateSimulation(ac.Component):
     """Tells that a condition has come true: ``terminated`` is 1 from then on."""
 
@@ -1003,30 +1019,6 @@ class BooleanToReal(SISO):
         realFalse: SupportsFloat | ac.Start = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
-    ) -> None: ...
-
-class CombiTable1Ds(PartialColumns):
-    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u``."""
-
-    u: ClassVar[ac.Input]
-    """argument"""
-    y: ClassVar[ac.Output]
-    """values"""
-    def __init__(
-        self,
-        *,
-        table: Any = ...,
-        columns: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
-        extrapolation: Literal[
-            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
-        ] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
-        u: ac.Start | Mapping[str, Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
-        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Constant(SO):
@@ -1947,6 +1939,17 @@ class PadeDelay(SISO):
         x: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class PartialColumns(TableData):
+    """What tables with several columns of values share."""
+
+    columns: ClassVar[ac.Option]
+    """columns of the table that are outputs, counted from 1"""
+    smoothness: ClassVar[ac.Option]
+    """kind of interpolation"""
+    extrapolation: ClassVar[ac.Option]
+    """what holds outside of the table"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
 class PartialConversionBlock(SISO):
     """Base of unit conversions: ``y = factor (u + shift)``."""
     def __init__(self, **modifiers: Any) -> None: ...
@@ -2152,7 +2155,16 @@ class SampledSignal(SO):
         ts: Any = ...,
         dt: Any = ...,
         startTime: Any = ...,
-        interpolation: Literal["linear", "previous", "cubic", "band-limited"] = ...,
+        interpolation: Literal[
+            "linear",
+            "previous",
+            "cubic",
+            "akima",
+            "modified-akima",
+            "monotone",
+            "steffen",
+            "band-limited",
+        ] = ...,
         extrapolation: Literal["hold", "linear", "periodic"] = ...,
         signal: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
@@ -2490,86 +2502,39 @@ class Change(SISO):
         held: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CombiTable1Dv(PartialColumns, MIMOs):
-    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u[i]``."""
+class CombiTable1Ds(PartialColumns):
+    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u``."""
+
+    u: ClassVar[ac.Input]
+    """argument"""
+    y: ClassVar[ac.Output]
+    """values"""
     def __init__(
         self,
         *,
         table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
         columns: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
+        smoothness: Literal[
+            "LinearSegments",
+            "ConstantSegments",
+            "ContinuousDerivative",
+            "ModifiedContinuousDerivative",
+            "MonotoneContinuousDerivative1",
+            "MonotoneContinuousDerivative2",
+        ] = ...,
         extrapolation: Literal[
             "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
         ] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
-    ) -> None: ...
-
-class CombiTable2Ds(SI2SO):
-    """Interpolation in a table of two arguments: ``y`` is its value at ``u1``, ``u2``."""
-
-    table: ClassVar[ac.Option]
-    """grid and values"""
-    smoothness: ClassVar[ac.Option]
-    """kind of interpolation"""
-    extrapolation: ClassVar[ac.Option]
-    """what holds outside of the table"""
-    tableOnFile: ClassVar[ac.Option]
-    """tables on files are not read"""
-    verboseRead: ClassVar[ac.Option]
-    """without effect"""
-    verboseExtrapolation: ClassVar[ac.Option]
-    """without effect"""
-    surface: ClassVar[ac.Module]
-    def __init__(
-        self,
-        *,
-        table: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments"] = ...,
-        extrapolation: Literal["HoldLastPoint", "LastTwoPoints", "NoExtrapolation"] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
-        surface: Callable[..., Any] = ...,
-        u1: ac.Start | Mapping[str, Any] = ...,
-        u2: ac.Start | Mapping[str, Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
-    ) -> None: ...
-
-class CombiTable2Dv(MI2MO):
-    """The same table for ``n`` pairs of arguments: ``y[i]`` is its value at ``u1[i]``, ``u2[i]``."""
-
-    table: ClassVar[ac.Option]
-    """grid and values"""
-    smoothness: ClassVar[ac.Option]
-    """kind of interpolation"""
-    extrapolation: ClassVar[ac.Option]
-    """what holds outside of the table"""
-    tableOnFile: ClassVar[ac.Option]
-    """tables on files are not read"""
-    verboseRead: ClassVar[ac.Option]
-    """without effect"""
-    verboseExtrapolation: ClassVar[ac.Option]
-    """without effect"""
-    surface: ClassVar[ac.Module]
-    def __init__(
-        self,
-        *,
-        table: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments"] = ...,
-        extrapolation: Literal["HoldLastPoint", "LastTwoPoints", "NoExtrapolation"] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
-        n: SupportsIndex = ...,
-        surface: Callable[..., Any] = ...,
-        u1: ac.Start | Mapping[str, Any] = ...,
-        u2: ac.Start | Mapping[str, Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class ContinuousClock(SignalSource):
@@ -3303,35 +3268,6 @@ class Tanh(SISO):
         self, *, u: ac.Start | Mapping[str, Any] = ..., y: ac.Start | Mapping[str, Any] = ...
     ) -> None: ...
 
-class TimeTable(SO):
-    """Linear interpolation in rows ``[t, y]``; a repeated time is a jump."""
-
-    table: ClassVar[ac.Option]
-    """rows of time and values"""
-    timeScale: ClassVar[ac.Parameter]
-    """unit of the table's times [s]"""
-    startTime: ClassVar[ac.Parameter]
-    """the output is the offset before [s]"""
-    shiftTime: ClassVar[ac.Parameter]
-    """time of the table's zero [s]"""
-    passed: ClassVar[ac.Variable]
-    """number of jumps and corners that lie behind"""
-    offset: ClassVar[ac.Parameter]
-    """offset of the output"""
-    column: ClassVar[ac.Module]
-    def __init__(
-        self,
-        *,
-        timeScale: SupportsFloat | ac.Start = ...,
-        startTime: SupportsFloat | ac.Start = ...,
-        shiftTime: SupportsFloat | ac.Start = ...,
-        offset: SupportsFloat | ac.Start = ...,
-        table: Any = ...,
-        column: Callable[..., Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
-        passed: ac.Start | Mapping[str, Any] = ...,
-    ) -> None: ...
-
 class To_bar(PartialConversionBlock):
     """Pascals to bars."""
 
@@ -3496,41 +3432,93 @@ class BooleanChange(Change):
         held: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CombiTimeTable(PartialColumns, MO):
-    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``."""
-
-    timeScale: ClassVar[ac.Parameter]
-    """unit of the table's times [s]"""
-    startTime: ClassVar[ac.Parameter]
-    """the output is the offset before [s]"""
-    shiftTime: ClassVar[ac.Parameter]
-    """time of the table's zero [s]"""
-    passed: ClassVar[ac.Variable]
-    """number of jumps and corners that lie behind"""
-    timeEvents: ClassVar[ac.Option]
-    """where steps end in models with events"""
-    offset: ClassVar[ac.Parameter]
-    """offsets of the outputs, or one for all"""
+class CombiTable1Dv(PartialColumns, MIMOs):
+    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u[i]``."""
     def __init__(
         self,
         *,
-        timeScale: SupportsFloat | ac.Start = ...,
-        startTime: SupportsFloat | ac.Start = ...,
-        shiftTime: SupportsFloat | ac.Start = ...,
-        offset: SupportsFloat | Iterable[Any] = ...,
         table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
         columns: Any = ...,
+        smoothness: Literal[
+            "LinearSegments",
+            "ConstantSegments",
+            "ContinuousDerivative",
+            "ModifiedContinuousDerivative",
+            "MonotoneContinuousDerivative1",
+            "MonotoneContinuousDerivative2",
+        ] = ...,
+        extrapolation: Literal[
+            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
+        ] = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class CombiTable2Ds(SI2SO, TableData):
+    """Interpolation in a table of two arguments: ``y`` is its value at ``u1``, ``u2``."""
+
+    smoothness: ClassVar[ac.Option]
+    """kind of interpolation"""
+    extrapolation: ClassVar[ac.Option]
+    """what holds outside of the table"""
+    surface: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
         smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
         extrapolation: Literal[
             "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
         ] = ...,
-        tableOnFile: Literal[False] = ...,
+        surface: Callable[..., Any] = ...,
+        u1: ac.Start | Mapping[str, Any] = ...,
+        u2: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class CombiTable2Dv(MI2MO, TableData):
+    """The same table for ``n`` pairs of arguments: ``y[i]`` is its value at ``u1[i]``, ``u2[i]``."""
+
+    smoothness: ClassVar[ac.Option]
+    """kind of interpolation"""
+    extrapolation: ClassVar[ac.Option]
+    """what holds outside of the table"""
+    surface: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
         verboseRead: bool = ...,
         verboseExtrapolation: bool = ...,
-        timeEvents: Literal["Always", "AtDiscontinuities", "NoTimeEvents"] = ...,
+        smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
+        extrapolation: Literal[
+            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
+        ] = ...,
+        n: SupportsIndex = ...,
+        surface: Callable[..., Any] = ...,
+        u1: ac.Start | Mapping[str, Any] = ...,
+        u2: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
-        passed: ac.Start | Mapping[str, Any] = ...,
-        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Cosine(SignalSource):
@@ -3754,6 +3742,40 @@ class Sine(SignalSource):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class TimeTable(SO, TableData):
+    """Linear interpolation in rows ``[t, y]``; a repeated time is a jump."""
+
+    timeScale: ClassVar[ac.Parameter]
+    """unit of the table's times [s]"""
+    startTime: ClassVar[ac.Parameter]
+    """the output is the offset before [s]"""
+    shiftTime: ClassVar[ac.Parameter]
+    """time of the table's zero [s]"""
+    passed: ClassVar[ac.Variable]
+    """number of jumps and corners that lie behind"""
+    offset: ClassVar[ac.Parameter]
+    """offset of the output"""
+    column: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        timeScale: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        shiftTime: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | ac.Start = ...,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
+        column: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class Trapezoid(SignalSource):
     """In each period: ``rising``, at ``amplitude`` for ``width``, ``falling`` [s], then 0."""
 
@@ -3787,6 +3809,54 @@ class Trapezoid(SignalSource):
         y: ac.Start | Mapping[str, Any] = ...,
         count: ac.Start | Mapping[str, Any] = ...,
         T_start: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class CombiTimeTable(PartialColumns, MO):
+    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``."""
+
+    timeScale: ClassVar[ac.Parameter]
+    """unit of the table's times [s]"""
+    startTime: ClassVar[ac.Parameter]
+    """the output is the offset before [s]"""
+    shiftTime: ClassVar[ac.Parameter]
+    """time of the table's zero [s]"""
+    passed: ClassVar[ac.Variable]
+    """number of jumps and corners that lie behind"""
+    timeEvents: ClassVar[ac.Option]
+    """where steps end in models with events"""
+    offset: ClassVar[ac.Parameter]
+    """offsets of the outputs, or one for all"""
+    def __init__(
+        self,
+        *,
+        timeScale: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        shiftTime: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | Iterable[Any] = ...,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
+        columns: Any = ...,
+        smoothness: Literal[
+            "LinearSegments",
+            "ConstantSegments",
+            "ContinuousDerivative",
+            "ModifiedContinuousDerivative",
+            "MonotoneContinuousDerivative1",
+            "MonotoneContinuousDerivative2",
+        ] = ...,
+        extrapolation: Literal[
+            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
+        ] = ...,
+        timeEvents: Literal["Always", "AtDiscontinuities", "NoTimeEvents"] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class DeMultiplex6(DeMultiplex5):
