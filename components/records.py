@@ -8,6 +8,7 @@ from . import constants
 from .arrays import ARRAYS
 from .fluid import media
 from .magnetic import hard_magnetic, soft_magnetic
+from .magnetic.hysteresis_data import EVERETT
 from .translational.utilities import GenerateStribeckFrictionTable
 
 
@@ -22,8 +23,9 @@ RECORDS: dict[str, Any] = {
     **_records(media),
     **_records(hard_magnetic),
     **_records(soft_magnetic),
+    **{f"HysteresisEverettParameter.{name}": material for name, material in EVERETT.items()},
 }
-"""Name -> record or number; `BaseData` is that of soft magnetic materials."""
+"""Name -> record or number; `BaseData` is that of soft magnetic materials. Two words where one would be two records."""
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **ARRAYS,

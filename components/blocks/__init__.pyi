@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex
 
 import acausal as ac
-from acausal.components.blocks.surfaces import Surface as Surface
 from acausal.modeling.declarations import (
     Input as BooleanInput,
     Input as BooleanVectorInput,
@@ -30,8 +29,10 @@ __all__ = [
     "Add3",
     "And",
     "Asin",
+    "AssertCondition",
     "Atan",
     "Atan2",
+    "BandLimitedWhiteNoise",
     "BooleanChange",
     "BooleanConstant",
     "BooleanExpression",
@@ -82,6 +83,7 @@ __all__ = [
     "Exp",
     "ExpSine",
     "Exponentials",
+    "Exponentiation",
     "ExtractSignal",
     "Extractor",
     "FallingEdge",
@@ -103,6 +105,7 @@ __all__ = [
     "From_minute",
     "From_rpm",
     "Gain",
+    "GlobalSeed",
     "Greater",
     "GreaterEqual",
     "GreaterEqualThreshold",
@@ -170,6 +173,7 @@ __all__ = [
     "Nand",
     "NeedsDiscreteStates",
     "Nor",
+    "NormalNoise",
     "Not",
     "OnOffController",
     "Or",
@@ -182,6 +186,7 @@ __all__ = [
     "PartialConversionBlock",
     "PartialIntegerMISO",
     "PartialIntegerSISO",
+    "PartialNoise",
     "PartialRealMISO",
     "PartialStart",
     "PartialState",
@@ -235,7 +240,6 @@ __all__ = [
     "StateSpace",
     "Step",
     "Sum",
-    "Surface",
     "Switch",
     "Switching",
     "TableData",
@@ -261,6 +265,8 @@ __all__ = [
     "TransferFunction",
     "Trapezoid",
     "TriggeredTrapezoid",
+    "TruncatedNormalNoise",
+    "UniformNoise",
     "VariableDelay",
     "VariableLimiter",
     "Variance",
@@ -279,6 +285,26 @@ __all__ = [
     "partialBooleanSource",
     "partialBooleanThresholdComparison",
 ]
+
+class AssertCondition(ac.Component):
+    """Tells that its input has been false: ``failed`` is 1 from then on."""
+
+    message: ClassVar[ac.Option]
+    """what it means if the input is false"""
+    assertionLevel: ClassVar[ac.Option]
+    """without effect"""
+    u: ClassVar[ac.Input]
+    """what should be true, 1 or 0"""
+    failed: ClassVar[ac.Discrete]
+    """whether the input has been false"""
+    def __init__(
+        self,
+        *,
+        message: Any = ...,
+        assertionLevel: Literal["error", "warning"] = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        failed: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
 
 class BooleanValue(ac.Component):
     """``showActive`` is the input ``activePort``, or without ``use_activePort`` the truth value ``active``."""
@@ -336,6 +362,23 @@ class DiscreteBlock(ac.Component):
     firstTrigger: ClassVar[ac.Discrete]
     """true after the first sample"""
     def __init__(self, **modifiers: Any) -> None: ...
+
+class GlobalSeed(ac.Component):
+    """The seed of all noise in the component that it is a part of, and below."""
+
+    enableNoise: ClassVar[ac.Option]
+    """whether noise blocks give noise"""
+    useAutomaticSeed: ClassVar[ac.Option]
+    """runs are reproducible: change fixedSeed instead"""
+    fixedSeed: ClassVar[ac.Option]
+    """seed, any whole number"""
+    def __init__(
+        self,
+        *,
+        enableNoise: bool = ...,
+        useAutomaticSeed: Literal[False] = ...,
+        fixedSeed: SupportsIndex = ...,
+    ) -> None: ...
 
 class Harmonic(ac.Component):
     """The ``k``-th harmonic of the input over each period ``1/f``: ``sqrt(2) y_rms cos(2 pi k f t - y_arg)``."""
@@ -1192,6 +1235,19 @@ class Division(SI2SO):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class Exponentiation(SISO):
+    """``y = u**exponent``; ``u > 0`` unless the exponent is a whole number."""
+
+    exponent: ClassVar[ac.Option]
+    """exponent"""
+    def __init__(
+        self,
+        *,
+        exponent: SupportsIndex = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class ExtractSignal(MIMO):
     """``y[i] = u[extract[i]]``; ``extract`` counts from 1 and is ``1, 2, ..., nout`` by default."""
 
@@ -1958,6 +2014,29 @@ class PartialIntegerMISO(PartialBooleanMISO):
     """``nu`` inputs ``u`` that are integers, one output ``y``."""
     def __init__(self, **modifiers: Any) -> None: ...
 
+class PartialNoise(SO):
+    """What noise shares: a new number at ``startTime`` and every ``samplePeriod`` [s] after it, ``y_off`` before."""
+
+    samplePeriod: ClassVar[ac.Parameter]
+    """time between two numbers [s]"""
+    enableNoise: ClassVar[ac.Option]
+    """whether there is noise; else y = y_off"""
+    y_off: ClassVar[ac.Parameter]
+    """output without noise"""
+    useGlobalSeed: ClassVar[ac.Option]
+    """whether the global seed counts"""
+    useAutomaticLocalSeed: ClassVar[ac.Option]
+    """whether the local seed follows from the name"""
+    fixedLocalSeed: ClassVar[ac.Option]
+    """local seed otherwise, any whole number"""
+    startTime: ClassVar[ac.Parameter]
+    """time of the first number [s]"""
+    length: ClassVar[ac.Option]
+    """numbers until they repeat"""
+    numbers: ClassVar[ac.Module]
+    """numbers over the count of samples"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
 class PartialRealMISO(PartialBooleanMISO):
     """``nu`` inputs ``u``, one output ``y``."""
 
@@ -2223,8 +2302,12 @@ class StateSpace(MIMO):
     """type of initialization"""
     x_start: ClassVar[ac.Parameter]
     """initial or guess values of the states"""
+    y_start: ClassVar[ac.Parameter]
+    """initial values of the outputs"""
     x: ClassVar[ac.Variable]
     """states"""
+    multiplier: ClassVar[ac.Variable]
+    """of the conditions on the outputs at the start"""
     def __init__(
         self,
         *,
@@ -2233,10 +2316,12 @@ class StateSpace(MIMO):
         C: SupportsFloat | Iterable[Any] = ...,
         D: SupportsFloat | Iterable[Any] = ...,
         x_start: SupportsFloat | Iterable[Any] = ...,
-        initType: Literal["NoInit", "SteadyState", "InitialState"] = ...,
+        y_start: SupportsFloat | Iterable[Any] = ...,
+        initType: Literal["NoInit", "SteadyState", "InitialState", "InitialOutput"] = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         x: ac.Start | Mapping[str, Any] = ...,
+        multiplier: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Sum(MISO):
@@ -2312,6 +2397,8 @@ class TransferFunction(SISO):
     """initial value of the output"""
     x: ClassVar[ac.Variable]
     """states in controller canonical form"""
+    x_scaled: ClassVar[ac.Variable]
+    """states times the last coefficient of a"""
     def __init__(
         self,
         *,
@@ -2323,6 +2410,7 @@ class TransferFunction(SISO):
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         x: ac.Start | Mapping[str, Any] = ...,
+        x_scaled: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class VariableDelay(NeedsDiscreteStates):
@@ -2759,7 +2847,7 @@ class From_bar(PartialConversionBlock):
     """Bars to pascals."""
 
     u: ClassVar[ac.Input]
-    """pressure [bar]"""
+    """pressure in bar"""
     y: ClassVar[ac.Output]
     """pressure [Pa]"""
     def __init__(
@@ -2770,7 +2858,7 @@ class From_day(PartialConversionBlock):
     """Days to seconds."""
 
     u: ClassVar[ac.Input]
-    """time [d]"""
+    """time in d"""
     y: ClassVar[ac.Output]
     """time [s]"""
     def __init__(
@@ -2781,7 +2869,7 @@ class From_deg(PartialConversionBlock):
     """Degrees to radians."""
 
     u: ClassVar[ac.Input]
-    """angle [deg]"""
+    """angle in deg"""
     y: ClassVar[ac.Output]
     """angle [rad]"""
     def __init__(
@@ -2792,7 +2880,7 @@ class From_degC(PartialConversionBlock):
     """Degrees Celsius to kelvin: ``y = u + 273.15``."""
 
     u: ClassVar[ac.Input]
-    """temperature [degC]"""
+    """temperature in degC"""
     y: ClassVar[ac.Output]
     """temperature [K]"""
     def __init__(
@@ -2803,7 +2891,7 @@ class From_degF(PartialConversionBlock):
     """Degrees Fahrenheit to kelvin: ``y = 5/9 (u + 459.67)``."""
 
     u: ClassVar[ac.Input]
-    """temperature [degF]"""
+    """temperature in degF"""
     y: ClassVar[ac.Output]
     """temperature [K]"""
     def __init__(
@@ -2814,7 +2902,7 @@ class From_degRk(PartialConversionBlock):
     """Degrees Rankine to kelvin: ``y = 5/9 u``."""
 
     u: ClassVar[ac.Input]
-    """temperature [degR]"""
+    """temperature in degR"""
     y: ClassVar[ac.Output]
     """temperature [K]"""
     def __init__(
@@ -2825,7 +2913,7 @@ class From_gps(PartialConversionBlock):
     """Grams per second to kilograms per second."""
 
     u: ClassVar[ac.Input]
-    """mass flow rate [g/s]"""
+    """mass flow rate in g/s"""
     y: ClassVar[ac.Output]
     """mass flow rate [kg/s]"""
     def __init__(
@@ -2836,7 +2924,7 @@ class From_hour(PartialConversionBlock):
     """Hours to seconds."""
 
     u: ClassVar[ac.Input]
-    """time [h]"""
+    """time in h"""
     y: ClassVar[ac.Output]
     """time [s]"""
     def __init__(
@@ -2847,7 +2935,7 @@ class From_kWh(PartialConversionBlock):
     """Kilowatt hours to joules."""
 
     u: ClassVar[ac.Input]
-    """energy [kW.h]"""
+    """energy in kW.h"""
     y: ClassVar[ac.Output]
     """energy [J]"""
     def __init__(
@@ -2858,7 +2946,7 @@ class From_kmh(PartialConversionBlock):
     """Kilometres per hour to metres per second."""
 
     u: ClassVar[ac.Input]
-    """speed [km/h]"""
+    """speed in km/h"""
     y: ClassVar[ac.Output]
     """speed [m/s]"""
     def __init__(
@@ -2869,7 +2957,7 @@ class From_litre(PartialConversionBlock):
     """Litres to cubic metres."""
 
     u: ClassVar[ac.Input]
-    """volume [l]"""
+    """volume in l"""
     y: ClassVar[ac.Output]
     """volume [m3]"""
     def __init__(
@@ -2880,7 +2968,7 @@ class From_minute(PartialConversionBlock):
     """Minutes to seconds."""
 
     u: ClassVar[ac.Input]
-    """time [min]"""
+    """time in min"""
     y: ClassVar[ac.Output]
     """time [s]"""
     def __init__(
@@ -2891,7 +2979,7 @@ class From_rpm(PartialConversionBlock):
     """Revolutions per minute to radians per second."""
 
     u: ClassVar[ac.Input]
-    """angular velocity [rev/min]"""
+    """angular velocity in rev/min"""
     y: ClassVar[ac.Output]
     """angular velocity [rad/s]"""
     def __init__(
@@ -3272,7 +3360,7 @@ class To_bar(PartialConversionBlock):
     """Pascals to bars."""
 
     u: ClassVar[ac.Input]
-    """pressure [Pa]"""
+    """pressure in Pa"""
     y: ClassVar[ac.Output]
     """pressure [bar]"""
     def __init__(
@@ -3283,7 +3371,7 @@ class To_day(PartialConversionBlock):
     """Seconds to days."""
 
     u: ClassVar[ac.Input]
-    """time [s]"""
+    """time in s"""
     y: ClassVar[ac.Output]
     """time [d]"""
     def __init__(
@@ -3294,7 +3382,7 @@ class To_deg(PartialConversionBlock):
     """Radians to degrees."""
 
     u: ClassVar[ac.Input]
-    """angle [rad]"""
+    """angle in rad"""
     y: ClassVar[ac.Output]
     """angle [deg]"""
     def __init__(
@@ -3305,7 +3393,7 @@ class To_degC(PartialConversionBlock):
     """Kelvin to degrees Celsius: ``y = u - 273.15``."""
 
     u: ClassVar[ac.Input]
-    """temperature [K]"""
+    """temperature in K"""
     y: ClassVar[ac.Output]
     """temperature [degC]"""
     def __init__(
@@ -3316,7 +3404,7 @@ class To_degF(PartialConversionBlock):
     """Kelvin to degrees Fahrenheit: ``y = 9/5 u - 459.67``."""
 
     u: ClassVar[ac.Input]
-    """temperature [K]"""
+    """temperature in K"""
     y: ClassVar[ac.Output]
     """temperature [degF]"""
     def __init__(
@@ -3327,7 +3415,7 @@ class To_degRk(PartialConversionBlock):
     """Kelvin to degrees Rankine: ``y = 9/5 u``."""
 
     u: ClassVar[ac.Input]
-    """temperature [K]"""
+    """temperature in K"""
     y: ClassVar[ac.Output]
     """temperature [degR]"""
     def __init__(
@@ -3338,7 +3426,7 @@ class To_gps(PartialConversionBlock):
     """Kilograms per second to grams per second."""
 
     u: ClassVar[ac.Input]
-    """mass flow rate [kg/s]"""
+    """mass flow rate in kg/s"""
     y: ClassVar[ac.Output]
     """mass flow rate [g/s]"""
     def __init__(
@@ -3349,7 +3437,7 @@ class To_hour(PartialConversionBlock):
     """Seconds to hours."""
 
     u: ClassVar[ac.Input]
-    """time [s]"""
+    """time in s"""
     y: ClassVar[ac.Output]
     """time [h]"""
     def __init__(
@@ -3360,7 +3448,7 @@ class To_kWh(PartialConversionBlock):
     """Joules to kilowatt hours."""
 
     u: ClassVar[ac.Input]
-    """energy [J]"""
+    """energy in J"""
     y: ClassVar[ac.Output]
     """energy [kW.h]"""
     def __init__(
@@ -3371,7 +3459,7 @@ class To_kmh(PartialConversionBlock):
     """Metres per second to kilometres per hour."""
 
     u: ClassVar[ac.Input]
-    """speed [m/s]"""
+    """speed in m/s"""
     y: ClassVar[ac.Output]
     """speed [km/h]"""
     def __init__(
@@ -3382,7 +3470,7 @@ class To_litre(PartialConversionBlock):
     """Cubic metres to litres."""
 
     u: ClassVar[ac.Input]
-    """volume [m3]"""
+    """volume in m3"""
     y: ClassVar[ac.Output]
     """volume [l]"""
     def __init__(
@@ -3393,7 +3481,7 @@ class To_minute(PartialConversionBlock):
     """Seconds to minutes."""
 
     u: ClassVar[ac.Input]
-    """time [s]"""
+    """time in s"""
     y: ClassVar[ac.Output]
     """time [min]"""
     def __init__(
@@ -3404,11 +3492,68 @@ class To_rpm(PartialConversionBlock):
     """Radians per second to revolutions per minute."""
 
     u: ClassVar[ac.Input]
-    """angular velocity [rad/s]"""
+    """angular velocity in rad/s"""
     y: ClassVar[ac.Output]
     """angular velocity [rev/min]"""
     def __init__(
         self, *, u: ac.Start | Mapping[str, Any] = ..., y: ac.Start | Mapping[str, Any] = ...
+    ) -> None: ...
+
+class TruncatedNormalNoise(PartialNoise):
+    """Numbers of a normal distribution, ``mu`` and ``sigma``, of which only ``y_min`` to ``y_max`` is left."""
+
+    y_min: ClassVar[ac.Parameter]
+    """least value"""
+    y_max: ClassVar[ac.Parameter]
+    """greatest value"""
+    mu: ClassVar[ac.Parameter]
+    """mean before it is cut"""
+    sigma: ClassVar[ac.Parameter]
+    """standard deviation before it is cut"""
+    quantile: ClassVar[ac.Module]
+    """normal quantile between limits"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        y_min: SupportsFloat | ac.Start = ...,
+        y_max: SupportsFloat | ac.Start = ...,
+        mu: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
+        quantile: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class UniformNoise(PartialNoise):
+    """Numbers that are equally likely between ``y_min`` and ``y_max``."""
+
+    y_min: ClassVar[ac.Parameter]
+    """least value"""
+    y_max: ClassVar[ac.Parameter]
+    """greatest value"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        y_min: SupportsFloat | ac.Start = ...,
+        y_max: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Xor(SI2SO):
@@ -3418,6 +3563,27 @@ class Xor(SI2SO):
         *,
         u1: ac.Start | Mapping[str, Any] = ...,
         u2: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class BandLimitedWhiteNoise(PartialNoise):
+    """Normal noise of the power ``noisePower`` at all frequencies well below ``1/samplePeriod``."""
+
+    noisePower: ClassVar[ac.Parameter]
+    """power of the noise, per hertz and both sides"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        noisePower: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
@@ -3661,6 +3827,30 @@ class Multiplex5(Multiplex4):
         u3: ac.Start | Mapping[str, Any] = ...,
         u4: ac.Start | Mapping[str, Any] = ...,
         u5: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class NormalNoise(PartialNoise):
+    """Numbers of a normal distribution with the mean ``mu`` and the standard deviation ``sigma``."""
+
+    mu: ClassVar[ac.Parameter]
+    """mean"""
+    sigma: ClassVar[ac.Parameter]
+    """standard deviation"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        mu: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 

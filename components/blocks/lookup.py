@@ -9,8 +9,8 @@ import numpy as np
 import acausal as ac
 from acausal.components import icons
 
+from . import surfaces
 from .interfaces import MI2MO, SI2SO, MIMOs
-from .surfaces import Extrapolation, Smoothness, Surface
 from .tables import PartialColumns, TableData
 
 __modelica__ = "Modelica.Blocks.Tables"
@@ -67,14 +67,16 @@ class _Table2D(TableData):
     FORM = ("[[0, u2, ...], [u1, y, ...], ...]", (2, 2))
 
     smoothness = ac.Option(
-        "LinearSegments", choices=get_args(Smoothness), doc="kind of interpolation"
+        "LinearSegments", choices=get_args(surfaces.Smoothness), doc="kind of interpolation"
     )
     extrapolation = ac.Option(
-        "LastTwoPoints", choices=get_args(Extrapolation), doc="what holds outside of the table"
+        "LastTwoPoints",
+        choices=get_args(surfaces.Extrapolation),
+        doc="what holds outside of the table",
     )
     surface = ac.Module("_surface")
 
-    def _surface(self, _key: Any) -> Surface:
+    def _surface(self, _key: Any) -> surfaces.Surface:
         table = self._rows()
         for axis in (0, 1):  # a single line of values goes on as it is
             if table.shape[axis] == 2:
@@ -84,7 +86,9 @@ class _Table2D(TableData):
         if (np.diff(x) <= 0).any() or (np.diff(y) <= 0).any():
             raise ac.DeclarationError(f"{type(self).__name__}: the arguments in table must ascend")
         values = jnp.asarray(table[1:, 1:])
-        return Surface(jnp.asarray(x), jnp.asarray(y), values, self.smoothness, self.extrapolation)
+        return surfaces.Surface(
+            jnp.asarray(x), jnp.asarray(y), values, self.smoothness, self.extrapolation
+        )
 
     @property
     def u_min(self) -> Any:

@@ -47,9 +47,9 @@ DEFAULTS = {
         "l": 0.01, "r_i": 0.01, "r_o": 0.02, "alpha": 2 * np.pi, **MATERIAL,
     },
     "HollowCylinderCircumferentialFlux": {
-        "l": 0.02, "r_i": 0.01, "r_o": 0.02, "alfa": np.pi / 2, **MATERIAL,
+        "l": 0.02, "r_i": 0.01, "r_o": 0.02, "alpha": np.pi / 2, **MATERIAL,
     },
-    "Toroid": {"r": 0.1, "d": 0.01, "alfa": np.pi / 2, **MATERIAL},
+    "Toroid": {"r": 0.1, "d": 0.01, "alpha": np.pi / 2, **MATERIAL},
     "GenericLinearPermanentMagnet": {
         "l": 0.1, "A": 1e-4, "mat": hard_magnetic.BaseData(), "B_r": callable, "mu_r": callable,
     },
@@ -240,10 +240,10 @@ def test_shapes_have_their_permeance():
         mag.HollowCylinderRadialFlux(l=0.02, r_i=0.01, r_o=0.03, alpha=1.5, mu_rConst=5): (
             0.02 * 1.5 * 0.02, 1.5 * 0.02 / np.log(3),
         ),
-        mag.HollowCylinderCircumferentialFlux(l=0.02, r_i=0.01, r_o=0.03, alfa=1.5, mu_rConst=5): (
+        mag.HollowCylinderCircumferentialFlux(l=0.02, r_i=0.01, r_o=0.03, alpha=1.5, mu_rConst=5): (
             4e-4, 4e-4 / (0.02 * 1.5),
         ),
-        mag.Toroid(r=0.05, d=0.02, alfa=1.5, mu_rConst=5): (np.pi * 1e-4, np.pi * 1e-4 / (0.05 * 1.5)),
+        mag.Toroid(r=0.05, d=0.02, alpha=1.5, mu_rConst=5): (np.pi * 1e-4, np.pi * 1e-4 / (0.05 * 1.5)),
     }  # fmt: skip
     for shape in shapes:
         shape.modify(nonLinearPermeability=False)
