@@ -1784,6 +1784,8 @@ class Mean(SISO):
     """base frequency, greater than zero [Hz]"""
     x0: ClassVar[ac.Parameter]
     """initial value of the integral"""
+    y0: ClassVar[ac.Parameter]
+    """initial value of the output"""
     yGreaterOrEqualZero: ClassVar[ac.Option]
     """whether a negative mean counts as zero"""
     t0: ClassVar[ac.Discrete]
@@ -1797,6 +1799,7 @@ class Mean(SISO):
         *,
         f: SupportsFloat | ac.Start = ...,
         x0: SupportsFloat | ac.Start = ...,
+        y0: SupportsFloat | ac.Start = ...,
         yGreaterOrEqualZero: bool = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
@@ -2250,7 +2253,7 @@ class SampledSignal(SO):
     ) -> None: ...
 
 class SignalExtrema(ac.Component):
-    """Least and greatest value at ``startTime + k samplePeriod`` [s], k = 0, 1, ..., and when they were reached."""
+    """Least and greatest value at the start and every ``Ts`` [s] after it, and when they were reached."""
 
     u: ClassVar[ac.Input]
     """input signal"""
@@ -2262,20 +2265,20 @@ class SignalExtrema(ac.Component):
     """when the least value was reached [s]"""
     t_max: ClassVar[ac.Discrete]
     """when the greatest value was reached [s]"""
-    samplePeriod: ClassVar[ac.Parameter]
+    Ts: ClassVar[ac.Parameter]
     """time between two looks, greater than zero [s]"""
-    startTime: ClassVar[ac.Parameter]
-    """first look [s]"""
+    t0: ClassVar[ac.Discrete]
+    """start of the simulation [s]"""
     def __init__(
         self,
         *,
-        samplePeriod: SupportsFloat | ac.Start = ...,
-        startTime: SupportsFloat | ac.Start = ...,
+        Ts: SupportsFloat | ac.Start = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y_min: ac.Start | Mapping[str, Any] = ...,
         y_max: ac.Start | Mapping[str, Any] = ...,
         t_min: ac.Start | Mapping[str, Any] = ...,
         t_max: ac.Start | Mapping[str, Any] = ...,
+        t0: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class SignalSource(SO):
@@ -3291,9 +3294,9 @@ class SlewRateLimiter(PartialStart, SISO):
     initType: ClassVar[ac.Option]
     """type of initialization"""
     Rising: ClassVar[ac.Parameter]
-    """greatest rate [1/s]"""
+    """greatest rate, in units of the signal per second"""
     Falling: ClassVar[ac.Parameter]
-    """least rate [1/s]"""
+    """least rate"""
     Td: ClassVar[ac.Parameter]
     """time constant of the derivative [s]"""
     strict: ClassVar[ac.Option]

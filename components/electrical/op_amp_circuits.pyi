@@ -189,7 +189,7 @@ class Feedback(PartialOpAmp):
     ) -> None: ...
 
 class FirstOrder(PartialOpAmp):
-    """Low pass: ``v2 + T der(v2) = -k v1``."""
+    """Low pass: ``v2 + T der(v2) = -k v1``; ``v`` [V] is the capacitor's voltage."""
 
     k: ClassVar[ac.Parameter]
     """gain"""
@@ -201,6 +201,8 @@ class FirstOrder(PartialOpAmp):
     """time constant [s]"""
     C: ClassVar[ac.Parameter]
     """capacitance, computed [F]"""
+    v: ClassVar[ac.Variable]
+    """voltage of the capacitor [V]"""
     opAmp: _electrical.IdealizedOpAmpLimited
     r1: _electrical.Resistor
     r2: _electrical.Resistor
@@ -224,6 +226,7 @@ class FirstOrder(PartialOpAmp):
         v2: ac.Start | Mapping[str, Any] = ...,
         i1: ac.Start | Mapping[str, Any] = ...,
         i2: ac.Start | Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
     ) -> None: ...
 
