@@ -42,6 +42,7 @@ ENUMERATIONS: tuple[str, ...] = (
     "FilterType",
     "ImpulseApproximation",
     "Init",
+    "L",
     "LimiterHomotopy",
     "Logic",
     "Regularization",

@@ -157,7 +157,7 @@ class RelativePressure(ac.Component):
     ) -> None: ...
 
 class Actuator(ac.Component):
-    """A cylinder: a piston of the mass ``m`` between two chambers. Pressure at ``port_a`` pushes to greater ``flange.s``."""
+    """A cylinder: a piston of the mass ``m`` between two chambers."""
 
     fluid: ClassVar[ac.Option]
     """the liquid, a hydraulic.liquid.Liquid"""

@@ -237,9 +237,11 @@ class SpoolValve2Way(_Filled):
 
 
 class Actuator(_Filled):
-    """A cylinder: a piston of the mass ``m`` between two chambers. Pressure at ``port_a`` pushes to greater ``flange.s``.
+    """A cylinder: a piston of the mass ``m`` between two chambers.
 
-    The parts are ``chamber_a`` and ``chamber_b`` (`DynamicVolume`), ``piston`` (a `Mass`) and ``seal`` (a `Damper`). At ``s = 0`` the chambers have the lengths ``length_a`` and ``length_b``.
+    Pressure at ``port_a`` pushes to greater ``flange.s``. The parts are ``chamber_a`` and ``chamber_b``
+    (`DynamicVolume`), ``piston`` (a `Mass`) and ``seal`` (a `Damper`). At ``s = 0`` the chambers have the lengths
+    ``length_a`` and ``length_b``.
     """
 
     area_a = ac.Parameter(unit="m2", min=0, doc="area of the piston in chamber a")
