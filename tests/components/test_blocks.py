@@ -18,7 +18,7 @@ signal: Any = scipy_signal  # its types are partly unknown
 
 BASES = {
     *vars(importlib.import_module("acausal.components.blocks.interfaces")),
-    "PartialColumns", "PartialConversionBlock",
+    "PartialColumns", "PartialConversionBlock", "PartialNoise",
 }  # fmt: skip
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default,

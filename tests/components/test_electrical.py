@@ -51,6 +51,8 @@ CIRCUIT = {**SUPPLY, "V0": 15000}
 
 # Parameters and options with their defaults, as in MSL 4.1.0: `...` marks those without, `callable` those
 # that are computed from others.
+IMPULSE = {"approximation": "Heidler", "T1": 10e-6, "T2": 350e-6, "m": 5}
+
 DEFAULTS = {
     "Ground": {},
     "Resistor": {"R": ..., **RESISTANCE},
@@ -138,6 +140,10 @@ DEFAULTS = {
     "PowerSensor": {},
     "MultiSensor": {},
     "SupplyVoltage": SUPPLY,
+    "DCPowerSupply": {"V0": 60, "I0": 50, "P0": 1200, "Rcv": 1e-3, "Gcc": 1e-3, "iBack": 1e-3},
+    "LightningImpulse": {"amplitude": ..., **IMPULSE, "offset": 0, "startTime": 0},
+    "LightningImpulseVoltage": {"V": ..., **IMPULSE, "offset": 0},
+    "LightningImpulseCurrent": {"I": ..., **IMPULSE, "offset": 0},
     "SignalVoltage": {},
     "ConstantVoltage": {"V": ...},
     "StepVoltage": {"V": ..., **SIGNAL},
@@ -196,6 +202,20 @@ CIRCUITS = {
     "FirstOrder": {"k": 1, "R1": 1000, "R2": callable, "T": ..., "C": callable, **CIRCUIT},
     "Derivative": {"k": 1, "R1": 1000, "R2": callable, "T": ..., "C": callable, **CIRCUIT},
     "PI": {"k": 1, "R1": 1000, "R2": callable, "T": ..., "C": callable, **CIRCUIT},
+    "DifferentialAmplifierData": {
+        "VSource": 400,
+        "fSource": 50,
+        "RLoad": 10,
+        "RGround": 100e3,
+        "V0": 10e3,
+        "VSupply": 15,
+        "k": 100,
+        "R1": 100e3,
+        "R2": callable,
+        "R3": callable,
+        "R4": callable,
+        "RInstrument": 100e3,
+    },
 }
 
 PARTIAL = {
