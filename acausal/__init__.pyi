@@ -5,12 +5,14 @@ from .analysis import (
     Estimation as Estimation,
     Formula as Formula,
     Linearization as Linearization,
+    Loop as Loop,
     Observer as Observer,
     OperatingPoint as OperatingPoint,
     distill as distill,
     estimate as estimate,
     linearize as linearize,
     observer as observer,
+    open_loop as open_loop,
     operating_point as operating_point,
 )
 from .data import (

@@ -38,7 +38,15 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
-from acausal.flattening import HIDDEN, FlatModel, LeavesCaches, flatten, unconnected, with_inputs
+from acausal.flattening import (
+    HIDDEN,
+    FlatModel,
+    LeavesCaches,
+    flatten,
+    opened,
+    unconnected,
+    with_inputs,
+)
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce
@@ -95,11 +103,17 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
     _warn_of_silent(flat)
     if check_units:
         check_dimensions(flat)
+    found = _derived(model, flat)
+    size = f"{flat.n_equations} equations, {len(found.reduced.states)} states"
+    LOGGER.info("compiled %s in %.3g s: %s", flat.name, time.perf_counter() - began, size)
+    return found
+
+
+def _derived(model: Component, flat: FlatModel) -> System:
+    """The system of a flat model."""
     reduced = reduce(flat)
     parameters = lay_out_parameters(flat)
     program = generate(reduced, parameters)
-    size = f"{flat.n_equations} equations, {len(reduced.states)} states"
-    LOGGER.info("compiled %s in %.3g s: %s", flat.name, time.perf_counter() - began, size)
     return System(
         model, flat, reduced, parameters, program, initializer(reduced, program, parameters)
     )
@@ -499,6 +513,15 @@ class System(LeavesCaches):
         names = [name for name in given if not _is_hidden(name)]
         found = compile(self.model, inputs=names, check_units=False, events=True)
         return self if found.events is None else found
+
+    def opened(self, points: Sequence[str]) -> tuple[System, tuple[str, ...]]:
+        """The system in which some signals are inputs, as the connections that feed them are open; and what fed them.
+
+        Raises:
+            DeclarationError: for a name of what no connection feeds.
+        """
+        flat, sources = opened(self.flat, points)
+        return _derived(self.model, flat), sources
 
     def modes(self, values: Values) -> Values:
         """The same values with the discrete variables that agree with them, found from their start values.

@@ -5,8 +5,10 @@ from types import ModuleType
 from typing import Any
 
 from . import constants
+from .arrays import ARRAYS
 from .fluid import media
 from .magnetic import hard_magnetic, soft_magnetic
+from .magnetic.hysteresis_data import EVERETT
 from .translational.utilities import GenerateStribeckFrictionTable
 
 
@@ -21,10 +23,12 @@ RECORDS: dict[str, Any] = {
     **_records(media),
     **_records(hard_magnetic),
     **_records(soft_magnetic),
+    **{f"HysteresisEverettParameter.{name}": material for name, material in EVERETT.items()},
 }
-"""Name -> record or number; `BaseData` is that of soft magnetic materials."""
+"""Name -> record or number; `BaseData` is that of soft magnetic materials. Two words where one would be two records."""
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **ARRAYS,
     "GenerateStribeckFrictionTable": GenerateStribeckFrictionTable,
 }
-"""Name -> function of numbers."""
+"""Name -> function of numbers or arrays."""

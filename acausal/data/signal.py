@@ -28,17 +28,24 @@ from acausal.data.band_limited import (
     polynomial_coefficients,
 )
 from acausal.data.samples import check_samples, check_time_base, is_uniform
+from acausal.data.slopes import SLOPES
 from acausal.errors import DataError, need_whole, shown
 
-Interpolation = Literal["linear", "previous", "cubic", "band-limited"]
+Interpolation = Literal[
+    "linear", "previous", "cubic", "akima", "modified-akima", "monotone", "steffen", "band-limited"
+]
 Extrapolation = Literal["hold", "linear", "periodic"]
 Beyond = Literal["refuse", "hold", "linear", "periodic"]
 """What a signal does beyond one end of its samples; ``"refuse"`` is what it does where nothing is said."""
 
-DERIVATIVES: dict[str, int] = {"previous": 0, "linear": 1, "cubic": 2, "band-limited": 2}
+DERIVATIVES: dict[str, int] = {
+    "previous": 0, "linear": 1, **dict.fromkeys(SLOPES, 2), "band-limited": 2,
+}  # fmt: skip
 """How often each interpolation can be differentiated. Beyond that, derivatives are impulses or dominated by noise."""
 
-DEGREES: dict[str, int] = {"previous": 0, "linear": 1, "cubic": 3, "band-limited": DEGREE}
+DEGREES: dict[str, int] = {
+    "previous": 0, "linear": 1, **dict.fromkeys(SLOPES, 3), "band-limited": DEGREE,
+}  # fmt: skip
 """Of the polynomials between two samples, at most."""
 
 SIGHT = 4
@@ -58,10 +65,12 @@ class Signal(eqx.Module):
         values: samples, shape (n,).
         interpolation: ``"linear"``; ``"previous"`` holds each sample until the next; ``"cubic"`` is
             a Hermite spline whose derivative at a sample is that of the parabola through it and its neighbours
-            (continuous derivative, exact for parabolas); ``"band-limited"`` has no frequency above half the
+            (continuous derivative, exact for parabolas); ``"akima"`` and ``"modified-akima"`` have Akima's,
+            which overshoot less; ``"monotone"`` (Fritsch and Butland) and ``"steffen"`` rise and fall only where
+            the samples do (`acausal.data.slopes`); ``"band-limited"`` has no frequency above half the
             sampling rate (`acausal.data.band_limited`), as after an anti-aliasing filter. It needs a uniform time base.
-        extrapolation: outside of the samples, ``"hold"`` the end values, continue the ``"linear"``
-            secant of the last two, or repeat them as a ``"periodic"`` signal.
+        extrapolation: outside of the samples, ``"hold"`` the end values, continue by a ``"linear"`` one (the
+            secant of the last two samples, of cubic ones the tangent), or repeat them as a ``"periodic"`` signal.
         before_start, after_end: the same for one side alone. Where nothing is said, a function call holds the end
             values, but a simulation that reaches beyond the samples refuses the signal as its input.
         name: of the signal in error messages.
@@ -217,13 +226,13 @@ class Signal(eqx.Module):
         value = differentiate(within, self.derivative)(inside)
         for outside, end, choice in (
             (around < first, 0, self.before_start),
-            (around > last, len(self.ts) - 2, self.after_end),
+            (around > last, len(self.ts) - 1, self.after_end),
         ):
             if self.derivative and choice in ("hold", "linear"):
                 straight = choice == "linear" and self.derivative == 1
-                value = jnp.where(outside, self._secant(end) if straight else 0.0, value)
+                value = jnp.where(outside, self._end_slope(end) if straight else 0.0, value)
             elif choice == "linear":
-                value = jnp.where(outside, value + self._secant(end) * (t - inside), value)
+                value = jnp.where(outside, value + self._end_slope(end) * (t - inside), value)
         return value
 
     def _within(self, i: Int[Array, ""], t: Array) -> Float[Array, ""]:
@@ -234,13 +243,13 @@ class Signal(eqx.Module):
                 return self.values[jnp.maximum(i + (t >= self.ts[i + 1]) - early, 0)]
             case "linear":
                 return self.values[i] + self._secant(i) * (t - self.ts[i])
-            case "cubic":
-                return self._hermite(i, t)
             case "band-limited":
                 assert self.coefficients is not None
                 fraction = (t - self.ts[i]) / (self.ts[i + 1] - self.ts[i])
                 on_line = self.values[i] + self._secant(i) * (t - self.ts[i])
                 return on_line + deviation_from_line(self.coefficients[:, i], fraction)
+            case _:
+                return self._hermite(i, t)
 
     def _coefficients(self, name: str) -> Float[Array, "n_coefficients n_intervals"]:
         """Coefficients of the polynomials between the samples, shape (`band_limited.DEGREE` - 1, n - 1)."""
@@ -265,14 +274,29 @@ class Signal(eqx.Module):
     def _secant(self, i: Scalar) -> Float[Array, ""]:
         return (self.values[i + 1] - self.values[i]) / (self.ts[i + 1] - self.ts[i])
 
+    def _end_slope(self, i: int) -> Float[Array, ""]:
+        if self.interpolation in SLOPES:
+            return self._derivative_at(jnp.asarray(i))
+        return self._secant(min(i, len(self.ts) - 2))
+
     def _derivative_at(self, i: Int[Array, ""]) -> Float[Array, ""]:
-        """Derivative at sample ``i`` of the parabola through it and its neighbours (at an end, the next two)."""
-        if len(self.ts) == 2:
+        """Derivative at sample ``i``, from the secants around it (`acausal.data.slopes`)."""
+        n = len(self.ts) - 1
+        if n == 1:
             return self._secant(0)
-        j = jnp.clip(i, 1, len(self.ts) - 2)
-        left, right = self._secant(j - 1), self._secant(j)
-        second_difference = (right - left) / (self.ts[j + 1] - self.ts[j - 1])
-        return left + second_difference * (2 * self.ts[i] - self.ts[j - 1] - self.ts[j])
+        slopes = SLOPES[self.interpolation]
+
+        def secant(k: Array) -> Array:
+            inside = jnp.clip(k, 0, n - 1)
+            beyond = self._secant(jnp.minimum(inside, n - 2) + 1) - self._secant(
+                jnp.maximum(inside, 1) - 1
+            )
+            return self._secant(inside) + (k - inside) * beyond * slopes.continued
+
+        left = jnp.where(i == 0, 1, i - 1)  # the parabola at an end is that through the next two
+        right = jnp.where(i == n, n - 2, i)
+        widths = (self.ts[k + 1] - self.ts[k] for k in (left, right))
+        return slopes.rule(*(secant(i + k) for k in (-2, -1, 0, 1)), *widths)
 
     def _hermite(self, i: Array, t: Array) -> Float[Array, ""]:
         h = self.ts[i + 1] - self.ts[i]

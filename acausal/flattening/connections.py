@@ -7,6 +7,7 @@ the inner side, where ``v`` is the connector's first variable.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
@@ -112,6 +113,22 @@ def connection_groups(layout: Layout, connected: ConnectionSets) -> tuple[Equati
         groups.append(_group(_balance(inner), np.asarray(rows), "connected: flows sum to zero"))
     groups.append(_group(balance((1,)), zero[:, None], "unconnected: no flow"))
     return tuple(g for g in groups if len(g))
+
+
+def equalities(pairs: Sequence[tuple[int, int]], text: str) -> tuple[EquationGroup, ...]:
+    """Equations by which pairs of variables are equal."""
+    return (_group(_equality(), np.asarray(pairs, np.int64), text),) if pairs else ()
+
+
+def feeds(layout: Layout, connected: ConnectionSets) -> dict[int, tuple[int, tuple[int, ...]]]:
+    """For each signal that a connection feeds: its source, and all signals of that connection set."""
+    found: dict[int, tuple[int, tuple[int, ...]]] = {}
+    for signals in connected.sets:
+        if signals.kind is None:
+            sinks = _fed(layout, signals)
+            source = next(v for v in signals.variables if v not in sinks)
+            found |= dict.fromkeys(sinks, (source, signals.variables))
+    return found
 
 
 def zeros(variables: Integers, text: str) -> tuple[EquationGroup, ...]:

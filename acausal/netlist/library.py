@@ -11,7 +11,7 @@ name where the library lists one. These attributes of the module are read:
   ``{"Modelica.Blocks.Math": "Exponentiation"}``.
 - ``ALSO_CALLED``: what else classes are called, words by the Python path below the module, such as
   ``{"blocks.Hysteresis": "thermostat"}``, for `acausal.find`.
-- ``RECORDS``: constants and records by the last word of their name, such as ``{"Water": Water()}``.
+- ``RECORDS``: constants and records by the last word of their name, or the last two, such as ``{"Water": Water()}``.
 - ``FUNCTIONS``: functions of numbers that expressions may call, by the last word of their name.
 - ``ENUMERATIONS``: names of enumeration types; their values are read as the last word, a text.
 
@@ -92,8 +92,9 @@ class Library:
     def constant(self, name: str) -> Any:
         """A record, a constant, the value of an enumeration or, with ``()``, a function; None if there is none."""
         words = name.removesuffix("()").split(".")
-        if words[-1] in self.records:
-            return self.records[words[-1]]
+        for known in (".".join(words[-2:]), words[-1]):
+            if known in self.records:
+                return self.records[known]
         if name.endswith("()"):
             return getattr(self.module, "FUNCTIONS", {}).get(words[-1])
         enumerations: tuple[str, ...] = getattr(self.module, "ENUMERATIONS", ())
@@ -113,7 +114,7 @@ class Library:
 
     @cached_property
     def records(self) -> dict[str, Any]:
-        """Constants and records by the last word of their name."""
+        """Constants and records by the last word of their name, or the last two."""
         return getattr(self.module, "RECORDS", {})
 
     @property

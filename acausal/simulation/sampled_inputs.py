@@ -107,7 +107,7 @@ def _on_grid(function: TimeFunction, ends: Ends) -> _Sampled | None:
     held = {function.before_start, function.after_end} <= {"refuse", "hold"}
     if not held or not _samples_on(ends, ts):
         return None
-    if function.interpolation in ("cubic", "band-limited"):
+    if function.interpolation not in ("linear", "previous"):
         return _curved(function, ends)
     middle = (ends[1:] + ends[:-1]) / 2
     if function.derivative:

@@ -23,6 +23,7 @@ from .lookup import *
 from .math import *
 from .memory import *
 from .motions import *
+from .noise import *
 from .nonlinear import *
 from .periodic import *
 from .refused import *

@@ -29,8 +29,10 @@ __all__ = [
     "Add3",
     "And",
     "Asin",
+    "AssertCondition",
     "Atan",
     "Atan2",
+    "BandLimitedWhiteNoise",
     "BooleanChange",
     "BooleanConstant",
     "BooleanExpression",
@@ -81,6 +83,7 @@ __all__ = [
     "Exp",
     "ExpSine",
     "Exponentials",
+    "Exponentiation",
     "ExtractSignal",
     "Extractor",
     "FallingEdge",
@@ -102,6 +105,7 @@ __all__ = [
     "From_minute",
     "From_rpm",
     "Gain",
+    "GlobalSeed",
     "Greater",
     "GreaterEqual",
     "GreaterEqualThreshold",
@@ -169,6 +173,7 @@ __all__ = [
     "Nand",
     "NeedsDiscreteStates",
     "Nor",
+    "NormalNoise",
     "Not",
     "OnOffController",
     "Or",
@@ -181,6 +186,7 @@ __all__ = [
     "PartialConversionBlock",
     "PartialIntegerMISO",
     "PartialIntegerSISO",
+    "PartialNoise",
     "PartialRealMISO",
     "PartialStart",
     "PartialState",
@@ -236,6 +242,7 @@ __all__ = [
     "Sum",
     "Switch",
     "Switching",
+    "TableData",
     "Tan",
     "Tanh",
     "TerminateSimulation",
@@ -258,6 +265,8 @@ __all__ = [
     "TransferFunction",
     "Trapezoid",
     "TriggeredTrapezoid",
+    "TruncatedNormalNoise",
+    "UniformNoise",
     "VariableDelay",
     "VariableLimiter",
     "Variance",
@@ -276,6 +285,26 @@ __all__ = [
     "partialBooleanSource",
     "partialBooleanThresholdComparison",
 ]
+
+class AssertCondition(ac.Component):
+    """Tells that its input has been false: ``failed`` is 1 from then on."""
+
+    message: ClassVar[ac.Option]
+    """what it means if the input is false"""
+    assertionLevel: ClassVar[ac.Option]
+    """without effect"""
+    u: ClassVar[ac.Input]
+    """what should be true, 1 or 0"""
+    failed: ClassVar[ac.Discrete]
+    """whether the input has been false"""
+    def __init__(
+        self,
+        *,
+        message: Any = ...,
+        assertionLevel: Literal["error", "warning"] = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        failed: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
 
 class BooleanValue(ac.Component):
     """``showActive`` is the input ``activePort``, or without ``use_activePort`` the truth value ``active``."""
@@ -333,6 +362,23 @@ class DiscreteBlock(ac.Component):
     firstTrigger: ClassVar[ac.Discrete]
     """true after the first sample"""
     def __init__(self, **modifiers: Any) -> None: ...
+
+class GlobalSeed(ac.Component):
+    """The seed of all noise in the component that it is a part of, and below."""
+
+    enableNoise: ClassVar[ac.Option]
+    """whether noise blocks give noise"""
+    useAutomaticSeed: ClassVar[ac.Option]
+    """runs are reproducible: change fixedSeed instead"""
+    fixedSeed: ClassVar[ac.Option]
+    """seed, any whole number"""
+    def __init__(
+        self,
+        *,
+        enableNoise: bool = ...,
+        useAutomaticSeed: Literal[False] = ...,
+        fixedSeed: SupportsIndex = ...,
+    ) -> None: ...
 
 class Harmonic(ac.Component):
     """The ``k``-th harmonic of the input over each period ``1/f``: ``sqrt(2) y_rms cos(2 pi k f t - y_arg)``."""
@@ -578,25 +624,6 @@ class PartialBooleanMISO(ac.Component):
     """output signal, 1 or 0"""
     def __init__(self, **modifiers: Any) -> None: ...
 
-class PartialColumns(ac.Component):
-    """What tables with several columns of values share."""
-
-    table: ClassVar[ac.Option]
-    """rows of the argument and values"""
-    columns: ClassVar[ac.Option]
-    """columns of the table that are outputs, counted from 1"""
-    smoothness: ClassVar[ac.Option]
-    """kind of interpolation"""
-    extrapolation: ClassVar[ac.Option]
-    """what holds outside of the table"""
-    tableOnFile: ClassVar[ac.Option]
-    """tables on files are not read"""
-    verboseRead: ClassVar[ac.Option]
-    """without effect"""
-    verboseExtrapolation: ClassVar[ac.Option]
-    """without effect"""
-    def __init__(self, **modifiers: Any) -> None: ...
-
 class PartialStart(ac.Component):
     """What blocks with one state ``y`` share: ``initType`` and ``y_start``."""
 
@@ -821,6 +848,38 @@ class Switching(ac.Component):
     """output for each"""
     def __init__(self, *, expr: Sequence[Any] | None = ..., **modifiers: Any) -> None: ...
 
+class TableData(ac.Component):
+    """A table that is given by its rows, or lies in a file."""
+
+    table: ClassVar[ac.Option]
+    """rows of the argument and values"""
+    tableOnFile: ClassVar[ac.Option]
+    """whether the table lies in a file"""
+    tableName: ClassVar[ac.Option]
+    """name of the table in the file"""
+    fileName: ClassVar[ac.Option]
+    """path of the file"""
+    delimiter: ClassVar[ac.Option]
+    """what separates the numbers in a file .csv"""
+    nHeaderLines: ClassVar[ac.Option]
+    """lines at the begin of a file .csv without numbers"""
+    verboseRead: ClassVar[ac.Option]
+    """without effect"""
+    verboseExtrapolation: ClassVar[ac.Option]
+    """without effect"""
+    def __init__(
+        self,
+        *,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
+    ) -> None: ...
+
 class TerminateSimulation(ac.Component):
     """Tells that a condition has come true: ``terminated`` is 1 from then on."""
 
@@ -1005,30 +1064,6 @@ class BooleanToReal(SISO):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CombiTable1Ds(PartialColumns):
-    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u``."""
-
-    u: ClassVar[ac.Input]
-    """argument"""
-    y: ClassVar[ac.Output]
-    """values"""
-    def __init__(
-        self,
-        *,
-        table: Any = ...,
-        columns: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
-        extrapolation: Literal[
-            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
-        ] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
-        u: ac.Start | Mapping[str, Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
-        **modifiers: Mapping[str, Any],
-    ) -> None: ...
-
 class Constant(SO):
     """``y = k``."""
 
@@ -1197,6 +1232,19 @@ class Division(SI2SO):
         *,
         u1: ac.Start | Mapping[str, Any] = ...,
         u2: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class Exponentiation(SISO):
+    """``y = u**exponent``; ``u > 0`` unless the exponent is a whole number."""
+
+    exponent: ClassVar[ac.Option]
+    """exponent"""
+    def __init__(
+        self,
+        *,
+        exponent: SupportsIndex = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
@@ -1736,6 +1784,8 @@ class Mean(SISO):
     """base frequency, greater than zero [Hz]"""
     x0: ClassVar[ac.Parameter]
     """initial value of the integral"""
+    y0: ClassVar[ac.Parameter]
+    """initial value of the output"""
     yGreaterOrEqualZero: ClassVar[ac.Option]
     """whether a negative mean counts as zero"""
     t0: ClassVar[ac.Discrete]
@@ -1749,6 +1799,7 @@ class Mean(SISO):
         *,
         f: SupportsFloat | ac.Start = ...,
         x0: SupportsFloat | ac.Start = ...,
+        y0: SupportsFloat | ac.Start = ...,
         yGreaterOrEqualZero: bool = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
@@ -1947,12 +1998,46 @@ class PadeDelay(SISO):
         x: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class PartialColumns(TableData):
+    """What tables with several columns of values share."""
+
+    columns: ClassVar[ac.Option]
+    """columns of the table that are outputs, counted from 1"""
+    smoothness: ClassVar[ac.Option]
+    """kind of interpolation"""
+    extrapolation: ClassVar[ac.Option]
+    """what holds outside of the table"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
 class PartialConversionBlock(SISO):
     """Base of unit conversions: ``y = factor (u + shift)``."""
     def __init__(self, **modifiers: Any) -> None: ...
 
 class PartialIntegerMISO(PartialBooleanMISO):
     """``nu`` inputs ``u`` that are integers, one output ``y``."""
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class PartialNoise(SO):
+    """What noise shares: a new number at ``startTime`` and every ``samplePeriod`` [s] after it, ``y_off`` before."""
+
+    samplePeriod: ClassVar[ac.Parameter]
+    """time between two numbers [s]"""
+    enableNoise: ClassVar[ac.Option]
+    """whether there is noise; else y = y_off"""
+    y_off: ClassVar[ac.Parameter]
+    """output without noise"""
+    useGlobalSeed: ClassVar[ac.Option]
+    """whether the global seed counts"""
+    useAutomaticLocalSeed: ClassVar[ac.Option]
+    """whether the local seed follows from the name"""
+    fixedLocalSeed: ClassVar[ac.Option]
+    """local seed otherwise, any whole number"""
+    startTime: ClassVar[ac.Parameter]
+    """time of the first number [s]"""
+    length: ClassVar[ac.Option]
+    """numbers until they repeat"""
+    numbers: ClassVar[ac.Module]
+    """numbers over the count of samples"""
     def __init__(self, **modifiers: Any) -> None: ...
 
 class PartialRealMISO(PartialBooleanMISO):
@@ -2152,14 +2237,23 @@ class SampledSignal(SO):
         ts: Any = ...,
         dt: Any = ...,
         startTime: Any = ...,
-        interpolation: Literal["linear", "previous", "cubic", "band-limited"] = ...,
+        interpolation: Literal[
+            "linear",
+            "previous",
+            "cubic",
+            "akima",
+            "modified-akima",
+            "monotone",
+            "steffen",
+            "band-limited",
+        ] = ...,
         extrapolation: Literal["hold", "linear", "periodic"] = ...,
         signal: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class SignalExtrema(ac.Component):
-    """Least and greatest value at ``startTime + k samplePeriod`` [s], k = 0, 1, ..., and when they were reached."""
+    """Least and greatest value at the start and every ``Ts`` [s] after it, and when they were reached."""
 
     u: ClassVar[ac.Input]
     """input signal"""
@@ -2171,20 +2265,20 @@ class SignalExtrema(ac.Component):
     """when the least value was reached [s]"""
     t_max: ClassVar[ac.Discrete]
     """when the greatest value was reached [s]"""
-    samplePeriod: ClassVar[ac.Parameter]
+    Ts: ClassVar[ac.Parameter]
     """time between two looks, greater than zero [s]"""
-    startTime: ClassVar[ac.Parameter]
-    """first look [s]"""
+    t0: ClassVar[ac.Discrete]
+    """start of the simulation [s]"""
     def __init__(
         self,
         *,
-        samplePeriod: SupportsFloat | ac.Start = ...,
-        startTime: SupportsFloat | ac.Start = ...,
+        Ts: SupportsFloat | ac.Start = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y_min: ac.Start | Mapping[str, Any] = ...,
         y_max: ac.Start | Mapping[str, Any] = ...,
         t_min: ac.Start | Mapping[str, Any] = ...,
         t_max: ac.Start | Mapping[str, Any] = ...,
+        t0: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class SignalSource(SO):
@@ -2211,8 +2305,12 @@ class StateSpace(MIMO):
     """type of initialization"""
     x_start: ClassVar[ac.Parameter]
     """initial or guess values of the states"""
+    y_start: ClassVar[ac.Parameter]
+    """initial values of the outputs"""
     x: ClassVar[ac.Variable]
     """states"""
+    multiplier: ClassVar[ac.Variable]
+    """of the conditions on the outputs at the start"""
     def __init__(
         self,
         *,
@@ -2221,10 +2319,12 @@ class StateSpace(MIMO):
         C: SupportsFloat | Iterable[Any] = ...,
         D: SupportsFloat | Iterable[Any] = ...,
         x_start: SupportsFloat | Iterable[Any] = ...,
-        initType: Literal["NoInit", "SteadyState", "InitialState"] = ...,
+        y_start: SupportsFloat | Iterable[Any] = ...,
+        initType: Literal["NoInit", "SteadyState", "InitialState", "InitialOutput"] = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         x: ac.Start | Mapping[str, Any] = ...,
+        multiplier: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Sum(MISO):
@@ -2300,6 +2400,8 @@ class TransferFunction(SISO):
     """initial value of the output"""
     x: ClassVar[ac.Variable]
     """states in controller canonical form"""
+    x_scaled: ClassVar[ac.Variable]
+    """states times the last coefficient of a"""
     def __init__(
         self,
         *,
@@ -2311,6 +2413,7 @@ class TransferFunction(SISO):
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         x: ac.Start | Mapping[str, Any] = ...,
+        x_scaled: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class VariableDelay(NeedsDiscreteStates):
@@ -2490,86 +2593,39 @@ class Change(SISO):
         held: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CombiTable1Dv(PartialColumns, MIMOs):
-    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u[i]``."""
+class CombiTable1Ds(PartialColumns):
+    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u``."""
+
+    u: ClassVar[ac.Input]
+    """argument"""
+    y: ClassVar[ac.Output]
+    """values"""
     def __init__(
         self,
         *,
         table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
         columns: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
+        smoothness: Literal[
+            "LinearSegments",
+            "ConstantSegments",
+            "ContinuousDerivative",
+            "ModifiedContinuousDerivative",
+            "MonotoneContinuousDerivative1",
+            "MonotoneContinuousDerivative2",
+        ] = ...,
         extrapolation: Literal[
             "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
         ] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
-    ) -> None: ...
-
-class CombiTable2Ds(SI2SO):
-    """Interpolation in a table of two arguments: ``y`` is its value at ``u1``, ``u2``."""
-
-    table: ClassVar[ac.Option]
-    """grid and values"""
-    smoothness: ClassVar[ac.Option]
-    """kind of interpolation"""
-    extrapolation: ClassVar[ac.Option]
-    """what holds outside of the table"""
-    tableOnFile: ClassVar[ac.Option]
-    """tables on files are not read"""
-    verboseRead: ClassVar[ac.Option]
-    """without effect"""
-    verboseExtrapolation: ClassVar[ac.Option]
-    """without effect"""
-    surface: ClassVar[ac.Module]
-    def __init__(
-        self,
-        *,
-        table: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments"] = ...,
-        extrapolation: Literal["HoldLastPoint", "LastTwoPoints", "NoExtrapolation"] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
-        surface: Callable[..., Any] = ...,
-        u1: ac.Start | Mapping[str, Any] = ...,
-        u2: ac.Start | Mapping[str, Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
-    ) -> None: ...
-
-class CombiTable2Dv(MI2MO):
-    """The same table for ``n`` pairs of arguments: ``y[i]`` is its value at ``u1[i]``, ``u2[i]``."""
-
-    table: ClassVar[ac.Option]
-    """grid and values"""
-    smoothness: ClassVar[ac.Option]
-    """kind of interpolation"""
-    extrapolation: ClassVar[ac.Option]
-    """what holds outside of the table"""
-    tableOnFile: ClassVar[ac.Option]
-    """tables on files are not read"""
-    verboseRead: ClassVar[ac.Option]
-    """without effect"""
-    verboseExtrapolation: ClassVar[ac.Option]
-    """without effect"""
-    surface: ClassVar[ac.Module]
-    def __init__(
-        self,
-        *,
-        table: Any = ...,
-        smoothness: Literal["LinearSegments", "ConstantSegments"] = ...,
-        extrapolation: Literal["HoldLastPoint", "LastTwoPoints", "NoExtrapolation"] = ...,
-        tableOnFile: Literal[False] = ...,
-        verboseRead: bool = ...,
-        verboseExtrapolation: bool = ...,
-        n: SupportsIndex = ...,
-        surface: Callable[..., Any] = ...,
-        u1: ac.Start | Mapping[str, Any] = ...,
-        u2: ac.Start | Mapping[str, Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class ContinuousClock(SignalSource):
@@ -2794,7 +2850,7 @@ class From_bar(PartialConversionBlock):
     """Bars to pascals."""
 
     u: ClassVar[ac.Input]
-    """pressure [bar]"""
+    """pressure in bar"""
     y: ClassVar[ac.Output]
     """pressure [Pa]"""
     def __init__(
@@ -2805,7 +2861,7 @@ class From_day(PartialConversionBlock):
     """Days to seconds."""
 
     u: ClassVar[ac.Input]
-    """time [d]"""
+    """time in d"""
     y: ClassVar[ac.Output]
     """time [s]"""
     def __init__(
@@ -2816,7 +2872,7 @@ class From_deg(PartialConversionBlock):
     """Degrees to radians."""
 
     u: ClassVar[ac.Input]
-    """angle [deg]"""
+    """angle in deg"""
     y: ClassVar[ac.Output]
     """angle [rad]"""
     def __init__(
@@ -2827,7 +2883,7 @@ class From_degC(PartialConversionBlock):
     """Degrees Celsius to kelvin: ``y = u + 273.15``."""
 
     u: ClassVar[ac.Input]
-    """temperature [degC]"""
+    """temperature in degC"""
     y: ClassVar[ac.Output]
     """temperature [K]"""
     def __init__(
@@ -2838,7 +2894,7 @@ class From_degF(PartialConversionBlock):
     """Degrees Fahrenheit to kelvin: ``y = 5/9 (u + 459.67)``."""
 
     u: ClassVar[ac.Input]
-    """temperature [degF]"""
+    """temperature in degF"""
     y: ClassVar[ac.Output]
     """temperature [K]"""
     def __init__(
@@ -2849,7 +2905,7 @@ class From_degRk(PartialConversionBlock):
     """Degrees Rankine to kelvin: ``y = 5/9 u``."""
 
     u: ClassVar[ac.Input]
-    """temperature [degR]"""
+    """temperature in degR"""
     y: ClassVar[ac.Output]
     """temperature [K]"""
     def __init__(
@@ -2860,7 +2916,7 @@ class From_gps(PartialConversionBlock):
     """Grams per second to kilograms per second."""
 
     u: ClassVar[ac.Input]
-    """mass flow rate [g/s]"""
+    """mass flow rate in g/s"""
     y: ClassVar[ac.Output]
     """mass flow rate [kg/s]"""
     def __init__(
@@ -2871,7 +2927,7 @@ class From_hour(PartialConversionBlock):
     """Hours to seconds."""
 
     u: ClassVar[ac.Input]
-    """time [h]"""
+    """time in h"""
     y: ClassVar[ac.Output]
     """time [s]"""
     def __init__(
@@ -2882,7 +2938,7 @@ class From_kWh(PartialConversionBlock):
     """Kilowatt hours to joules."""
 
     u: ClassVar[ac.Input]
-    """energy [kW.h]"""
+    """energy in kW.h"""
     y: ClassVar[ac.Output]
     """energy [J]"""
     def __init__(
@@ -2893,7 +2949,7 @@ class From_kmh(PartialConversionBlock):
     """Kilometres per hour to metres per second."""
 
     u: ClassVar[ac.Input]
-    """speed [km/h]"""
+    """speed in km/h"""
     y: ClassVar[ac.Output]
     """speed [m/s]"""
     def __init__(
@@ -2904,7 +2960,7 @@ class From_litre(PartialConversionBlock):
     """Litres to cubic metres."""
 
     u: ClassVar[ac.Input]
-    """volume [l]"""
+    """volume in l"""
     y: ClassVar[ac.Output]
     """volume [m3]"""
     def __init__(
@@ -2915,7 +2971,7 @@ class From_minute(PartialConversionBlock):
     """Minutes to seconds."""
 
     u: ClassVar[ac.Input]
-    """time [min]"""
+    """time in min"""
     y: ClassVar[ac.Output]
     """time [s]"""
     def __init__(
@@ -2926,7 +2982,7 @@ class From_rpm(PartialConversionBlock):
     """Revolutions per minute to radians per second."""
 
     u: ClassVar[ac.Input]
-    """angular velocity [rev/min]"""
+    """angular velocity in rev/min"""
     y: ClassVar[ac.Output]
     """angular velocity [rad/s]"""
     def __init__(
@@ -3238,9 +3294,9 @@ class SlewRateLimiter(PartialStart, SISO):
     initType: ClassVar[ac.Option]
     """type of initialization"""
     Rising: ClassVar[ac.Parameter]
-    """greatest rate [1/s]"""
+    """greatest rate, in units of the signal per second"""
     Falling: ClassVar[ac.Parameter]
-    """least rate [1/s]"""
+    """least rate"""
     Td: ClassVar[ac.Parameter]
     """time constant of the derivative [s]"""
     strict: ClassVar[ac.Option]
@@ -3303,40 +3359,11 @@ class Tanh(SISO):
         self, *, u: ac.Start | Mapping[str, Any] = ..., y: ac.Start | Mapping[str, Any] = ...
     ) -> None: ...
 
-class TimeTable(SO):
-    """Linear interpolation in rows ``[t, y]``; a repeated time is a jump."""
-
-    table: ClassVar[ac.Option]
-    """rows of time and values"""
-    timeScale: ClassVar[ac.Parameter]
-    """unit of the table's times [s]"""
-    startTime: ClassVar[ac.Parameter]
-    """the output is the offset before [s]"""
-    shiftTime: ClassVar[ac.Parameter]
-    """time of the table's zero [s]"""
-    passed: ClassVar[ac.Variable]
-    """number of jumps and corners that lie behind"""
-    offset: ClassVar[ac.Parameter]
-    """offset of the output"""
-    column: ClassVar[ac.Module]
-    def __init__(
-        self,
-        *,
-        timeScale: SupportsFloat | ac.Start = ...,
-        startTime: SupportsFloat | ac.Start = ...,
-        shiftTime: SupportsFloat | ac.Start = ...,
-        offset: SupportsFloat | ac.Start = ...,
-        table: Any = ...,
-        column: Callable[..., Any] = ...,
-        y: ac.Start | Mapping[str, Any] = ...,
-        passed: ac.Start | Mapping[str, Any] = ...,
-    ) -> None: ...
-
 class To_bar(PartialConversionBlock):
     """Pascals to bars."""
 
     u: ClassVar[ac.Input]
-    """pressure [Pa]"""
+    """pressure in Pa"""
     y: ClassVar[ac.Output]
     """pressure [bar]"""
     def __init__(
@@ -3347,7 +3374,7 @@ class To_day(PartialConversionBlock):
     """Seconds to days."""
 
     u: ClassVar[ac.Input]
-    """time [s]"""
+    """time in s"""
     y: ClassVar[ac.Output]
     """time [d]"""
     def __init__(
@@ -3358,7 +3385,7 @@ class To_deg(PartialConversionBlock):
     """Radians to degrees."""
 
     u: ClassVar[ac.Input]
-    """angle [rad]"""
+    """angle in rad"""
     y: ClassVar[ac.Output]
     """angle [deg]"""
     def __init__(
@@ -3369,7 +3396,7 @@ class To_degC(PartialConversionBlock):
     """Kelvin to degrees Celsius: ``y = u - 273.15``."""
 
     u: ClassVar[ac.Input]
-    """temperature [K]"""
+    """temperature in K"""
     y: ClassVar[ac.Output]
     """temperature [degC]"""
     def __init__(
@@ -3380,7 +3407,7 @@ class To_degF(PartialConversionBlock):
     """Kelvin to degrees Fahrenheit: ``y = 9/5 u - 459.67``."""
 
     u: ClassVar[ac.Input]
-    """temperature [K]"""
+    """temperature in K"""
     y: ClassVar[ac.Output]
     """temperature [degF]"""
     def __init__(
@@ -3391,7 +3418,7 @@ class To_degRk(PartialConversionBlock):
     """Kelvin to degrees Rankine: ``y = 9/5 u``."""
 
     u: ClassVar[ac.Input]
-    """temperature [K]"""
+    """temperature in K"""
     y: ClassVar[ac.Output]
     """temperature [degR]"""
     def __init__(
@@ -3402,7 +3429,7 @@ class To_gps(PartialConversionBlock):
     """Kilograms per second to grams per second."""
 
     u: ClassVar[ac.Input]
-    """mass flow rate [kg/s]"""
+    """mass flow rate in kg/s"""
     y: ClassVar[ac.Output]
     """mass flow rate [g/s]"""
     def __init__(
@@ -3413,7 +3440,7 @@ class To_hour(PartialConversionBlock):
     """Seconds to hours."""
 
     u: ClassVar[ac.Input]
-    """time [s]"""
+    """time in s"""
     y: ClassVar[ac.Output]
     """time [h]"""
     def __init__(
@@ -3424,7 +3451,7 @@ class To_kWh(PartialConversionBlock):
     """Joules to kilowatt hours."""
 
     u: ClassVar[ac.Input]
-    """energy [J]"""
+    """energy in J"""
     y: ClassVar[ac.Output]
     """energy [kW.h]"""
     def __init__(
@@ -3435,7 +3462,7 @@ class To_kmh(PartialConversionBlock):
     """Metres per second to kilometres per hour."""
 
     u: ClassVar[ac.Input]
-    """speed [m/s]"""
+    """speed in m/s"""
     y: ClassVar[ac.Output]
     """speed [km/h]"""
     def __init__(
@@ -3446,7 +3473,7 @@ class To_litre(PartialConversionBlock):
     """Cubic metres to litres."""
 
     u: ClassVar[ac.Input]
-    """volume [m3]"""
+    """volume in m3"""
     y: ClassVar[ac.Output]
     """volume [l]"""
     def __init__(
@@ -3457,7 +3484,7 @@ class To_minute(PartialConversionBlock):
     """Seconds to minutes."""
 
     u: ClassVar[ac.Input]
-    """time [s]"""
+    """time in s"""
     y: ClassVar[ac.Output]
     """time [min]"""
     def __init__(
@@ -3468,11 +3495,68 @@ class To_rpm(PartialConversionBlock):
     """Radians per second to revolutions per minute."""
 
     u: ClassVar[ac.Input]
-    """angular velocity [rad/s]"""
+    """angular velocity in rad/s"""
     y: ClassVar[ac.Output]
     """angular velocity [rev/min]"""
     def __init__(
         self, *, u: ac.Start | Mapping[str, Any] = ..., y: ac.Start | Mapping[str, Any] = ...
+    ) -> None: ...
+
+class TruncatedNormalNoise(PartialNoise):
+    """Numbers of a normal distribution, ``mu`` and ``sigma``, of which only ``y_min`` to ``y_max`` is left."""
+
+    y_min: ClassVar[ac.Parameter]
+    """least value"""
+    y_max: ClassVar[ac.Parameter]
+    """greatest value"""
+    mu: ClassVar[ac.Parameter]
+    """mean before it is cut"""
+    sigma: ClassVar[ac.Parameter]
+    """standard deviation before it is cut"""
+    quantile: ClassVar[ac.Module]
+    """normal quantile between limits"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        y_min: SupportsFloat | ac.Start = ...,
+        y_max: SupportsFloat | ac.Start = ...,
+        mu: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
+        quantile: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class UniformNoise(PartialNoise):
+    """Numbers that are equally likely between ``y_min`` and ``y_max``."""
+
+    y_min: ClassVar[ac.Parameter]
+    """least value"""
+    y_max: ClassVar[ac.Parameter]
+    """greatest value"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        y_min: SupportsFloat | ac.Start = ...,
+        y_max: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class Xor(SI2SO):
@@ -3482,6 +3566,27 @@ class Xor(SI2SO):
         *,
         u1: ac.Start | Mapping[str, Any] = ...,
         u2: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class BandLimitedWhiteNoise(PartialNoise):
+    """Normal noise of the power ``noisePower`` at all frequencies well below ``1/samplePeriod``."""
+
+    noisePower: ClassVar[ac.Parameter]
+    """power of the noise, per hertz and both sides"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        noisePower: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
@@ -3496,41 +3601,93 @@ class BooleanChange(Change):
         held: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CombiTimeTable(PartialColumns, MO):
-    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``."""
-
-    timeScale: ClassVar[ac.Parameter]
-    """unit of the table's times [s]"""
-    startTime: ClassVar[ac.Parameter]
-    """the output is the offset before [s]"""
-    shiftTime: ClassVar[ac.Parameter]
-    """time of the table's zero [s]"""
-    passed: ClassVar[ac.Variable]
-    """number of jumps and corners that lie behind"""
-    timeEvents: ClassVar[ac.Option]
-    """where steps end in models with events"""
-    offset: ClassVar[ac.Parameter]
-    """offsets of the outputs, or one for all"""
+class CombiTable1Dv(PartialColumns, MIMOs):
+    """Interpolation in rows ``[u, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]`` at ``u[i]``."""
     def __init__(
         self,
         *,
-        timeScale: SupportsFloat | ac.Start = ...,
-        startTime: SupportsFloat | ac.Start = ...,
-        shiftTime: SupportsFloat | ac.Start = ...,
-        offset: SupportsFloat | Iterable[Any] = ...,
         table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
         columns: Any = ...,
+        smoothness: Literal[
+            "LinearSegments",
+            "ConstantSegments",
+            "ContinuousDerivative",
+            "ModifiedContinuousDerivative",
+            "MonotoneContinuousDerivative1",
+            "MonotoneContinuousDerivative2",
+        ] = ...,
+        extrapolation: Literal[
+            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
+        ] = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class CombiTable2Ds(SI2SO, TableData):
+    """Interpolation in a table of two arguments: ``y`` is its value at ``u1``, ``u2``."""
+
+    smoothness: ClassVar[ac.Option]
+    """kind of interpolation"""
+    extrapolation: ClassVar[ac.Option]
+    """what holds outside of the table"""
+    surface: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
         smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
         extrapolation: Literal[
             "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
         ] = ...,
-        tableOnFile: Literal[False] = ...,
+        surface: Callable[..., Any] = ...,
+        u1: ac.Start | Mapping[str, Any] = ...,
+        u2: ac.Start | Mapping[str, Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class CombiTable2Dv(MI2MO, TableData):
+    """The same table for ``n`` pairs of arguments: ``y[i]`` is its value at ``u1[i]``, ``u2[i]``."""
+
+    smoothness: ClassVar[ac.Option]
+    """kind of interpolation"""
+    extrapolation: ClassVar[ac.Option]
+    """what holds outside of the table"""
+    surface: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
         verboseRead: bool = ...,
         verboseExtrapolation: bool = ...,
-        timeEvents: Literal["Always", "AtDiscontinuities", "NoTimeEvents"] = ...,
+        smoothness: Literal["LinearSegments", "ConstantSegments", "ContinuousDerivative"] = ...,
+        extrapolation: Literal[
+            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
+        ] = ...,
+        n: SupportsIndex = ...,
+        surface: Callable[..., Any] = ...,
+        u1: ac.Start | Mapping[str, Any] = ...,
+        u2: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
-        passed: ac.Start | Mapping[str, Any] = ...,
-        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class Cosine(SignalSource):
@@ -3676,6 +3833,30 @@ class Multiplex5(Multiplex4):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class NormalNoise(PartialNoise):
+    """Numbers of a normal distribution with the mean ``mu`` and the standard deviation ``sigma``."""
+
+    mu: ClassVar[ac.Parameter]
+    """mean"""
+    sigma: ClassVar[ac.Parameter]
+    """standard deviation"""
+    def __init__(
+        self,
+        *,
+        samplePeriod: SupportsFloat | ac.Start = ...,
+        y_off: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        mu: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        enableNoise: bool = ...,
+        useGlobalSeed: bool = ...,
+        useAutomaticLocalSeed: bool = ...,
+        fixedLocalSeed: SupportsIndex = ...,
+        length: SupportsIndex = ...,
+        numbers: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class Pulse(SignalSource):
     """``amplitude`` for the first ``width`` per cent of each period, else 0, plus ``offset``."""
 
@@ -3754,6 +3935,40 @@ class Sine(SignalSource):
         y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class TimeTable(SO, TableData):
+    """Linear interpolation in rows ``[t, y]``; a repeated time is a jump."""
+
+    timeScale: ClassVar[ac.Parameter]
+    """unit of the table's times [s]"""
+    startTime: ClassVar[ac.Parameter]
+    """the output is the offset before [s]"""
+    shiftTime: ClassVar[ac.Parameter]
+    """time of the table's zero [s]"""
+    passed: ClassVar[ac.Variable]
+    """number of jumps and corners that lie behind"""
+    offset: ClassVar[ac.Parameter]
+    """offset of the output"""
+    column: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        timeScale: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        shiftTime: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | ac.Start = ...,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
+        column: Callable[..., Any] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class Trapezoid(SignalSource):
     """In each period: ``rising``, at ``amplitude`` for ``width``, ``falling`` [s], then 0."""
 
@@ -3787,6 +4002,54 @@ class Trapezoid(SignalSource):
         y: ac.Start | Mapping[str, Any] = ...,
         count: ac.Start | Mapping[str, Any] = ...,
         T_start: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class CombiTimeTable(PartialColumns, MO):
+    """Interpolation in rows ``[t, y2, y3, ...]``: output ``y[i]`` is column ``columns[i]``."""
+
+    timeScale: ClassVar[ac.Parameter]
+    """unit of the table's times [s]"""
+    startTime: ClassVar[ac.Parameter]
+    """the output is the offset before [s]"""
+    shiftTime: ClassVar[ac.Parameter]
+    """time of the table's zero [s]"""
+    passed: ClassVar[ac.Variable]
+    """number of jumps and corners that lie behind"""
+    timeEvents: ClassVar[ac.Option]
+    """where steps end in models with events"""
+    offset: ClassVar[ac.Parameter]
+    """offsets of the outputs, or one for all"""
+    def __init__(
+        self,
+        *,
+        timeScale: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        shiftTime: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | Iterable[Any] = ...,
+        table: Any = ...,
+        tableOnFile: Literal[False, True] = ...,
+        tableName: Any = ...,
+        fileName: Any = ...,
+        delimiter: Any = ...,
+        nHeaderLines: SupportsIndex = ...,
+        verboseRead: bool = ...,
+        verboseExtrapolation: bool = ...,
+        columns: Any = ...,
+        smoothness: Literal[
+            "LinearSegments",
+            "ConstantSegments",
+            "ContinuousDerivative",
+            "ModifiedContinuousDerivative",
+            "MonotoneContinuousDerivative1",
+            "MonotoneContinuousDerivative2",
+        ] = ...,
+        extrapolation: Literal[
+            "HoldLastPoint", "LastTwoPoints", "Periodic", "NoExtrapolation"
+        ] = ...,
+        timeEvents: Literal["Always", "AtDiscontinuities", "NoTimeEvents"] = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
+        passed: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class DeMultiplex6(DeMultiplex5):

@@ -24,15 +24,17 @@ _LARGEST = 1e60
 class Mean(SISO):
     """Mean of the input over each period ``1/f``: the output changes at the end of a period.
 
-    ``x``, the integral of the input, starts at ``x0`` and is 0 at the beginning of each further period.
+    ``x``, the integral of the input, starts at ``x0`` and is 0 at the beginning of each further period. The output
+    starts at ``y0``.
     """
 
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     x0 = ac.Parameter(0.0, doc="initial value of the integral")
+    y0 = ac.Parameter(0.0, doc="initial value of the output")
     yGreaterOrEqualZero = ac.Option(False, doc="whether a negative mean counts as zero")
     t0 = ac.Discrete(unit="s", doc="start of the simulation")
     x = ac.Variable(start="x0", fixed=True, state="always", doc="integral over the present period")
-    y_last = ac.Discrete(doc="mean over the last period")
+    y_last = ac.Discrete("y0", doc="mean over the last period")
 
     def equations(self) -> Iterator[Any]:
         yield ac.Eq(self.t0, ac.where(ac.initial(), ac.time, ac.pre(self.t0)))

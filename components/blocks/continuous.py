@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 import acausal as ac
 from acausal.components import icons
 
@@ -54,7 +56,7 @@ class TransferFunction(SISO):
     """``(b[1] s**m + ... + b[m+1])/(a[1] s**n + ... + a[n+1])`` with ``m <= n``.
 
     In controller canonical form: ``a[1] der(x[1]) = u - a[2] x[1] - ... - a[n+1] x[n]``,
-    ``der(x[i]) = x[i-1]``. (Modelica's states are the same; inside, it scales them by ``a[n+1]``.)
+    ``der(x[i]) = x[i-1]``. ``x_scaled`` is ``a[n+1] x``, or ``x`` where ``a[n+1]`` is next to nothing.
     """
 
     ICON = icons.TRANSFER
@@ -65,6 +67,7 @@ class TransferFunction(SISO):
     x_start = ac.Parameter(0.0, shape="nx", doc="initial or guess values of the states")
     y_start = ac.Parameter(0.0, doc="initial value of the output")
     x = ac.Variable(shape="nx", start="x_start", doc="states in controller canonical form")
+    x_scaled = ac.Variable(shape="nx", doc="states times the last coefficient of a")
 
     @property
     def nx(self) -> int:
@@ -78,6 +81,10 @@ class TransferFunction(SISO):
                 f"{len(self.a)}; it must not have fewer"
             )
         yield from canonical_form(self.u, self.y, self.x, self.b, self.a)
+        last, size = self.a[-1], ac.sqrt(dot(self.a, self.a))
+        scale = ac.where(last > 100 * np.finfo(float).eps * size, last, 1, events=None)
+        for x, scaled in zip(self.x, self.x_scaled, strict=True):
+            yield ac.Eq(scaled, scale * x)
 
     def initial_equations(self) -> Iterator[ac.Eq]:
         match self.initType:
@@ -95,8 +102,8 @@ class TransferFunction(SISO):
 class StateSpace(MIMO):
     """``der(x) = A x + B u``, ``y = C x + D u`` with matrices; ``D`` is zero by default.
 
-    ``initType``: ``NoInit``, ``SteadyState`` or ``InitialState`` (Modelica's ``InitialOutput``, a least
-    squares problem, is not available).
+    ``initType``: ``NoInit``, ``SteadyState``, ``InitialState``, or ``InitialOutput``: ``y`` starts at ``y_start`` where
+    ``|der(x)|`` is least. The condition of that is ``A' der(x) + C' multiplier = 0``; the multipliers are constant.
     """
 
     ICON = icons.STATE_SPACE
@@ -105,9 +112,13 @@ class StateSpace(MIMO):
     B = ac.Parameter(shape=(":", ":"), doc="input matrix")
     C = ac.Parameter(shape=(":", ":"), doc="output matrix")
     D = ac.Parameter(0.0, shape=("nout", "nin"), doc="feedthrough matrix")
-    initType = ac.Option("NoInit", choices=INIT[:3], doc="type of initialization")
+    initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
     x_start = ac.Parameter(0.0, shape="nx", doc="initial or guess values of the states")
+    y_start = ac.Parameter(0.0, shape="nout", doc="initial values of the outputs")
     x = ac.Variable(shape="nx", start="x_start", doc="states")
+    multiplier = ac.Variable(
+        shape="nout", when="_starts_by_output", doc="of the conditions on the outputs at the start"
+    )
 
     @property
     def nx(self) -> int:
@@ -129,9 +140,20 @@ class StateSpace(MIMO):
             yield ac.Eq(ac.der(x), dot(a, self.x) + dot(b, self.u))
         for y, c, d in zip(self.y, self.C, self.D, strict=True):
             yield ac.Eq(y, dot(c, self.x) + dot(d, self.u))
+        if self._starts_by_output:
+            yield from (ac.Eq(ac.der(m), 0) for m in self.multiplier)
+
+    @property
+    def _starts_by_output(self) -> bool:
+        return self.initType == "InitialOutput"
 
     def initial_equations(self) -> Iterator[ac.Eq]:
         if self.initType == "SteadyState":
             yield from (ac.Eq(ac.der(x), 0) for x in self.x)
         elif self.initType == "InitialState":
             yield from (ac.Eq(x, s) for x, s in zip(self.x, self.x_start, strict=True))
+        elif self._starts_by_output:
+            yield from (ac.Eq(y, s) for y, s in zip(self.y, self.y_start, strict=True))
+            rates = [ac.der(x) for x in self.x]
+            for a, c in zip(zip(*self.A, strict=True), zip(*self.C, strict=True), strict=True):
+                yield ac.Eq(dot(a, rates) + dot(c, self.multiplier), 0)

@@ -33,15 +33,14 @@ class _Extrema(ac.Component):
 
 
 class SignalExtrema(_Extrema):
-    """Least and greatest value at ``startTime + k samplePeriod`` [s], k = 0, 1, ..., and when they were reached."""
+    """Least and greatest value at the start and every ``Ts`` [s] after it, and when they were reached."""
 
-    samplePeriod = ac.Parameter(
-        unit="s", min=SMALL, doc="time between two looks, greater than zero"
-    )
-    startTime = ac.Parameter(0.0, unit="s", doc="first look")
+    Ts = ac.Parameter(0.01, unit="s", min=SMALL, doc="time between two looks, greater than zero")
+    t0 = ac.Discrete(unit="s", doc="start of the simulation")
 
     def equations(self) -> Iterator[Any]:
-        yield from self._looking(ac.sample(self.startTime, self.samplePeriod) > TRUE)
+        yield ac.Eq(self.t0, ac.where(ac.initial(), ac.time, ac.pre(self.t0)))
+        yield from self._looking(ac.sample(self.t0 + self.Ts, self.Ts) > TRUE)
 
 
 class ContinuousSignalExtrema(_Extrema):

@@ -1,19 +1,27 @@
 """How tables of data are read and interpolated."""
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 import acausal as ac
 
-SMOOTHNESS: dict[str, Literal["linear", "previous", "cubic"]] = {
+from .table_files import from_file
+
+SMOOTHNESS: dict[str, Any] = {
     "LinearSegments": "linear",
     "ConstantSegments": "previous",
-    "ContinuousDerivative": "cubic",
+    "ContinuousDerivative": "akima",
+    "ModifiedContinuousDerivative": "modified-akima",
+    "MonotoneContinuousDerivative1": "monotone",
+    "MonotoneContinuousDerivative2": "steffen",
 }
+"""Kinds of smoothness -> interpolations of `acausal.Signal`."""
 
+SPLINES = ("cubic", "akima", "modified-akima", "monotone", "steffen")
+"""Interpolations of `acausal.Signal` with a continuous derivative."""
 
-EXTRAPOLATION: dict[str, Literal["hold", "linear", "periodic"]] = {
+EXTRAPOLATION: dict[str, Any] = {
     "HoldLastPoint": "hold",
     "LastTwoPoints": "linear",
     "Periodic": "periodic",
@@ -24,29 +32,39 @@ EXTRAPOLATION: dict[str, Literal["hold", "linear", "periodic"]] = {
 def interpolant(
     points: Any, smoothness: str, extrapolation: str, what: str, _key: Any = None
 ) -> ac.Signal:
-    """A signal through rows ``(t, y)``; a repeated time is a jump, a single row a constant."""
+    """A signal through rows ``(t, y)``; a repeated time is a jump, a single row a constant.
+
+    Where the first or last two rows have one time, there is no line to continue: the value is held.
+    """
     points = np.asarray(points, dtype=float)
     if len(points) == 1:
         points = np.concatenate([points, points + np.array([1.0, 0.0])])
     ts = points[:, 0].copy()
+    beyond: list[Any] = [
+        "hold" if step == 0 and extrapolation == "LastTwoPoints" else EXTRAPOLATION[extrapolation]
+        for step in (ts[1] - ts[0], ts[-1] - ts[-2])
+    ]
     for i in np.flatnonzero(np.diff(ts) == 0)[::-1]:
         ts[i] = np.nextafter(min(ts[i], ts[i + 1]), -np.inf)
-    return ac.Signal(
-        ts, points[:, 1], SMOOTHNESS[smoothness], EXTRAPOLATION[extrapolation], name=what
-    )
+    kind = SMOOTHNESS[smoothness]
+    return ac.Signal(ts, points[:, 1], kind, before_start=beyond[0], after_end=beyond[1], name=what)
 
 
 def rows(component: Any) -> np.ndarray:
-    """A component's option ``table`` as an array with at least two columns.
+    """The table of a component as an array, of the form that its class states in ``FORM``.
 
     Raises:
-        DeclarationError: if it is not such a table.
+        DeclarationError: if it has no such table, or the file none.
     """
-    table = component.table
-    if table is None or np.ndim(table) != 2 or np.shape(table)[1] < 2:
-        raise ac.DeclarationError(
-            f"{type(component).__name__} needs table=[[t, y, ...], ...], got {table!r}"
+    if component.tableOnFile:
+        table = from_file(
+            component.fileName, component.tableName, component.delimiter, component.nHeaderLines
         )
+    else:
+        table = component.table
+    form, least = component.FORM
+    if table is None or np.ndim(table) != 2 or np.less(np.shape(table), least).any():
+        raise ac.DeclarationError(f"{type(component).__name__} needs table={form}, got {table!r}")
     return np.asarray(table, dtype=float)
 
 

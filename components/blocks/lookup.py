@@ -1,17 +1,17 @@
 """Tables of one and two arguments."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, get_args
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
 import acausal as ac
 from acausal.components import icons
 
+from . import surfaces
 from .interfaces import MI2MO, SI2SO, MIMOs
-from .tables import PartialColumns
+from .tables import PartialColumns, TableData
 
 __modelica__ = "Modelica.Blocks.Tables"
 
@@ -55,78 +55,29 @@ class CombiTable1Dv(PartialColumns, MIMOs):
             yield ac.Eq(y, column(u))
 
 
-class _Surface(eqx.Module):
-    """Values on a rectangular grid as a function of two arguments.
-
-    Attributes:
-        x, y: grid, shapes (n,) and (m,), ascending. values: shape (n, m).
-        smooth: whether to interpolate, bilinearly; else the value at the lower corner holds.
-        hold: whether the values at the border hold outside; else the cells at the border continue.
-    """
-
-    x: Any
-    y: Any
-    values: Any
-    smooth: bool = eqx.field(static=True)
-    hold: bool = eqx.field(static=True)
-
-    def __call__(self, x: Any, y: Any) -> Any:
-        """The value at two scalars."""
-        (i, a), (j, b) = self._place(self.x, x), self._place(self.y, y)
-        corners = (
-            self.values[i, j],
-            self.values[i + 1, j],
-            self.values[i, j + 1],
-            self.values[i + 1, j + 1],
-        )
-        below, above = (
-            corners[0] + a * (corners[1] - corners[0]),
-            corners[2] + a * (corners[3] - corners[2]),
-        )
-        return below + b * (above - below)
-
-    def _place(self, grid: Any, x: Any) -> tuple[Any, Any]:
-        """The cell of an argument, and how far in it the argument lies."""
-        if self.hold:
-            x = jnp.clip(x, grid[0], grid[-1])
-        i = jnp.clip(jnp.searchsorted(grid, x, side="right") - 1, 0, len(grid) - 2)
-        part = (x - grid[i]) / (grid[i + 1] - grid[i])
-        return i, part if self.smooth else jnp.where(part < 1, 0.0, 1.0)
-
-
-class _Table2D(ac.Component):
+class _Table2D(TableData):
     """What tables of two arguments share.
 
     The first column of ``table``, but for its first element, holds the values of ``u1``, the first row those
-    of ``u2``. ``smoothness``: ``LinearSegments`` (bilinear) or ``ConstantSegments``. ``extrapolation``:
-    ``LastTwoPoints``, or ``HoldLastPoint`` and ``NoExtrapolation``, which both hold the values at the border.
-    The values are a module, ``surface``, among the model's parameters.
+    of ``u2``. The values are a module, ``surface``, among the model's parameters.
     """
 
     ICON = icons.LOOKUP
 
-    table = ac.Option(None, doc="grid and values")
+    FORM = ("[[0, u2, ...], [u1, y, ...], ...]", (2, 2))
+
     smoothness = ac.Option(
-        "LinearSegments",
-        choices=("LinearSegments", "ConstantSegments"),
-        doc="kind of interpolation",
+        "LinearSegments", choices=get_args(surfaces.Smoothness), doc="kind of interpolation"
     )
     extrapolation = ac.Option(
         "LastTwoPoints",
-        choices=("HoldLastPoint", "LastTwoPoints", "NoExtrapolation"),
+        choices=get_args(surfaces.Extrapolation),
         doc="what holds outside of the table",
     )
-    tableOnFile = ac.Option(False, choices=(False,), doc="tables on files are not read")
-    verboseRead = ac.Option(True, doc="without effect")
-    verboseExtrapolation = ac.Option(False, doc="without effect")
     surface = ac.Module("_surface")
 
-    def _surface(self, key: Any) -> _Surface:
-        table = np.asarray(self.table, dtype=float)
-        if table.ndim != 2 or min(table.shape) < 2:
-            raise ac.DeclarationError(
-                f"{type(self).__name__} needs table=[[0, u2, ...], [u1, y, ...], ...], got {self.table!r}"
-            )
+    def _surface(self, _key: Any) -> surfaces.Surface:
+        table = self._rows()
         for axis in (0, 1):  # a single line of values goes on as it is
             if table.shape[axis] == 2:
                 table = np.concatenate([table, np.take(table, [1], axis)], axis)
@@ -134,16 +85,29 @@ class _Table2D(ac.Component):
         x, y = table[1:, 0], table[0, 1:]
         if (np.diff(x) <= 0).any() or (np.diff(y) <= 0).any():
             raise ac.DeclarationError(f"{type(self).__name__}: the arguments in table must ascend")
-        smooth, hold = self.smoothness == "LinearSegments", self.extrapolation != "LastTwoPoints"
-        return _Surface(jnp.asarray(x), jnp.asarray(y), jnp.asarray(table[1:, 1:]), smooth, hold)
+        values = jnp.asarray(table[1:, 1:])
+        return surfaces.Surface(
+            jnp.asarray(x), jnp.asarray(y), values, self.smoothness, self.extrapolation
+        )
+
+    @property
+    def u_min(self) -> Any:
+        """Least arguments of the table."""
+        return self._rows()[[1, 0], [0, 1]]
+
+    @property
+    def u_max(self) -> Any:
+        """Greatest arguments of the table."""
+        return self._rows()[[-1, 0], [0, -1]]
 
 
 class CombiTable2Ds(SI2SO, _Table2D):
     """Interpolation in a table of two arguments: ``y`` is its value at ``u1``, ``u2``.
 
     The first column of ``table``, but for its first element, holds the values of ``u1``, the first row those
-    of ``u2``. ``smoothness``: ``LinearSegments`` (bilinear) or ``ConstantSegments``. ``extrapolation``:
-    ``LastTwoPoints``, or ``HoldLastPoint`` and ``NoExtrapolation``, which both hold the values at the border.
+    of ``u2``. ``smoothness``: ``LinearSegments`` (bilinear), ``ConstantSegments``, or ``ContinuousDerivative``
+    (Akima's surface). ``extrapolation``: ``LastTwoPoints``, ``Periodic``, or ``HoldLastPoint`` and
+    ``NoExtrapolation``, which both hold the values at the border.
     """
 
     def equations(self) -> Iterator[ac.Eq]:

@@ -341,6 +341,16 @@ class Power(SISO):
         yield ac.Eq(self.y, ac.exp(self.u * ac.log(self.base)))
 
 
+class Exponentiation(SISO):
+    """``y = u**exponent``; ``u > 0`` unless the exponent is a whole number."""
+
+    exponent = ac.Option(2, doc="exponent")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        whole = float(self.exponent).is_integer()
+        yield ac.Eq(self.y, self.u ** (int(self.exponent) if whole else self.exponent))
+
+
 class WrapAngle(SISO):
     """The angle ``u`` [rad] in ``]-pi, pi]``, or in ``[0, 2 pi[`` with ``positiveRange``."""
 

@@ -244,3 +244,19 @@ class TerminateSimulation(ac.Component):
         if self.expression is not None:
             yield ac.Eq(self.condition, truth_of(self.expression))
         yield ac.When(self.condition > TRUE, ac.Eq(self.terminated, 1))
+
+
+class AssertCondition(ac.Component):
+    """Tells that its input has been false: ``failed`` is 1 from then on.
+
+    A simulation goes on (Modelica's stops, or warns): look at ``failed`` where ``message`` matters to you.
+    """
+
+    message = ac.Option("Assert block failed", doc="what it means if the input is false")
+    assertionLevel = ac.Option("error", choices=("error", "warning"), doc="without effect")
+    u = ac.Input(doc="what should be true, 1 or 0")
+    failed = ac.Discrete(kind="bool", doc="whether the input has been false")
+
+    def equations(self) -> Iterator[Any]:
+        wrong = ac.maximum(ac.pre(self.failed), truth(self.u <= TRUE))
+        yield ac.Eq(self.failed, wrong)

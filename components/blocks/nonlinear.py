@@ -68,8 +68,8 @@ class SlewRateLimiter(PartialStart, SISO):
 
     ICON = icons.LIMITER
 
-    Rising = ac.Parameter(1.0, unit="1/s", min=0, doc="greatest rate")
-    Falling = ac.Parameter(lambda self: -self.Rising, unit="1/s", max=0, doc="least rate")
+    Rising = ac.Parameter(1.0, min=0, doc="greatest rate, in units of the signal per second")
+    Falling = ac.Parameter(lambda self: -self.Rising, max=0, doc="least rate")
     Td = ac.Parameter(0.001, unit="s", min=0, doc="time constant of the derivative")
     initType = ac.Option("SteadyState", choices=INIT, doc="type of initialization")
     strict = ac.Option(False, doc="without effect")

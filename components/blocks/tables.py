@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -10,18 +10,46 @@ import acausal as ac
 from acausal.components import icons
 
 from .interfaces import MO, SO
-from .interpolation import EXTRAPOLATION, SMOOTHNESS, corners, interpolant, jumps, rows
+from .interpolation import EXTRAPOLATION, SMOOTHNESS, SPLINES, corners, interpolant, jumps, rows
 
 __modelica__ = "Modelica.Blocks.Sources"
 
 
 _TIME_EVENTS = ("Always", "AtDiscontinuities", "NoTimeEvents")
 
+_INTERPOLATION = ("linear", "previous", *SPLINES, "band-limited")
+
 _CORNERS = 30
 """Corners of a table with more than these are no events, each of which is a condition; steps end there anyway."""
 
 
-class _TimeTable(ac.Component):
+class TableData(ac.Component):
+    """A table that is given by its rows, or lies in a file.
+
+    With ``tableOnFile`` it is read from ``fileName``, when the model is made: a text file with the lines
+    ``double tableName(rows,columns)`` before the numbers and ``#1`` at its begin, a file ``.csv`` with ``delimiter``
+    after ``nHeaderLines`` lines, or a ``.mat`` file of MATLAB up to version 7.
+    """
+
+    __modelica__ = None
+
+    FORM: ClassVar = ("[[t, y, ...], ...]", (1, 2))
+    """How a table is written, and the least shape it has."""
+
+    table = ac.Option(None, doc="rows of the argument and values")
+    tableOnFile = ac.Option(False, choices=(False, True), doc="whether the table lies in a file")
+    tableName = ac.Option("NoName", doc="name of the table in the file")
+    fileName = ac.Option("NoName", doc="path of the file")
+    delimiter = ac.Option(",", doc="what separates the numbers in a file .csv")
+    nHeaderLines = ac.Option(0, doc="lines at the begin of a file .csv without numbers")
+    verboseRead = ac.Option(True, doc="without effect")
+    verboseExtrapolation = ac.Option(False, doc="without effect")
+
+    def _rows(self) -> np.ndarray:
+        return rows(self)
+
+
+class _TimeTable(TableData):
     """What time tables share: ``y = offset`` before ``startTime``, then ``offset`` plus the table.
 
     The table's first column holds times in units of ``timeScale`` [s], counted from ``shiftTime`` [s]. Steps end at
@@ -30,14 +58,10 @@ class _TimeTable(ac.Component):
 
     ICON = icons.TABLE
 
-    table = ac.Option(None, doc="rows of time and values")
     timeScale = ac.Parameter(1.0, unit="s", min=0, doc="unit of the table's times")
     startTime = ac.Parameter(0.0, unit="s", doc="the output is the offset before")
     shiftTime = ac.Parameter(lambda self: self.startTime, unit="s", doc="time of the table's zero")
     passed = ac.Variable(when="_has_events", doc="number of jumps and corners that lie behind")
-
-    def _rows(self) -> np.ndarray:
-        return rows(self)
 
     @property
     def _corners(self) -> Sequence[float]:
@@ -84,35 +108,29 @@ class TimeTable(SO, _TimeTable):
         yield self._equation(self.y, self.offset, self.column)
 
 
-class PartialColumns(ac.Component):
+class PartialColumns(TableData):
     """What tables with several columns of values share.
 
-    ``smoothness``: ``LinearSegments``, ``ConstantSegments``, or ``ContinuousDerivative``, a cubic
-    Hermite spline (its derivatives are those of parabolas through three neighbours; Modelica's are
-    Akima's). ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints``, ``Periodic``, or
+    ``smoothness``: ``LinearSegments``, ``ConstantSegments``, or a cubic Hermite spline: ``ContinuousDerivative``
+    (Akima), ``ModifiedContinuousDerivative`` (Akima, modified), and, such that it rises and falls only where the
+    table does, ``MonotoneContinuousDerivative1`` (Fritsch and Butland) or ``MonotoneContinuousDerivative2`` (Steffen).
+    ``extrapolation``: ``HoldLastPoint``, ``LastTwoPoints`` (of splines, the tangent), ``Periodic``, or
     ``NoExtrapolation``, which holds the last point too (Modelica stops there). ``columns`` counts from 1,
     the column of times or arguments; by default all others are outputs. A repeated time or argument is a
-    jump. Tables on files are not read. The values are modules, ``column[i]``, among the model's parameters.
+    jump. The values are modules, ``column[i]``, among the model's parameters. `TableData` reads files.
     """
 
     __modelica__ = None
 
-    table = ac.Option(None, doc="rows of the argument and values")
     columns = ac.Option(None, doc="columns of the table that are outputs, counted from 1")
     smoothness = ac.Option("LinearSegments", choices=tuple(SMOOTHNESS), doc="kind of interpolation")
     extrapolation = ac.Option(
         "LastTwoPoints", choices=tuple(EXTRAPOLATION), doc="what holds outside of the table"
     )
-    tableOnFile = ac.Option(False, choices=(False,), doc="tables on files are not read")
-    verboseRead = ac.Option(True, doc="without effect")
-    verboseExtrapolation = ac.Option(False, doc="without effect")
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
         self.column: Any = [ac.Module(partial(self._column, i)) for i in range(len(self._columns))]
-
-    def _rows(self) -> np.ndarray:
-        return rows(self)
 
     @property
     def _columns(self) -> Sequence[int]:
@@ -168,8 +186,8 @@ class SampledSignal(SO):
 
     Arguments:
         values: the samples. ts: their times [s], or ``dt``: the sample time [s], from ``startTime`` on.
-        interpolation: ``"linear"``, ``"previous"`` (each sample holds until the next), ``"cubic"`` or
-            ``"band-limited"``.
+        interpolation: ``"linear"``, ``"previous"`` (each sample holds until the next), ``"cubic"``,
+            ``"band-limited"``, or another of `acausal.Signal`.
         extrapolation: ``"hold"``, ``"linear"`` or ``"periodic"``.
 
     The samples are a module, ``signal``, among the model's parameters.
@@ -183,7 +201,7 @@ class SampledSignal(SO):
     ts = ac.Option(None, doc="times of the samples")
     dt = ac.Option(None, doc="sample time, instead of ts")
     startTime = ac.Option(0.0, doc="time of the first sample, with dt")
-    interpolation = ac.Option("linear", choices=("linear", "previous", "cubic", "band-limited"))
+    interpolation = ac.Option("linear", choices=_INTERPOLATION)
     extrapolation = ac.Option("hold", choices=("hold", "linear", "periodic"))
     signal = ac.Module("_signal")
 

@@ -14,7 +14,10 @@ __modelica__ = "Modelica.Blocks.Math.UnitConversions"
 
 
 class PartialConversionBlock(SISO):
-    """Base of unit conversions: ``y = factor (u + shift)``."""
+    """Base of unit conversions: ``y = factor (u + shift)``.
+
+    The input is a number without a unit, so that one signal can feed several conversions.
+    """
 
     __modelica__ = "Modelica.Blocks.Interfaces"
 
@@ -28,7 +31,7 @@ class PartialConversionBlock(SISO):
 class To_degC(PartialConversionBlock):
     """Kelvin to degrees Celsius: ``y = u - 273.15``."""
 
-    u = ac.Input(unit="K", doc="temperature")
+    u = ac.Input(doc="temperature in K")
     y = ac.Output(unit="degC", doc="temperature")
     shift = -273.15
 
@@ -36,7 +39,7 @@ class To_degC(PartialConversionBlock):
 class From_degC(PartialConversionBlock):
     """Degrees Celsius to kelvin: ``y = u + 273.15``."""
 
-    u = ac.Input(unit="degC", doc="temperature")
+    u = ac.Input(doc="temperature in degC")
     y = ac.Output(unit="K", doc="temperature")
     shift = 273.15
 
@@ -44,7 +47,7 @@ class From_degC(PartialConversionBlock):
 class To_degF(PartialConversionBlock):
     """Kelvin to degrees Fahrenheit: ``y = 9/5 u - 459.67``."""
 
-    u = ac.Input(unit="K", doc="temperature")
+    u = ac.Input(doc="temperature in K")
     y = ac.Output(unit="degF", doc="temperature")
     factor = 9 / 5
     shift = -459.67 * 5 / 9
@@ -53,7 +56,7 @@ class To_degF(PartialConversionBlock):
 class From_degF(PartialConversionBlock):
     """Degrees Fahrenheit to kelvin: ``y = 5/9 (u + 459.67)``."""
 
-    u = ac.Input(unit="degF", doc="temperature")
+    u = ac.Input(doc="temperature in degF")
     y = ac.Output(unit="K", doc="temperature")
     factor = 5 / 9
     shift = 459.67
@@ -62,7 +65,7 @@ class From_degF(PartialConversionBlock):
 class To_degRk(PartialConversionBlock):
     """Kelvin to degrees Rankine: ``y = 9/5 u``."""
 
-    u = ac.Input(unit="K", doc="temperature")
+    u = ac.Input(doc="temperature in K")
     y = ac.Output(unit="degR", doc="temperature")
     factor = 9 / 5
 
@@ -70,7 +73,7 @@ class To_degRk(PartialConversionBlock):
 class From_degRk(PartialConversionBlock):
     """Degrees Rankine to kelvin: ``y = 5/9 u``."""
 
-    u = ac.Input(unit="degR", doc="temperature")
+    u = ac.Input(doc="temperature in degR")
     y = ac.Output(unit="K", doc="temperature")
     factor = 5 / 9
 
@@ -78,7 +81,7 @@ class From_degRk(PartialConversionBlock):
 class To_deg(PartialConversionBlock):
     """Radians to degrees."""
 
-    u = ac.Input(unit="rad", doc="angle")
+    u = ac.Input(doc="angle in rad")
     y = ac.Output(unit="deg", doc="angle")
     factor = 180 / np.pi
 
@@ -86,7 +89,7 @@ class To_deg(PartialConversionBlock):
 class From_deg(PartialConversionBlock):
     """Degrees to radians."""
 
-    u = ac.Input(unit="deg", doc="angle")
+    u = ac.Input(doc="angle in deg")
     y = ac.Output(unit="rad", doc="angle")
     factor = np.pi / 180
 
@@ -94,7 +97,7 @@ class From_deg(PartialConversionBlock):
 class To_rpm(PartialConversionBlock):
     """Radians per second to revolutions per minute."""
 
-    u = ac.Input(unit="rad/s", doc="angular velocity")
+    u = ac.Input(doc="angular velocity in rad/s")
     y = ac.Output(unit="rev/min", doc="angular velocity")
     factor = 30 / np.pi
 
@@ -102,7 +105,7 @@ class To_rpm(PartialConversionBlock):
 class From_rpm(PartialConversionBlock):
     """Revolutions per minute to radians per second."""
 
-    u = ac.Input(unit="rev/min", doc="angular velocity")
+    u = ac.Input(doc="angular velocity in rev/min")
     y = ac.Output(unit="rad/s", doc="angular velocity")
     factor = np.pi / 30
 
@@ -110,7 +113,7 @@ class From_rpm(PartialConversionBlock):
 class To_kmh(PartialConversionBlock):
     """Metres per second to kilometres per hour."""
 
-    u = ac.Input(unit="m/s", doc="speed")
+    u = ac.Input(doc="speed in m/s")
     y = ac.Output(unit="km/h", doc="speed")
     factor = 3.6
 
@@ -118,7 +121,7 @@ class To_kmh(PartialConversionBlock):
 class From_kmh(PartialConversionBlock):
     """Kilometres per hour to metres per second."""
 
-    u = ac.Input(unit="km/h", doc="speed")
+    u = ac.Input(doc="speed in km/h")
     y = ac.Output(unit="m/s", doc="speed")
     factor = 1 / 3.6
 
@@ -126,7 +129,7 @@ class From_kmh(PartialConversionBlock):
 class To_day(PartialConversionBlock):
     """Seconds to days."""
 
-    u = ac.Input(unit="s", doc="time")
+    u = ac.Input(doc="time in s")
     y = ac.Output(unit="d", doc="time")
     factor = 1 / 86400
 
@@ -134,7 +137,7 @@ class To_day(PartialConversionBlock):
 class From_day(PartialConversionBlock):
     """Days to seconds."""
 
-    u = ac.Input(unit="d", doc="time")
+    u = ac.Input(doc="time in d")
     y = ac.Output(unit="s", doc="time")
     factor = 86400.0
 
@@ -142,7 +145,7 @@ class From_day(PartialConversionBlock):
 class To_hour(PartialConversionBlock):
     """Seconds to hours."""
 
-    u = ac.Input(unit="s", doc="time")
+    u = ac.Input(doc="time in s")
     y = ac.Output(unit="h", doc="time")
     factor = 1 / 3600
 
@@ -150,7 +153,7 @@ class To_hour(PartialConversionBlock):
 class From_hour(PartialConversionBlock):
     """Hours to seconds."""
 
-    u = ac.Input(unit="h", doc="time")
+    u = ac.Input(doc="time in h")
     y = ac.Output(unit="s", doc="time")
     factor = 3600.0
 
@@ -158,7 +161,7 @@ class From_hour(PartialConversionBlock):
 class To_minute(PartialConversionBlock):
     """Seconds to minutes."""
 
-    u = ac.Input(unit="s", doc="time")
+    u = ac.Input(doc="time in s")
     y = ac.Output(unit="min", doc="time")
     factor = 1 / 60
 
@@ -166,7 +169,7 @@ class To_minute(PartialConversionBlock):
 class From_minute(PartialConversionBlock):
     """Minutes to seconds."""
 
-    u = ac.Input(unit="min", doc="time")
+    u = ac.Input(doc="time in min")
     y = ac.Output(unit="s", doc="time")
     factor = 60.0
 
@@ -174,7 +177,7 @@ class From_minute(PartialConversionBlock):
 class To_litre(PartialConversionBlock):
     """Cubic metres to litres."""
 
-    u = ac.Input(unit="m3", doc="volume")
+    u = ac.Input(doc="volume in m3")
     y = ac.Output(unit="l", doc="volume")
     factor = 1000.0
 
@@ -182,7 +185,7 @@ class To_litre(PartialConversionBlock):
 class From_litre(PartialConversionBlock):
     """Litres to cubic metres."""
 
-    u = ac.Input(unit="l", doc="volume")
+    u = ac.Input(doc="volume in l")
     y = ac.Output(unit="m3", doc="volume")
     factor = 1e-3
 
@@ -190,7 +193,7 @@ class From_litre(PartialConversionBlock):
 class To_kWh(PartialConversionBlock):
     """Joules to kilowatt hours."""
 
-    u = ac.Input(unit="J", doc="energy")
+    u = ac.Input(doc="energy in J")
     y = ac.Output(unit="kW.h", doc="energy")
     factor = 1 / 3.6e6
 
@@ -198,7 +201,7 @@ class To_kWh(PartialConversionBlock):
 class From_kWh(PartialConversionBlock):
     """Kilowatt hours to joules."""
 
-    u = ac.Input(unit="kW.h", doc="energy")
+    u = ac.Input(doc="energy in kW.h")
     y = ac.Output(unit="J", doc="energy")
     factor = 3.6e6
 
@@ -206,7 +209,7 @@ class From_kWh(PartialConversionBlock):
 class To_bar(PartialConversionBlock):
     """Pascals to bars."""
 
-    u = ac.Input(unit="Pa", doc="pressure")
+    u = ac.Input(doc="pressure in Pa")
     y = ac.Output(unit="bar", doc="pressure")
     factor = 1e-5
 
@@ -214,7 +217,7 @@ class To_bar(PartialConversionBlock):
 class From_bar(PartialConversionBlock):
     """Bars to pascals."""
 
-    u = ac.Input(unit="bar", doc="pressure")
+    u = ac.Input(doc="pressure in bar")
     y = ac.Output(unit="Pa", doc="pressure")
     factor = 1e5
 
@@ -222,7 +225,7 @@ class From_bar(PartialConversionBlock):
 class To_gps(PartialConversionBlock):
     """Kilograms per second to grams per second."""
 
-    u = ac.Input(unit="kg/s", doc="mass flow rate")
+    u = ac.Input(doc="mass flow rate in kg/s")
     y = ac.Output(unit="g/s", doc="mass flow rate")
     factor = 1000.0
 
@@ -230,6 +233,6 @@ class To_gps(PartialConversionBlock):
 class From_gps(PartialConversionBlock):
     """Grams per second to kilograms per second."""
 
-    u = ac.Input(unit="g/s", doc="mass flow rate")
+    u = ac.Input(doc="mass flow rate in g/s")
     y = ac.Output(unit="kg/s", doc="mass flow rate")
     factor = 1e-3

@@ -11,6 +11,7 @@ A signal is one of the numbers 1 ... 9, the values of `acausal.components.digita
 
 from acausal.components.modelica import export
 
+from .adders import *
 from .converters import *
 from .delayed_gates import *
 from .delays import *

@@ -9,11 +9,14 @@ from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex
 import acausal as ac
 
 __all__ = [
+    "Adder",
     "And",
     "AndGate",
     "BooleanToLogic",
     "BufGate",
     "Clock",
+    "FullAdder",
+    "HalfAdder",
     "InertialDelay",
     "InertialDelaySensitive",
     "InvGate",
@@ -39,6 +42,34 @@ __all__ = [
     "Xor",
     "XorGate",
 ]
+
+class Adder(ac.Component):
+    """Two numbers of ``n`` bits, the least first, and a carry: ``n`` full adders ``FullAdder[i]`` in a chain."""
+
+    n: ClassVar[ac.Option]
+    """number of bits"""
+    a: ClassVar[ac.Input]
+    """first number"""
+    b: ClassVar[ac.Input]
+    """second number"""
+    c_in: ClassVar[ac.Input]
+    """carry"""
+    s: ClassVar[ac.Output]
+    """sum"""
+    c_out: ClassVar[ac.Output]
+    """carry of the last bit"""
+    FullAdder: list[FullAdder]
+    def __init__(
+        self,
+        *,
+        n: SupportsIndex = ...,
+        a: ac.Start | Mapping[str, Any] = ...,
+        b: ac.Start | Mapping[str, Any] = ...,
+        c_in: ac.Start | Mapping[str, Any] = ...,
+        s: ac.Start | Mapping[str, Any] = ...,
+        c_out: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
 
 class BooleanToLogic(ac.Component):
     """``'1'`` where ``x > 0.5``, else ``'0'``, element by element."""
@@ -78,6 +109,59 @@ class Clock(ac.Component):
         width: SupportsFloat | ac.Start = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         t_i: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class FullAdder(ac.Component):
+    """Two bits and a carry: ``s`` is their sum without the new carry ``c_out``; half adders of 1 ms."""
+
+    a: ClassVar[ac.Input]
+    """first bit"""
+    b: ClassVar[ac.Input]
+    """second bit"""
+    c_in: ClassVar[ac.Input]
+    """carry from the bit before"""
+    s: ClassVar[ac.Output]
+    """sum"""
+    c_out: ClassVar[ac.Output]
+    """carry to the next bit"""
+    Adder1: HalfAdder
+    Adder2: HalfAdder
+    OR: Or
+    def __init__(
+        self,
+        *,
+        a: ac.Start | Mapping[str, Any] = ...,
+        b: ac.Start | Mapping[str, Any] = ...,
+        c_in: ac.Start | Mapping[str, Any] = ...,
+        s: ac.Start | Mapping[str, Any] = ...,
+        c_out: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class HalfAdder(ac.Component):
+    """Two bits: ``s`` is their sum without carry, ``c`` the carry; both ``delayTime`` [s] late."""
+
+    delayTime: ClassVar[ac.Parameter]
+    """delay of the gates [s]"""
+    a: ClassVar[ac.Input]
+    """first bit"""
+    b: ClassVar[ac.Input]
+    """second bit"""
+    s: ClassVar[ac.Output]
+    """sum"""
+    c: ClassVar[ac.Output]
+    """carry"""
+    AND: AndGate
+    XOR: XorGate
+    def __init__(
+        self,
+        *,
+        delayTime: SupportsFloat | ac.Start = ...,
+        a: ac.Start | Mapping[str, Any] = ...,
+        b: ac.Start | Mapping[str, Any] = ...,
+        s: ac.Start | Mapping[str, Any] = ...,
+        c: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
     ) -> None: ...
 
 class LogicToBoolean(ac.Component):

@@ -25,6 +25,7 @@ from .ideal import *
 from .ideal_amplifiers import *
 from .inductors import *
 from .interfaces import *
+from .lightning import *
 from .lines import *
 from .mosfets import *
 from .sensors import *

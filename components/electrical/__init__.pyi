@@ -44,6 +44,7 @@ __all__ = [
     "CurrentSensor",
     "CurrentSource",
     "DA_Converter",
+    "DCPowerSupply",
     "Diode",
     "Diode2",
     "ExpSineCurrent",
@@ -73,6 +74,9 @@ __all__ = [
     "IdealizedOpAmpLimited",
     "Idle",
     "Inductor",
+    "LightningImpulse",
+    "LightningImpulseCurrent",
+    "LightningImpulseVoltage",
     "M_OLine",
     "M_Transformer",
     "MultiSensor",
@@ -1035,6 +1039,41 @@ class ConstantVoltage(OnePort):
         i: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class DCPowerSupply(OnePort):
+    """A supply of the laboratory: constant voltage, constant power, or constant current, whichever gives the least."""
+
+    v: ClassVar[ac.Variable]
+    """voltage from p to n [V]"""
+    V0: ClassVar[ac.Parameter]
+    """voltage without load [V]"""
+    I0: ClassVar[ac.Parameter]
+    """current of a short circuit [A]"""
+    P0: ClassVar[ac.Parameter]
+    """greatest power [W]"""
+    Rcv: ClassVar[ac.Parameter]
+    """inner resistance at constant voltage [Ohm]"""
+    Gcc: ClassVar[ac.Parameter]
+    """inner conductance at constant current [S]"""
+    iBack: ClassVar[ac.Option]
+    """without effect"""
+    P: ClassVar[ac.Variable]
+    """power, negative where it is delivered [W]"""
+    def __init__(
+        self,
+        *,
+        V0: SupportsFloat | ac.Start = ...,
+        I0: SupportsFloat | ac.Start = ...,
+        P0: SupportsFloat | ac.Start = ...,
+        Rcv: SupportsFloat | ac.Start = ...,
+        Gcc: SupportsFloat | ac.Start = ...,
+        iBack: Any = ...,
+        p: Mapping[str, Any] = ...,
+        n: Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
+        i: ac.Start | Mapping[str, Any] = ...,
+        P: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class Gyrator(TwoPort):
     """Gyrator: ``i1 = G2 v2``, ``i2 = -G1 v1``."""
 
@@ -1229,6 +1268,32 @@ class Inductor(OnePort):
         n: Mapping[str, Any] = ...,
         v: ac.Start | Mapping[str, Any] = ...,
         i: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class LightningImpulse(_blocks.SignalSource):
+    """An impulse of the height ``amplitude`` by Heidler's function, or by two exponentials."""
+
+    approximation: ClassVar[ac.Option]
+    """approximation of the impulse"""
+    amplitude: ClassVar[ac.Parameter]
+    """height of the impulse"""
+    T1: ClassVar[ac.Option]
+    """rise time in s"""
+    T2: ClassVar[ac.Option]
+    """time in s until it has fallen to a half"""
+    m: ClassVar[ac.Option]
+    """exponent of Heidler's function, 5 to 10"""
+    def __init__(
+        self,
+        *,
+        amplitude: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        approximation: Literal["Heidler", "DoubleExp"] = ...,
+        T1: Any = ...,
+        T2: Any = ...,
+        m: SupportsIndex = ...,
+        y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class RotationalEMF(OnePort):
@@ -3156,6 +3221,68 @@ class ExpSineVoltage(VoltageSource):
         startTime: SupportsFloat | ac.Start = ...,
         offset: SupportsFloat | ac.Start = ...,
         phase: SupportsFloat | ac.Start = ...,
+        p: Mapping[str, Any] = ...,
+        n: Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
+        i: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class LightningImpulseCurrent(CurrentSource):
+    """``i`` is an impulse of the height ``I``, see `LightningImpulse`."""
+
+    I: ClassVar[ac.Parameter]
+    """amplitude [A]"""
+    approximation: ClassVar[ac.Option]
+    """approximation of the impulse"""
+    T1: ClassVar[ac.Option]
+    """rise time in s"""
+    T2: ClassVar[ac.Option]
+    """time in s until it has fallen to a half"""
+    m: ClassVar[ac.Option]
+    """exponent of Heidler's function, 5 to 10"""
+    signalSource: LightningImpulse
+    def __init__(
+        self,
+        *,
+        I: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | ac.Start = ...,
+        approximation: Literal["Heidler", "DoubleExp"] = ...,
+        T1: Any = ...,
+        T2: Any = ...,
+        m: SupportsIndex = ...,
+        p: Mapping[str, Any] = ...,
+        n: Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
+        i: ac.Start | Mapping[str, Any] = ...,
+        **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class LightningImpulseVoltage(VoltageSource):
+    """``v`` is an impulse of the height ``V``, see `LightningImpulse`."""
+
+    V: ClassVar[ac.Parameter]
+    """amplitude [V]"""
+    approximation: ClassVar[ac.Option]
+    """approximation of the impulse"""
+    T1: ClassVar[ac.Option]
+    """rise time in s"""
+    T2: ClassVar[ac.Option]
+    """time in s until it has fallen to a half"""
+    m: ClassVar[ac.Option]
+    """exponent of Heidler's function, 5 to 10"""
+    signalSource: LightningImpulse
+    def __init__(
+        self,
+        *,
+        V: SupportsFloat | ac.Start = ...,
+        startTime: SupportsFloat | ac.Start = ...,
+        offset: SupportsFloat | ac.Start = ...,
+        approximation: Literal["Heidler", "DoubleExp"] = ...,
+        T1: Any = ...,
+        T2: Any = ...,
+        m: SupportsIndex = ...,
         p: Mapping[str, Any] = ...,
         n: Mapping[str, Any] = ...,
         v: ac.Start | Mapping[str, Any] = ...,

@@ -168,13 +168,14 @@ class Integrator(_Inverting):
 
 
 class FirstOrder(_Inverting):
-    """Low pass: ``v2 + T der(v2) = -k v1``."""
+    """Low pass: ``v2 + T der(v2) = -k v1``; ``v`` [V] is the capacitor's voltage."""
 
     k = ac.Parameter(1.0, min=0, doc="gain")
     R1 = ac.Parameter(1000.0, unit="Ohm", doc="resistance at the input")
     R2 = ac.Parameter(lambda self: self.k * self.R1, unit="Ohm", doc="resistance, computed")
     T = ac.Parameter(unit="s", doc="time constant")
     C = ac.Parameter(lambda self: self.T / self.R2, unit="F", doc="capacitance, computed")
+    v = ac.Variable(unit="V", doc="voltage of the capacitor")
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
@@ -183,6 +184,10 @@ class FirstOrder(_Inverting):
         self.connect(self.p1, self.r1.p)
         self.connect(self.opAmp.in_n, self.r1.n, self.r2.n, self.c.n)
         self.connect(self.opAmp.out, self.r2.p, self.c.p)
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        yield ac.Eq(self.v, self.c.v)
 
 
 class Derivative(_Inverting):
@@ -226,3 +231,20 @@ class PI(_Inverting):
         self.connect(self.opAmp.in_n, self.r1.n, self.r2.n)
         self.connect(self.r2.p, self.c.n)
         self.connect(self.opAmp.out, self.c.p)
+
+
+class DifferentialAmplifierData(ac.Component):
+    """A record: what source, differential amplifier and instrument of Modelica's example have as parameters."""
+
+    VSource = ac.Parameter(400.0, unit="V", doc="effective voltage of the source, line to line")
+    fSource = ac.Parameter(50.0, unit="Hz", doc="frequency of the source")
+    RLoad = ac.Parameter(10.0, unit="Ohm", doc="load of the source")
+    RGround = ac.Parameter(100e3, unit="Ohm", doc="resistance to ground")
+    V0 = ac.Parameter(10e3, doc="gain of the amplifier without feedback")
+    VSupply = ac.Parameter(15.0, unit="V", doc="supply")
+    k = ac.Parameter(100.0, doc="attenuation")
+    R1 = ac.Parameter(100e3, unit="Ohm", doc="resistor 1")
+    R2 = ac.Parameter(lambda self: self.R1, unit="Ohm", doc="resistor 2")
+    R3 = ac.Parameter(lambda self: self.R1 / self.k, unit="Ohm", doc="resistor 3")
+    R4 = ac.Parameter(lambda self: self.R3, unit="Ohm", doc="resistor 4")
+    RInstrument = ac.Parameter(100e3, unit="Ohm", doc="input resistance of the instrument")

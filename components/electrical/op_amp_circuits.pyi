@@ -14,6 +14,7 @@ __all__ = [
     "Buffer",
     "Der",
     "Derivative",
+    "DifferentialAmplifierData",
     "Feedback",
     "FirstOrder",
     "Gain",
@@ -21,6 +22,50 @@ __all__ = [
     "PI",
     "PartialOpAmp",
 ]
+
+class DifferentialAmplifierData(ac.Component):
+    """A record: what source, differential amplifier and instrument of Modelica's example have as parameters."""
+
+    VSource: ClassVar[ac.Parameter]
+    """effective voltage of the source, line to line [V]"""
+    fSource: ClassVar[ac.Parameter]
+    """frequency of the source [Hz]"""
+    RLoad: ClassVar[ac.Parameter]
+    """load of the source [Ohm]"""
+    RGround: ClassVar[ac.Parameter]
+    """resistance to ground [Ohm]"""
+    V0: ClassVar[ac.Parameter]
+    """gain of the amplifier without feedback"""
+    VSupply: ClassVar[ac.Parameter]
+    """supply [V]"""
+    k: ClassVar[ac.Parameter]
+    """attenuation"""
+    R1: ClassVar[ac.Parameter]
+    """resistor 1 [Ohm]"""
+    R2: ClassVar[ac.Parameter]
+    """resistor 2 [Ohm]"""
+    R3: ClassVar[ac.Parameter]
+    """resistor 3 [Ohm]"""
+    R4: ClassVar[ac.Parameter]
+    """resistor 4 [Ohm]"""
+    RInstrument: ClassVar[ac.Parameter]
+    """input resistance of the instrument [Ohm]"""
+    def __init__(
+        self,
+        *,
+        VSource: SupportsFloat | ac.Start = ...,
+        fSource: SupportsFloat | ac.Start = ...,
+        RLoad: SupportsFloat | ac.Start = ...,
+        RGround: SupportsFloat | ac.Start = ...,
+        V0: SupportsFloat | ac.Start = ...,
+        VSupply: SupportsFloat | ac.Start = ...,
+        k: SupportsFloat | ac.Start = ...,
+        R1: SupportsFloat | ac.Start = ...,
+        R2: SupportsFloat | ac.Start = ...,
+        R3: SupportsFloat | ac.Start = ...,
+        R4: SupportsFloat | ac.Start = ...,
+        RInstrument: SupportsFloat | ac.Start = ...,
+    ) -> None: ...
 
 class PartialOpAmp(_electrical.FourPin):
     """Base of the circuits: the amplifier ``opAmp``, whose output is ``p2``; ``n1`` and ``n2`` are joined."""
@@ -189,7 +234,7 @@ class Feedback(PartialOpAmp):
     ) -> None: ...
 
 class FirstOrder(PartialOpAmp):
-    """Low pass: ``v2 + T der(v2) = -k v1``."""
+    """Low pass: ``v2 + T der(v2) = -k v1``; ``v`` [V] is the capacitor's voltage."""
 
     k: ClassVar[ac.Parameter]
     """gain"""
@@ -201,6 +246,8 @@ class FirstOrder(PartialOpAmp):
     """time constant [s]"""
     C: ClassVar[ac.Parameter]
     """capacitance, computed [F]"""
+    v: ClassVar[ac.Variable]
+    """voltage of the capacitor [V]"""
     opAmp: _electrical.IdealizedOpAmpLimited
     r1: _electrical.Resistor
     r2: _electrical.Resistor
@@ -224,6 +271,7 @@ class FirstOrder(PartialOpAmp):
         v2: ac.Start | Mapping[str, Any] = ...,
         i1: ac.Start | Mapping[str, Any] = ...,
         i2: ac.Start | Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
     ) -> None: ...
 

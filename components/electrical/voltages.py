@@ -134,3 +134,29 @@ class SupplyVoltage(ac.Component):
         self.connect(self.pin_p, self.positiveSupply.p)
         self.connect(self.positiveSupply.n, self.ground, self.negativeSupply.p)
         self.connect(self.negativeSupply.n, self.pin_n)
+
+
+class DCPowerSupply(OnePort):
+    """A supply of the laboratory: constant voltage, constant power, or constant current, whichever gives the least.
+
+    Delivered is ``-i``, the least of ``(V0 - v)/Rcv``, ``P0/v`` and ``I0 - Gcc v``. It works for ``v > 0`` and takes
+    hardly any current back.
+    """
+
+    ICON = icons.VOLTAGE
+
+    V0 = ac.Parameter(60.0, unit="V", min=0, doc="voltage without load")
+    I0 = ac.Parameter(50.0, unit="A", min=0, doc="current of a short circuit")
+    P0 = ac.Parameter(1200.0, unit="W", min=0, doc="greatest power")
+    Rcv = ac.Parameter(1e-3, unit="Ohm", min=0, doc="inner resistance at constant voltage")
+    Gcc = ac.Parameter(1e-3, unit="S", min=0, doc="inner conductance at constant current")
+    iBack = ac.Option(1e-3, doc="without effect")
+    v = ac.Variable(start="V0", unit="V", doc="voltage from p to n")
+    P = ac.Variable(unit="W", doc="power, negative where it is delivered")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield from super().equations()
+        by_voltage, by_current = (self.V0 - self.v) / self.Rcv, self.I0 - self.Gcc * self.v
+        by_power = self.P0 / ac.maximum(self.v, self.P0 / (2 * self.I0))
+        yield ac.Eq(self.i, -ac.minimum(ac.minimum(by_voltage, by_current), by_power))
+        yield ac.Eq(self.P, self.v * self.i)

@@ -7,7 +7,7 @@ core = mag.Cuboid(material=mag.M350_50A(), l=0.26, a=0.025, b=0.025)
 ```
 
 Tubes that pull at an armature are in the module `force`, leakage tubes in `leakage`, materials of magnets in
-`hard_magnetic`.
+`hard_magnetic`, materials with hysteresis in `hysteresis_data`.
 """
 
 from acausal.components.modelica import export
@@ -15,15 +15,17 @@ from acausal.components.modelica import export
 from . import (
     force as force,
     hard_magnetic as hard_magnetic,
+    hysteresis_data as hysteresis_data,
     leakage as leakage,
     soft_magnetic as soft_magnetic,
 )
 from .basic import *
 from .fixed_shape import *
+from .hysteresis import *
 from .interfaces import *
 from .magnets import *
 from .sensors import *
 from .soft_magnetic import *
 from .sources import *
 
-export(__name__, "force", "hard_magnetic", "leakage", "soft_magnetic")
+export(__name__, "force", "hard_magnetic", "hysteresis_data", "leakage", "soft_magnetic")

@@ -3,7 +3,7 @@
 Made by docs/make_stubs.py from the declarations of the classes; do not edit it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, SupportsFloat
 
 import acausal as ac
@@ -32,6 +32,7 @@ from acausal.components.magnetic.soft_magnetic import (
 from . import (
     force as force,
     hard_magnetic as hard_magnetic,
+    hysteresis_data as hysteresis_data,
     leakage as leakage,
     soft_magnetic as soft_magnetic,
 )
@@ -53,6 +54,13 @@ __all__ = [
     "ElectroMagneticConverterWithLeakageInductance",
     "FixedShape",
     "GenericFluxTube",
+    "GenericHystTellinenEverett",
+    "GenericHystTellinenHard",
+    "GenericHystTellinenPermanentMagnet",
+    "GenericHystTellinenSoft",
+    "GenericHystTellinenTable",
+    "GenericHysteresis",
+    "GenericHysteresisTellinen",
     "GenericLinearPermanentMagnet",
     "Ground",
     "HollowCylinderAxialFlux",
@@ -90,6 +98,7 @@ __all__ = [
     "X6Cr17",
     "force",
     "hard_magnetic",
+    "hysteresis_data",
     "leakage",
     "soft_magnetic",
 ]
@@ -448,6 +457,62 @@ class FixedShape(Reluctance):
         mu_r: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class GenericHysteresis(TwoPort, _electrical.ConditionalHeatPort):
+    """A prismatic tube whose flux density depends on the past: ``H = V_m/l = Hstat + Heddy``, ``B = Phi/A``."""
+
+    l: ClassVar[ac.Parameter]
+    """length in the direction of flux [m]"""
+    A: ClassVar[ac.Parameter]
+    """cross-section [m2]"""
+    includeEddyCurrents: ClassVar[ac.Option]
+    """whether there are eddy currents"""
+    sigma: ClassVar[ac.Parameter]
+    """conductivity of the material [S/m]"""
+    d: ClassVar[ac.Parameter]
+    """thickness of the sheets [m]"""
+    H: ClassVar[ac.Variable]
+    """magnetic field strength [A/m]"""
+    Hstat: ClassVar[ac.Variable]
+    """field strength without eddy currents [A/m]"""
+    Heddy: ClassVar[ac.Variable]
+    """field strength of eddy currents [A/m]"""
+    derHstat: ClassVar[ac.Variable]
+    """derivative of Hstat [A/(m.s)]"""
+    B: ClassVar[ac.Variable]
+    """magnetic flux density [T]"""
+    MagRel: ClassVar[ac.Variable]
+    """relative magnetization at the start"""
+    LossPowerStat: ClassVar[ac.Variable]
+    """losses by hysteresis [W]"""
+    LossPowerEddy: ClassVar[ac.Variable]
+    """losses by eddy currents [W]"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class LeakageWithCoefficient(Reluctance):
     """Leakage parallel to a useful path: ``(1 - c_usefulFlux) R_m = c_usefulFlux R_mUsefulTot``."""
 
@@ -535,6 +600,54 @@ class GenericFluxTube(FixedShape):
         mu_r: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
+class GenericHysteresisTellinen(GenericHysteresis):
+    """Tellinen's model: between the branches ``hystR`` and ``hystF`` of the limiting loop, ``B`` follows their slopes."""
+
+    asc: ClassVar[ac.Discrete]
+    """1 while Hstat rises"""
+    hystR: ClassVar[ac.Variable]
+    """rising branch of the limiting loop [T]"""
+    hystF: ClassVar[ac.Variable]
+    """falling branch of the limiting loop [T]"""
+    diffHyst: ClassVar[ac.Variable]
+    """distance of the branches [T]"""
+    dHyst: ClassVar[ac.Variable]
+    """derivative of the branch's polarization [T/s]"""
+    k: ClassVar[ac.Variable]
+    """part of it that the flux density follows"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        asc: ac.Start | Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+        hystR: ac.Start | Mapping[str, Any] = ...,
+        hystF: ac.Start | Mapping[str, Any] = ...,
+        diffHyst: ac.Start | Mapping[str, Any] = ...,
+        dHyst: ac.Start | Mapping[str, Any] = ...,
+        k: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
 class HollowCylinderAxialFlux(FixedShape):
     """Axial flux in a (hollow) cylinder: ``A = pi (r_o**2 - r_i**2)``, ``G_m = mu_0 mu_r A/l``."""
 
@@ -571,7 +684,7 @@ class HollowCylinderAxialFlux(FixedShape):
     ) -> None: ...
 
 class HollowCylinderCircumferentialFlux(FixedShape):
-    """Flux around a hollow cylinder: ``A = l (r_o - r_i)``, ``G_m = mu_0 mu_r A/(alfa (r_o + r_i)/2)``."""
+    """Flux around a hollow cylinder: ``A = l (r_o - r_i)``, ``G_m = mu_0 mu_r A/(alpha (r_o + r_i)/2)``."""
 
     l: ClassVar[ac.Parameter]
     """axial length, orthogonal to the flux [m]"""
@@ -579,7 +692,7 @@ class HollowCylinderCircumferentialFlux(FixedShape):
     """inner radius [m]"""
     r_o: ClassVar[ac.Parameter]
     """outer radius [m]"""
-    alfa: ClassVar[ac.Parameter]
+    alpha: ClassVar[ac.Parameter]
     """central angle [rad]"""
     def __init__(
         self,
@@ -593,7 +706,7 @@ class HollowCylinderCircumferentialFlux(FixedShape):
         l: SupportsFloat | ac.Start = ...,
         r_i: SupportsFloat | ac.Start = ...,
         r_o: SupportsFloat | ac.Start = ...,
-        alfa: SupportsFloat | ac.Start = ...,
+        alpha: SupportsFloat | ac.Start = ...,
         nonLinearPermeability: bool = ...,
         material: Any = ...,
         port_p: Mapping[str, Any] = ...,
@@ -647,13 +760,13 @@ class HollowCylinderRadialFlux(FixedShape):
     ) -> None: ...
 
 class Toroid(FixedShape):
-    """Flux around a toroid with a circular cross-section: ``A = pi d**2/4``, ``G_m = mu_0 mu_r A/(r alfa)``."""
+    """Flux around a toroid with a circular cross-section: ``A = pi d**2/4``, ``G_m = mu_0 mu_r A/(r alpha)``."""
 
     r: ClassVar[ac.Parameter]
     """mean radius of the toroid [m]"""
     d: ClassVar[ac.Parameter]
     """diameter of the core [m]"""
-    alfa: ClassVar[ac.Parameter]
+    alpha: ClassVar[ac.Parameter]
     """central angle [rad]"""
     def __init__(
         self,
@@ -666,7 +779,7 @@ class Toroid(FixedShape):
         n: SupportsFloat | ac.Start = ...,
         r: SupportsFloat | ac.Start = ...,
         d: SupportsFloat | ac.Start = ...,
-        alfa: SupportsFloat | ac.Start = ...,
+        alpha: SupportsFloat | ac.Start = ...,
         nonLinearPermeability: bool = ...,
         material: Any = ...,
         port_p: Mapping[str, Any] = ...,
@@ -753,6 +866,233 @@ class ElectroMagneticConverterWithLeakageInductance(_electrical.OnePort, TwoPort
         L_stat: ac.Start | Mapping[str, Any] = ...,
         Phi_ind: ac.Start | Mapping[str, Any] = ...,
         Phi_leak: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class GenericHystTellinenEverett(GenericHysteresisTellinen):
+    """The limiting loop by the Everett function of a material, see `hysteresis_data.Everett`."""
+
+    sigma: ClassVar[ac.Parameter]
+    """conductivity [S/m]"""
+    mat: ClassVar[ac.Option]
+    """material, a hysteresis_data.Everett"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        mat: Any = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        asc: ac.Start | Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+        hystR: ac.Start | Mapping[str, Any] = ...,
+        hystF: ac.Start | Mapping[str, Any] = ...,
+        diffHyst: ac.Start | Mapping[str, Any] = ...,
+        dHyst: ac.Start | Mapping[str, Any] = ...,
+        k: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class GenericHystTellinenHard(GenericHysteresisTellinen):
+    """Hard magnetic: the branches are ``Br tanh(M H -+ H0)``, such that ``B = 0`` at ``H = +-Hc``."""
+
+    Br: ClassVar[ac.Parameter]
+    """remanence [T]"""
+    Hc: ClassVar[ac.Parameter]
+    """coercivity [A/m]"""
+    M: ClassVar[ac.Parameter]
+    """slope of the branches [m/A]"""
+    K: ClassVar[ac.Parameter]
+    """slope in saturation over mu_0"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        Br: SupportsFloat | ac.Start = ...,
+        Hc: SupportsFloat | ac.Start = ...,
+        M: SupportsFloat | ac.Start = ...,
+        K: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        asc: ac.Start | Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+        hystR: ac.Start | Mapping[str, Any] = ...,
+        hystF: ac.Start | Mapping[str, Any] = ...,
+        diffHyst: ac.Start | Mapping[str, Any] = ...,
+        dHyst: ac.Start | Mapping[str, Any] = ...,
+        k: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class GenericHystTellinenSoft(GenericHysteresisTellinen):
+    """Soft magnetic: the branches are ``Js tanh((Hstat -+ Hc) H0/Hc)`` with ``tanh(H0) = Br/Js``."""
+
+    Js: ClassVar[ac.Parameter]
+    """saturation polarization [T]"""
+    Br: ClassVar[ac.Parameter]
+    """remanence [T]"""
+    Hc: ClassVar[ac.Parameter]
+    """coercivity [A/m]"""
+    K: ClassVar[ac.Parameter]
+    """slope in saturation over mu_0"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        Js: SupportsFloat | ac.Start = ...,
+        Br: SupportsFloat | ac.Start = ...,
+        Hc: SupportsFloat | ac.Start = ...,
+        K: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        asc: ac.Start | Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+        hystR: ac.Start | Mapping[str, Any] = ...,
+        hystF: ac.Start | Mapping[str, Any] = ...,
+        diffHyst: ac.Start | Mapping[str, Any] = ...,
+        dHyst: ac.Start | Mapping[str, Any] = ...,
+        k: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class GenericHystTellinenTable(GenericHysteresisTellinen):
+    """The limiting loop by tables, `hysteresis_data.LoopTable`, interpolated by Akima's splines."""
+
+    sigma: ClassVar[ac.Parameter]
+    """conductivity [S/m]"""
+    mat: ClassVar[ac.Option]
+    """material, a hysteresis_data.LoopTable"""
+    K: ClassVar[ac.Parameter]
+    """slope in saturation over mu_0"""
+    tabris: ClassVar[ac.Module]
+    tabfal: ClassVar[ac.Module]
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        K: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        mat: Any = ...,
+        tabris: Callable[..., Any] = ...,
+        tabfal: Callable[..., Any] = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        asc: ac.Start | Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+        hystR: ac.Start | Mapping[str, Any] = ...,
+        hystF: ac.Start | Mapping[str, Any] = ...,
+        diffHyst: ac.Start | Mapping[str, Any] = ...,
+        dHyst: ac.Start | Mapping[str, Any] = ...,
+        k: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
+
+class GenericHystTellinenPermanentMagnet(GenericHystTellinenHard):
+    """A permanent magnet that can lose its magnetization: it starts with ``MagRel = -1``."""
+
+    MagRel: ClassVar[ac.Variable]
+    """relative magnetization at the start"""
+    def __init__(
+        self,
+        *,
+        T: SupportsFloat | ac.Start = ...,
+        l: SupportsFloat | ac.Start = ...,
+        A: SupportsFloat | ac.Start = ...,
+        sigma: SupportsFloat | ac.Start = ...,
+        d: SupportsFloat | ac.Start = ...,
+        Br: SupportsFloat | ac.Start = ...,
+        Hc: SupportsFloat | ac.Start = ...,
+        M: SupportsFloat | ac.Start = ...,
+        K: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        includeEddyCurrents: bool = ...,
+        heatPort: Mapping[str, Any] = ...,
+        port_p: Mapping[str, Any] = ...,
+        port_n: Mapping[str, Any] = ...,
+        asc: ac.Start | Mapping[str, Any] = ...,
+        LossPower: ac.Start | Mapping[str, Any] = ...,
+        T_heatPort: ac.Start | Mapping[str, Any] = ...,
+        V_m: ac.Start | Mapping[str, Any] = ...,
+        Phi: ac.Start | Mapping[str, Any] = ...,
+        H: ac.Start | Mapping[str, Any] = ...,
+        Hstat: ac.Start | Mapping[str, Any] = ...,
+        Heddy: ac.Start | Mapping[str, Any] = ...,
+        derHstat: ac.Start | Mapping[str, Any] = ...,
+        B: ac.Start | Mapping[str, Any] = ...,
+        MagRel: ac.Start | Mapping[str, Any] = ...,
+        LossPowerStat: ac.Start | Mapping[str, Any] = ...,
+        LossPowerEddy: ac.Start | Mapping[str, Any] = ...,
+        hystR: ac.Start | Mapping[str, Any] = ...,
+        hystF: ac.Start | Mapping[str, Any] = ...,
+        diffHyst: ac.Start | Mapping[str, Any] = ...,
+        dHyst: ac.Start | Mapping[str, Any] = ...,
+        k: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 NegativeMagneticPort = MagneticPort

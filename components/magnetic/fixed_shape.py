@@ -138,27 +138,27 @@ class HollowCylinderRadialFlux(FixedShape):
 
 
 class HollowCylinderCircumferentialFlux(FixedShape):
-    """Flux around a hollow cylinder: ``A = l (r_o - r_i)``, ``G_m = mu_0 mu_r A/(alfa (r_o + r_i)/2)``."""
+    """Flux around a hollow cylinder: ``A = l (r_o - r_i)``, ``G_m = mu_0 mu_r A/(alpha (r_o + r_i)/2)``."""
 
     l = ac.Parameter(0.02, unit="m", doc="axial length, orthogonal to the flux")
     r_i = ac.Parameter(0.01, unit="m", doc="inner radius")
     r_o = ac.Parameter(0.02, unit="m", doc="outer radius")
-    alfa = ac.Parameter(pi / 2, unit="rad", doc="central angle")
+    alpha = ac.Parameter(pi / 2, unit="rad", doc="central angle")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         area = self.l * (self.r_o - self.r_i)
-        yield from self._stated(area, area / ((self.r_o + self.r_i) / 2 * self.alfa))
+        yield from self._stated(area, area / ((self.r_o + self.r_i) / 2 * self.alpha))
 
 
 class Toroid(FixedShape):
-    """Flux around a toroid with a circular cross-section: ``A = pi d**2/4``, ``G_m = mu_0 mu_r A/(r alfa)``."""
+    """Flux around a toroid with a circular cross-section: ``A = pi d**2/4``, ``G_m = mu_0 mu_r A/(r alpha)``."""
 
     r = ac.Parameter(0.1, unit="m", doc="mean radius of the toroid")
     d = ac.Parameter(0.01, unit="m", doc="diameter of the core")
-    alfa = ac.Parameter(pi / 2, unit="rad", doc="central angle")
+    alpha = ac.Parameter(pi / 2, unit="rad", doc="central angle")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         area = ac.pi * self.d**2 / 4
-        yield from self._stated(area, area / (self.r * self.alfa))
+        yield from self._stated(area, area / (self.r * self.alpha))

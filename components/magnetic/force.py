@@ -123,6 +123,7 @@ class LeakageAroundPoles(Force):
 
     w = ac.Parameter(0.1, unit="m", doc="width; the mean circumference of round poles")
     r = ac.Parameter(0.01, unit="m", doc="radius of the leakage field")
+    mu_r = ac.Option(1.0, doc="without effect: the field is in air")
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()

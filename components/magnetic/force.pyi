@@ -61,6 +61,8 @@ class LeakageAroundPoles(Force):
     """width; the mean circumference of round poles [m]"""
     r: ClassVar[ac.Parameter]
     """radius of the leakage field [m]"""
+    mu_r: ClassVar[ac.Option]
+    """without effect: the field is in air"""
     def __init__(
         self,
         *,
@@ -68,6 +70,7 @@ class LeakageAroundPoles(Force):
         r: SupportsFloat | ac.Start = ...,
         useSupport: bool = ...,
         dlBydx: Literal[1, -1] = ...,
+        mu_r: Any = ...,
         port_p: Mapping[str, Any] = ...,
         port_n: Mapping[str, Any] = ...,
         flange: Mapping[str, Any] = ...,

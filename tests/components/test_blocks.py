@@ -18,7 +18,7 @@ signal: Any = scipy_signal  # its types are partly unknown
 
 BASES = {
     *vars(importlib.import_module("acausal.components.blocks.interfaces")),
-    "PartialColumns", "PartialConversionBlock",
+    "PartialColumns", "PartialConversionBlock", "PartialNoise",
 }  # fmt: skip
 
 # Parameters and options with their defaults, as in MSL 4.1.0 (`...` marks those without a default,
@@ -647,3 +647,38 @@ def test_parts_of_a_controller_can_be_modified():
     controller = blocks.LimPID(controllerType="PI", yMax=1, limiter={"u": ac.Start(0.5)})
     assert controller.limiter._node.modifiers["u"] == ac.Start(0.5)
     assert not hasattr(controller, "D")
+
+
+class Starts(ac.Component):
+    """A state space that starts by its output, a transfer function at rest, a check, a power."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.k, self.clock = blocks.Constant(k=2.0), blocks.ContinuousClock()
+        self.space = blocks.StateSpace(
+            A=A, B=B, C=C, D=[[0.3]], initType="InitialOutput", y_start=[3.0]
+        )
+        self.transfer = blocks.TransferFunction(
+            b=[1.0, 2.0], a=[2.0, 3.0, 4.0], initType="SteadyState"
+        )
+        self.early = blocks.LessThreshold(threshold=0.5)
+        self.check, self.cube = blocks.AssertCondition(), blocks.Exponentiation(exponent=3)
+        self.connect(self.k.y, self.space.u[0], self.transfer.u)
+        self.connect(self.clock.y, self.early.u, self.cube.u)
+        self.connect(self.early.y, self.check.u)
+
+
+A, B, C = [[1.0, 2.0], [-3.0, -1.0]], [[1.0], [0.5]], [[1.0, -2.0]]
+
+
+@pytest.mark.slow
+def test_starts_by_outputs_checks_and_powers() -> None:
+    found = ac.simulate(ac.compile(Starts()), (0, 1), saveat=[0.0, 0.4, 1.0])
+    a, b, c = map(np.asarray, (A, B, C))
+    kkt = np.block([[a.T @ a, c.T], [c, np.zeros((1, 1))]])
+    x = np.linalg.solve(kkt, np.append(-a.T @ b @ [2.0], 3 - 0.3 * 2))
+    assert [found[f"space.x[{i}]"][0] for i in (1, 2)] == pytest.approx(list(x[:2]))
+    assert found["transfer.x[2]"][-1] == pytest.approx(0.5)
+    assert found["transfer.x_scaled[2]"][-1] == pytest.approx(2.0)
+    assert list(found["check.failed"]) == [0, 0, 1]
+    assert found["cube.y"][1] == pytest.approx(0.4**3)

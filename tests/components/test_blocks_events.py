@@ -181,7 +181,7 @@ class Averages(ac.Component):
         self.rms, self.harmonic = blocks.RootMeanSquare(f=2.0), blocks.Harmonic(f=2.0, k=3)
         self.thd = blocks.TotalHarmonicDistortion(f=2.0)
         self.extrema = blocks.ContinuousSignalExtrema(T=1e-4)
-        self.sampled = blocks.SignalExtrema(samplePeriod=0.1)
+        self.sampled = blocks.SignalExtrema(Ts=0.1)
         self.connect(self.fundamental.y, self.wave.u1)
         self.connect(self.third.y, self.wave.u2)
         for part in (self.mean, self.rms, self.harmonic, self.extrema, self.sampled):

@@ -258,7 +258,7 @@ def test_a_table_is_differentiated_where_the_model_needs_it():
         (lambda: blocks.CombiTable1Ds(), r"CombiTable1Ds needs table="),
         (
             lambda: blocks.CombiTable1Ds(table=TABLE, tableOnFile=True),
-            "tableOnFile=True must be one of",
+            "fileName='NoName': there is no such file",
         ),
         (lambda: ac.compile(blocks.CombiTable2Ds()).parameters(), r"needs table=\[\[0, u2"),
         (

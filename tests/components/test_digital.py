@@ -271,3 +271,29 @@ def test_a_file_names_values_as_modelica_does(tmp_path: Path) -> None:
         assert model.set.x == "'-'"
         assert list(model.table.x) == ["'1'", "'0'"]
         ac.save(model, path)
+
+
+@pytest.mark.slow
+def test_a_chain_of_full_adders_adds(tmp_path: Path) -> None:
+    """6 + 3 = 9, and 7 + 1 = 8 half a second later, as a netlist with Modelica's short name of the values."""
+    logic = "Modelica.Electrical.Digital"
+    bits = {"a": ("011", "111"), "b": ("110", "100")}
+    components: dict[str, Any] = {
+        "adder": {"class": f"{logic}.Examples.Utilities.Adder", "with": {"n": 3}},
+        "carry": {"class": f"{logic}.Sources.Set", "with": {"x": "L.'0'"}},
+    }
+    connections = [["carry.y", "adder.c_in"]]
+    for name, (first, second) in bits.items():
+        for i in range(3):
+            values = f"{{L.'{first[i]}', L.'{second[i]}'}}"
+            components[f"{name}{i}"] = {
+                "class": f"{logic}.Sources.Table",
+                "with": {"x": values, "t": "{0, 0.5}", "y0": "L.'0'"},
+            }
+            connections.append([f"{name}{i}.y", f"adder.{name}[{i + 1}]"])
+    file = tmp_path / "adder.json"
+    file.write_text(json.dumps({"components": components, "connections": connections}), "utf-8")
+    found = ac.simulate(ac.compile(ac.load(file)), (0, 1), saveat=[0.4, 0.9])
+    names = ["adder.s[1]", "adder.s[2]", "adder.s[3]", "adder.c_out"]
+    sums = [[LOGIC[round(float(found[n][k])) - 1][1] for n in names] for k in (0, 1)]
+    assert sums == [["1", "0", "0", "1"], ["0", "0", "0", "1"]]

@@ -1,6 +1,8 @@
 """Electrical circuits: MSL's names and defaults, characteristics at points, and a bench of responses."""
 
 import inspect
+import json
+from pathlib import Path
 from typing import Any
 
 import jax
@@ -11,7 +13,13 @@ from scipy.optimize import brentq
 
 import acausal as ac
 from acausal.codegen import default_parameters, pack
-from acausal.components import electrical as el, nature, rotational as rot, translational as tl
+from acausal.components import (
+    blocks,
+    electrical as el,
+    nature,
+    rotational as rot,
+    translational as tl,
+)
 from acausal.components.electrical import op_amp_circuits as oc
 from acausal.components.thermal import HeatPort
 from acausal.flattening.flat_model import flatten
@@ -43,6 +51,8 @@ CIRCUIT = {**SUPPLY, "V0": 15000}
 
 # Parameters and options with their defaults, as in MSL 4.1.0: `...` marks those without, `callable` those
 # that are computed from others.
+IMPULSE = {"approximation": "Heidler", "T1": 10e-6, "T2": 350e-6, "m": 5}
+
 DEFAULTS = {
     "Ground": {},
     "Resistor": {"R": ..., **RESISTANCE},
@@ -130,6 +140,10 @@ DEFAULTS = {
     "PowerSensor": {},
     "MultiSensor": {},
     "SupplyVoltage": SUPPLY,
+    "DCPowerSupply": {"V0": 60, "I0": 50, "P0": 1200, "Rcv": 1e-3, "Gcc": 1e-3, "iBack": 1e-3},
+    "LightningImpulse": {"amplitude": ..., **IMPULSE, "offset": 0, "startTime": 0},
+    "LightningImpulseVoltage": {"V": ..., **IMPULSE, "offset": 0},
+    "LightningImpulseCurrent": {"I": ..., **IMPULSE, "offset": 0},
     "SignalVoltage": {},
     "ConstantVoltage": {"V": ...},
     "StepVoltage": {"V": ..., **SIGNAL},
@@ -188,6 +202,20 @@ CIRCUITS = {
     "FirstOrder": {"k": 1, "R1": 1000, "R2": callable, "T": ..., "C": callable, **CIRCUIT},
     "Derivative": {"k": 1, "R1": 1000, "R2": callable, "T": ..., "C": callable, **CIRCUIT},
     "PI": {"k": 1, "R1": 1000, "R2": callable, "T": ..., "C": callable, **CIRCUIT},
+    "DifferentialAmplifierData": {
+        "VSource": 400,
+        "fSource": 50,
+        "RLoad": 10,
+        "RGround": 100e3,
+        "V0": 10e3,
+        "VSupply": 15,
+        "k": 100,
+        "R1": 100e3,
+        "R2": callable,
+        "R3": callable,
+        "R4": callable,
+        "RInstrument": 100e3,
+    },
 }
 
 PARTIAL = {
@@ -1107,3 +1135,67 @@ def test_a_line_is_symmetric_and_delays():
     assert sol["r1.i"][0] > 0.5
     assert sol["r2.v"][1] == pytest.approx(1, abs=0.02)
     assert sol["line.v[4]"][1] == pytest.approx(1, abs=0.02)
+
+
+class Sources(ac.Component):
+    """Impulses of both shapes, and a supply with a load that grows from next to nothing to next to a short circuit."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.heidler = el.LightningImpulse(amplitude=2.0, startTime=1e-6)
+        self.double = el.LightningImpulse(
+            amplitude=2.0, approximation="DoubleExp", T1=1.2e-6, T2=50e-6
+        )
+        self.supply = el.DCPowerSupply()
+        self.load = el.VariableConductor()
+        self.ramp, self.power = (
+            blocks.Ramp(height=6, duration=4e-4, offset=-3),
+            blocks.Power(base=10),
+        )
+        self.ground = el.Ground()
+        self.connect(self.ramp.y, self.power.u)
+        self.connect(self.power.y, self.load.G)
+        self.connect(self.supply.p, self.load.p)
+        self.connect(self.supply.n, self.load.n, self.ground.p)
+
+
+@pytest.mark.slow
+def test_impulses_have_their_times_and_a_supply_its_three_limits() -> None:
+    ts = np.linspace(0, 4e-4, 8001)
+    found = ac.simulate(ac.compile(Sources()), (0, 4e-4), saveat=ts)
+    for name, rise, half in (("heidler", 10e-6, 350e-6), ("double", 1.2e-6, 50e-6)):
+        y = np.asarray(found[f"{name}.y"]) / 2
+        top = int(y.argmax())
+        assert y[top] == pytest.approx(1, abs=1e-5)
+        t10, t90 = (np.interp(part, y[:top], ts[:top]) for part in (0.1, 0.9))
+        assert t90 - t10 == pytest.approx(0.8 * rise, rel=2e-3)
+        t50 = np.interp(-0.5, -y[top:], ts[top:])
+        assert t50 - (t10 - 0.1 * rise) == pytest.approx(half, rel=2e-3)
+    v, i = np.asarray(found["supply.v"]), -np.asarray(found["supply.i"])
+    assert v[0] == pytest.approx(60, abs=1e-3)
+    assert i[-1] == pytest.approx(50, abs=1e-3)
+    assert (v * i).max() == pytest.approx(1200)
+    assert (v * i)[4000] == pytest.approx(1200)
+
+
+def test_an_impulse_needs_a_rise_that_is_shorter_than_its_decay() -> None:
+    with pytest.raises(ac.DeclarationError, match=r"T1=1e-05 and T2=1e-06 must be positive"):
+        ac.compile(el.LightningImpulse(amplitude=1.0, T2=1e-6))
+
+
+def test_a_record_gives_parameters_to_others(tmp_path: Path) -> None:
+    circuits = "Modelica.Electrical.Analog.Examples.OpAmps.OpAmpCircuits"
+    components = {
+        "data": {"class": f"{circuits}.DifferentialAmplifierData", "with": {"k": 50.0}},
+        "r": {
+            "class": "Modelica.Electrical.Analog.Basic.Resistor", "with": {"R": "2*data.R3"},
+        },
+        "g": {"class": "Modelica.Electrical.Analog.Basic.Ground"},
+    }  # fmt: skip
+    file = tmp_path / "record.json"
+    file.write_text(
+        json.dumps({"components": components, "connections": [["r.p", "g.p"]]}), "utf-8"
+    )
+    system = ac.compile(ac.load(file))
+    resistance = system.observe("r.R_actual", 0.0, np.zeros(0), np.zeros(0), system.parameters())
+    assert resistance == pytest.approx(2 * 100e3 / 50)

@@ -1,0 +1,103 @@
+"""Loops opened at connections, by name: loop transfer, sensitivity and complementary sensitivity."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import jax.numpy as jnp
+from jax.typing import ArrayLike
+from jaxtyping import Float
+
+from acausal.analysis.linearization import Linearization, linearize
+from acausal.analysis.operating_point import OperatingPoint
+from acausal.errors import need_compiled
+from acausal.modeling import names_in
+
+if TYPE_CHECKING:
+    from acausal.system import Params, System
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """What a model does to signals that are added at analysis points, near a point of operation.
+
+    A point is a signal that a connection feeds. With the connection open, ``output = G input``: ``input`` enters at the
+    point, and ``output`` is what would have fed it.
+
+    Attributes:
+        opened: ``G``, the model with open connections.
+    """
+
+    opened: Linearization
+
+    @property
+    def transfer(self) -> Linearization:
+        """The loop transfer ``L = -G`` of negative feedback: the loop is stable as its Nyquist curve goes round -1."""
+        return replace(self.opened, C=-self.opened.C, D=-self.opened.D)
+
+    @property
+    def sensitivity(self) -> Linearization:
+        """``S = (I + L)^-1``: from what is added at the point to the signal there."""
+        A, B, C, D = self.opened
+        direct = jnp.linalg.inv(jnp.eye(len(D)) - D)
+        return replace(
+            self.opened, A=A + B @ direct @ C, B=B @ direct, C=direct @ C, D=direct,
+            outputs=self.opened.inputs,
+        )  # fmt: skip
+
+    @property
+    def complementary(self) -> Linearization:
+        """``T = I - S = (I + L)^-1 L``: from what is added at the point to what feeds it, with the other sign."""
+        S = self.sensitivity
+        return replace(S, C=-S.C, D=jnp.eye(len(S.D)) - S.D, outputs=self.opened.outputs)
+
+
+def open_loop(
+    system: System,
+    points: str | Sequence[str],
+    x: Mapping[str, ArrayLike]
+    | Float[ArrayLike, " n_states"]
+    | OperatingPoint
+    | Literal["steady"]
+    | None = None,
+    *,
+    inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
+    params: Params | None = None,
+    t: float | None = None,
+) -> Loop:
+    """Open signal connections and linearize the model there; the model stays as it is.
+
+    Arguments:
+        system: a compiled model.
+        points: input signals of components, each fed by a connection, such as ``"motor.tau_ref"``.
+        x, inputs, params, t: where, as of `linearize`: a point of the closed loop.
+
+    Raises:
+        DeclarationError: for a point that no connection feeds.
+        DataError: if ``x`` or ``inputs`` do not fit the model.
+        ModelError: for a model that is not compiled.
+    """
+    need_compiled(system, "open_loop")
+    points = names_in(points, "points")
+    opened, sources = system.opened(points)
+    names = (*opened.states, *opened.inputs)
+    if isinstance(x, OperatingPoint):
+        params, t = x.values.packed if params is None else params, x.time if t is None else t
+        inputs, x = x.u if inputs is None else inputs, x.x
+    t = 0.0 if t is None else t
+    packed, given = system.pack(params), system.inputs_at(t, inputs, None)
+    state = system.initial_state(packed, x, inputs=given, t0=t)
+    at = system.read(names, system.values(t, state, given, packed))
+    known = dict(zip(names, at, strict=True))
+    found = linearize(
+        opened,
+        {n: known[n] for n in opened.states},
+        inputs={n: known[n] for n in opened.inputs},
+        outputs=sources,
+        params=params,
+        t=t,
+    )
+    columns = jnp.array([opened.inputs.index(name) for name in points])
+    return Loop(replace(found, B=found.B[:, columns], D=found.D[:, columns], inputs=points))
