@@ -67,8 +67,19 @@ def build(document: Mapping[str, Any], where: str, libraries: tuple[Library, ...
         state(scope, text, f"{where}: equations[{number}]")
     for number, text in enumerate(as_list(document, "initial_equations", where)):
         _initial(scope, text, f"{where}: initial_equations[{number}]")
+    _inherit(model, model, where)
     model.distinguish()
     return model
+
+
+def _inherit(model: Component, inside: Component, where: str) -> None:
+    """Give the parts below what they take from the model around them, unless they have it from a nearer one."""
+    for part in inside._node.children.values():
+        for name, path in part.OUTER.items():
+            value = attribute(model, path)
+            if value is not None and name not in part._node.modifiers:
+                within(where, lambda p=part, n=name, v=value: p.modify(**{n: v}))
+        _inherit(model, part, where)
 
 
 # -- parameters and parts ----------------------------------------------------------------------------
