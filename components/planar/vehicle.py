@@ -57,6 +57,10 @@ class IdealWheelJoint(PartialWheel):
 
     __modelica__ = "PlanarMechanics.VehicleComponents.Wheels"
 
+    stateSelect = ac.Option("prefer", choices=STATE_SELECT, doc="priority of the speeds as states")
+    v_long = ac.Variable(
+        unit="m/s", state="stateSelect", doc="speed along the direction of driving"
+    )
     a = ac.Variable(unit="m/s2", doc="acceleration along the direction of driving")
 
     def equations(self) -> Iterator[ac.Eq]:
