@@ -1,14 +1,14 @@
 """Neural elements of planar mechanisms and vehicles: a bushing and a tyre.
 
-For a joint with learned friction, let a flange drive it (``planar.Revolute(useFlange=True)``), and put a `Resistance` or
-a `BearingFriction` between ``flange_a`` and ``support``.
+For a joint with learned friction, let a flange drive it (``planar.Revolute(useFlange=True)``), and connect that to a
+`BearingFriction`, or by a `Resistance` to the joint's ``support``.
 """
 
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components.planar.interfaces import Offset, PartialTwoFrames, turned
+from acausal.components.planar.interfaces import PartialTwoFrames, turned
 from acausal.components.planar.vehicle import PartialSlippingWheel
 
 from .interfaces import PartialLaw, PartialNetwork
@@ -17,7 +17,7 @@ from .interfaces import PartialLaw, PartialNetwork
 class Bushing(PartialNetwork, PartialTwoFrames):
     """A neural bushing: an elastic and damping joint between two frames, as of rubber.
 
-    The displacements ``u`` are that of ``frame_b`` along the axes of ``frame_a``, and its angle [m, m, rad]. The efforts
+    The displacements ``u`` are those of ``frame_b`` along the axes of ``frame_a``, and its angle [m, m, rad]. Efforts
     ``e`` at ``frame_b`` are the gradient of an energy ``E = net(u)`` and of a dissipation ``D = loss(der(u))``:
     ``e_i = dE/du_i + dD/d(der(u_i))`` [N, N, N.m]. So the stiffness is symmetric, and what is lost, ``lossPower``, is
     never negative, for all weights; nothing is lost while nothing moves. ``passive``, ``convex``, ``odd`` and
@@ -34,7 +34,9 @@ class Bushing(PartialNetwork, PartialTwoFrames):
     rate_scale = ac.Option(1.0, doc="magnitude of the rates, one number or one for each")
     loss_scale = ac.Option(1.0, doc="magnitude of the first damping effort")
     promises = ("odd", "passive", "convex", "floor")
-    loss = ac.Module("_fresh_loss", doc="the dissipation, half of what is lost where it is quadratic")
+    loss = ac.Module(
+        "_fresh_loss", doc="the dissipation, half of what is lost where it is quadratic"
+    )
     u = ac.Variable(shape=3, doc="displacements along x and y of frame_a, and angle")
     v = ac.Variable(shape=3, doc="their rates")
     e = ac.Variable(shape=3, doc="forces along x and y of frame_a, and torque, at frame_b")
@@ -54,11 +56,12 @@ class Bushing(PartialNetwork, PartialTwoFrames):
     def _fresh_loss(self, key: Any) -> Any:
         """A dissipation with fresh weights: convex, with its least value where nothing moves."""
         scale = self.rate_scale
-        sizes = {**self._sizes, "input_scale": tuple(scale) if isinstance(scale, list) else scale}
-        spec = ac.networks.Energy(
-            inputs=3, passive=True, convex=True, **{**sizes, "output_scale": self.loss_scale}
-        )
-        return spec(key)
+        sizes: dict[str, Any] = {
+            **self._sizes,
+            "input_scale": tuple(scale) if isinstance(scale, list | tuple) else scale,
+            "output_scale": self.loss_scale,
+        }
+        return ac.networks.Energy(inputs=3, passive=True, convex=True, **sizes)(key)
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
@@ -98,7 +101,9 @@ class Tyre(PartialLaw, PartialSlippingWheel):
         choices=(None, "saturating", "linear", "cubic"),
         doc="how the law goes on beyond the limits",
     )
-    input_scale = ac.Option(0.1, doc="magnitude of the slip, and of the load where that is an input")
+    input_scale = ac.Option(
+        0.1, doc="magnitude of the slip, and of the load where that is an input"
+    )
     output_scale = ac.Option(1.0, doc="magnitude of the friction coefficient")
     promises = (*PartialLaw.promises, "passive")
     loads = ac.Option(False, doc="whether the law depends on the load")

@@ -24,7 +24,6 @@ __all__ = [
     "Body",
     "CutForce",
     "CutForceAndTorque",
-    "CutSensor",
     "CutTorque",
     "Damper",
     "DifferentialGear",
@@ -42,11 +41,15 @@ __all__ = [
     "IdealWheelJoint",
     "Offset",
     "PartialAbsolute",
+    "PartialCutSensor",
     "PartialGear",
     "PartialRelative",
+    "PartialResolving",
+    "PartialRigidSensor",
     "PartialRolling",
     "PartialSlippingWheel",
     "PartialSpring",
+    "PartialTransform",
     "PartialTwoFrames",
     "PartialTwoFramesAndHeat",
     "PartialWheel",
@@ -59,18 +62,15 @@ __all__ = [
     "RelativeForce",
     "RelativePosition",
     "RelativeVelocity",
-    "Resolving",
     "Revolute",
     "RigidNoLossExternal",
     "RigidNoLossInternal",
     "RigidNoLossPlanetary",
-    "RigidSensor",
     "SlipBasedWheelJoint",
     "Spring",
     "SpringDamper",
     "TransformAbsoluteVector",
     "TransformRelativeVector",
-    "Transforming",
     "WorldForce",
     "ZeroPosition",
     "multibody",
@@ -199,6 +199,14 @@ class Frame(ac.Connector):
     t: ClassVar[ac.Flow]
     """cut torque [N.m]"""
 
+class PartialResolving(ac.Component):
+    """Base of what resolves vectors along the axes of a chosen frame."""
+
+    resolveInFrame: ClassVar[ac.Option]
+    """frame whose axes are used"""
+    frame_resolve: Frame
+    def __init__(self, **modifiers: Any) -> None: ...
+
 class PartialRolling(ac.Component):
     """A wheel of radius ``R`` whose hub is ``frame_a``, on the world's x-axis: ``frame_a.y = R``."""
 
@@ -239,19 +247,6 @@ class PlanarWorld(ac.Component):
         g: SupportsFloat | Iterable[Any] = ...,
         constantGravity: SupportsFloat | Iterable[Any] = ...,
         **modifiers: Mapping[str, Any],
-    ) -> None: ...
-
-class Resolving(ac.Component):
-    """Base of what resolves vectors along the axes of a chosen frame."""
-
-    resolveInFrame: ClassVar[ac.Option]
-    """frame whose axes are used"""
-    frame_resolve: Frame
-    def __init__(
-        self,
-        *,
-        resolveInFrame: Literal["world", "frame_a", "frame_resolve"] = ...,
-        frame_resolve: Mapping[str, Any] = ...,
     ) -> None: ...
 
 class ZeroPosition(ac.Component):
@@ -311,10 +306,14 @@ class Offset(PartialTwoFrames):
     """from frame_a to frame_b, resolved in the world [m]"""
     def __init__(self, **modifiers: Any) -> None: ...
 
-class PartialAbsolute(Resolving):
+class PartialAbsolute(PartialResolving):
     """Measures at ``frame_a``."""
 
     frame_a: Frame
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class PartialRigidSensor(PartialTwoFrames):
+    """Base of sensors in a rigid cut: both frames are at one place, forces and torques are in balance."""
     def __init__(self, **modifiers: Any) -> None: ...
 
 class PartialSpring(PartialTwoFrames):
@@ -344,6 +343,19 @@ class PartialSpring(PartialTwoFrames):
     """force along x, = frame_b.fx [N]"""
     f_y: ClassVar[ac.Variable]
     """force along y, = frame_b.fy [N]"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class PartialTransform(PartialResolving):
+    """Resolves a vector ``r_in`` along other axes: from those of ``frame_r_in`` to those of ``frame_r_out``."""
+
+    frame_r_in: ClassVar[ac.Option]
+    """frame whose axes r_in has"""
+    frame_r_out: ClassVar[ac.Option]
+    """frame whose axes r_out has"""
+    r_in: ClassVar[ac.Input]
+    """vector"""
+    r_out: ClassVar[ac.Output]
+    """the same vector along other axes"""
     def __init__(self, **modifiers: Any) -> None: ...
 
 class PartialWheel(_thermal.PartialElementaryConditionalHeatPortWithoutT):
@@ -393,7 +405,7 @@ class PlanarWorldIn3D(PlanarWorld):
         **modifiers: Mapping[str, Any],
     ) -> None: ...
 
-class QuadraticSpeedDependentForce(Resolving):
+class QuadraticSpeedDependentForce(PartialResolving):
     """A force along each axis that grows with the square of the speed along it, and a torque likewise."""
 
     resolveInFrame: ClassVar[ac.Option]
@@ -514,35 +526,7 @@ class RigidNoLossPlanetary(_thermal.PartialConditionalHeatPort):
         **modifiers: Mapping[str, Any],
     ) -> None: ...
 
-class RigidSensor(PartialTwoFrames):
-    """Base of sensors in a rigid cut: both frames are at one place, forces and torques are in balance."""
-    def __init__(
-        self, *, frame_a: Mapping[str, Any] = ..., frame_b: Mapping[str, Any] = ...
-    ) -> None: ...
-
-class Transforming(Resolving):
-    """Resolves a vector ``r_in`` along other axes: from those of ``frame_r_in`` to those of ``frame_r_out``."""
-
-    frame_r_in: ClassVar[ac.Option]
-    """frame whose axes r_in has"""
-    frame_r_out: ClassVar[ac.Option]
-    """frame whose axes r_out has"""
-    r_in: ClassVar[ac.Input]
-    """vector"""
-    r_out: ClassVar[ac.Output]
-    """the same vector along other axes"""
-    def __init__(
-        self,
-        *,
-        resolveInFrame: Literal["world", "frame_a", "frame_resolve"] = ...,
-        frame_r_in: Literal["world", "frame_a", "frame_b", "frame_resolve"] = ...,
-        frame_r_out: Literal["world", "frame_a", "frame_b", "frame_resolve"] = ...,
-        frame_resolve: Mapping[str, Any] = ...,
-        r_in: ac.Start | Mapping[str, Any] = ...,
-        r_out: ac.Start | Mapping[str, Any] = ...,
-    ) -> None: ...
-
-class WorldForce(Resolving):
+class WorldForce(PartialResolving):
     """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``."""
 
     resolveInFrame: ClassVar[ac.Option]
@@ -604,19 +588,6 @@ class AbsoluteVelocity(PartialAbsolute):
         v: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CutSensor(RigidSensor):
-    """Base of sensors of what goes through a cut; ``positiveSign`` means as it acts at ``frame_a``."""
-
-    positiveSign: ClassVar[ac.Option]
-    """whether forces and torques are those at frame_a"""
-    def __init__(
-        self,
-        *,
-        positiveSign: bool = ...,
-        frame_a: Mapping[str, Any] = ...,
-        frame_b: Mapping[str, Any] = ...,
-    ) -> None: ...
-
 class FixedTranslation(Offset):
     """A rigid rod without mass: ``frame_b`` is ``r`` [m] away from ``frame_a``, at the same angle."""
 
@@ -660,7 +631,14 @@ class IdealWheelJoint(PartialWheel):
         a: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class PartialRelative(Resolving, PartialTwoFrames):
+class PartialCutSensor(PartialRigidSensor):
+    """Base of sensors of what goes through a cut; ``positiveSign`` means as it acts at ``frame_a``."""
+
+    positiveSign: ClassVar[ac.Option]
+    """whether forces and torques are those at frame_a"""
+    def __init__(self, **modifiers: Any) -> None: ...
+
+class PartialRelative(PartialResolving, PartialTwoFrames):
     """Measures ``frame_b`` against ``frame_a``."""
 
     resolveInFrame: ClassVar[ac.Option]
@@ -690,7 +668,7 @@ class PartialTwoFramesAndHeat(
     """Two frames and, with ``useHeatPort``, a heat port; a subclass states ``lossPower``."""
     def __init__(self, **modifiers: Any) -> None: ...
 
-class Power(RigidSensor):
+class Power(PartialRigidSensor):
     """Power [W] that enters at ``frame_a`` and leaves at ``frame_b``."""
 
     power: ClassVar[ac.Output]
@@ -742,8 +720,8 @@ class Prismatic(Offset):
         e0: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class RelativeForce(Resolving, PartialTwoFrames):
-    """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``; ``frame_a`` takes the opposite."""
+class RelativeForce(PartialResolving, PartialTwoFrames):
+    """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``, and against ``frame_a``."""
 
     resolveInFrame: ClassVar[ac.Option]
     """frame whose axes are used"""
@@ -780,7 +758,7 @@ class Spring(PartialSpring):
         f_y: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class TransformAbsoluteVector(Transforming):
+class TransformAbsoluteVector(PartialTransform):
     """Resolves a vector along other axes."""
 
     frame_r_in: ClassVar[ac.Option]
@@ -800,7 +778,7 @@ class TransformAbsoluteVector(Transforming):
         r_out: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CutTorque(CutSensor):
+class CutTorque(PartialCutSensor):
     """The cut ``torque`` [N.m]."""
 
     torque: ClassVar[ac.Output]
@@ -1064,7 +1042,7 @@ class SlipBasedWheelJoint(PartialSlippingWheel):
         vSlide: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class TransformRelativeVector(Transforming, PartialTwoFrames):
+class TransformRelativeVector(PartialTransform, PartialTwoFrames):
     """Resolves a vector along other axes; the third element stays."""
     def __init__(
         self,
@@ -1079,7 +1057,7 @@ class TransformRelativeVector(Transforming, PartialTwoFrames):
         r_out: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
-class CutForce(Resolving, CutSensor):
+class CutForce(PartialResolving, PartialCutSensor):
     """The cut ``force`` [N], along the axes of the chosen frame."""
 
     force: ClassVar[ac.Output]

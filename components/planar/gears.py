@@ -140,6 +140,4 @@ class RigidNoLossPlanetary(thermal.PartialConditionalHeatPort):
             self.connect(gear.heatPort, self.internalHeatPort)
         if self.connectToMultiBody:
             self.body3D = multibody.Body(m=1e-5)
-            self.connect(
-                self.planarWorld.MBFrame_a, self.body3D.frame_a, self.frameVisualisation
-            )
+            self.connect(self.planarWorld.MBFrame_a, self.body3D.frame_a, self.frameVisualisation)

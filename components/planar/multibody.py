@@ -5,7 +5,7 @@ turns a vector of the world into the frame.
 """
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, ClassVar
 
 import acausal as ac
 
@@ -32,13 +32,6 @@ class Frame(ac.Connector):
 
 
 Frame_a = Frame_b = Frame
-
-
-def free(frame: Frame) -> Iterator[ac.Eq]:
-    """A frame that is looked at only: no force and no torque."""
-    for i in AXES:
-        yield ac.Eq(frame.f[i], 0)
-        yield ac.Eq(frame.t[i], 0)
 
 
 def _fixed(frame: Frame, r: Any) -> Iterator[ac.Eq]:
@@ -162,8 +155,11 @@ def _about(n: Any, degrees: Any) -> list[list[Any]]:
 class Body(ac.Component):
     """A mass ``m`` whose frame does not turn: ``m (a - gravity)`` acts at ``r_CM`` [m]."""
 
-    OUTER = {"gravity": "world.gravity"}
-    UNUSED = ("animation", "sphereDiameter", "cylinderDiameter", "I_11", "I_22", "I_33", "I_21", "I_31", "I_32")  # fmt: skip
+    OUTER: ClassVar = {"gravity": "world.gravity"}
+    UNUSED = (
+        *("animation", "sphereDiameter", "cylinderDiameter"),
+        *("I_11", "I_22", "I_33", "I_21", "I_31", "I_32"),
+    )
 
     m = ac.Parameter(unit="kg", min=0, doc="mass")
     r_CM = ac.Parameter(0.0, unit="m", shape=3, doc="centre of mass, resolved in frame_a")

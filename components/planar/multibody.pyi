@@ -18,7 +18,6 @@ __all__ = [
     "PartialTwoFrames",
     "Prismatic",
     "World",
-    "free",
 ]
 
 class Body(ac.Component):
@@ -62,41 +61,13 @@ class Fixed(ac.Component):
 class Frame(ac.Connector):
     """Position ``r_0`` [m], orientation ``R``, force ``f`` [N] and torque ``t`` [N.m], resolved in the frame."""
 
-    r_0[1]: ClassVar[ac.Potential]
+    r_0: ClassVar[ac.Potential]
     """position in the world [m]"""
-    r_0[2]: ClassVar[ac.Potential]
-    """position in the world [m]"""
-    r_0[3]: ClassVar[ac.Potential]
-    """position in the world [m]"""
-    R[1, 1]: ClassVar[ac.Potential]
+    R: ClassVar[ac.Potential]
     """turns a vector of the world into the frame"""
-    R[1, 2]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[1, 3]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[2, 1]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[2, 2]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[2, 3]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[3, 1]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[3, 2]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    R[3, 3]: ClassVar[ac.Potential]
-    """turns a vector of the world into the frame"""
-    f[1]: ClassVar[ac.Flow]
+    f: ClassVar[ac.Flow]
     """cut force, resolved in the frame [N]"""
-    f[2]: ClassVar[ac.Flow]
-    """cut force, resolved in the frame [N]"""
-    f[3]: ClassVar[ac.Flow]
-    """cut force, resolved in the frame [N]"""
-    t[1]: ClassVar[ac.Flow]
-    """cut torque, resolved in the frame [N.m]"""
-    t[2]: ClassVar[ac.Flow]
-    """cut torque, resolved in the frame [N.m]"""
-    t[3]: ClassVar[ac.Flow]
+    t: ClassVar[ac.Flow]
     """cut torque, resolved in the frame [N.m]"""
 
 class PartialTwoFrames(ac.Component):
@@ -183,5 +154,3 @@ class Prismatic(PartialTwoFrames):
 
 Frame_a = Frame
 Frame_b = Frame
-
-def free(frame: acausal.components.planar.multibody.Frame) -> Iterator[ac.Eq]: ...

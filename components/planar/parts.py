@@ -1,7 +1,7 @@
 """Bodies, what is fixed or rigid, springs and dampers."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, ClassVar
 
 import acausal as ac
 from acausal.components import icons, thermal
@@ -46,10 +46,10 @@ class Body(ac.Component):
 
     ICON = icons.MASS
     UNUSED = (*DRAWN, "sphereDiameter", "sphereColor")
-    OUTER = {"g": "planarWorld.g"}
+    OUTER: ClassVar = {"g": "planarWorld.g"}
 
     m = ac.Parameter(unit="kg", min=0, doc="mass")
-    I = ac.Parameter(unit="kg.m2", min=0, doc="moment of inertia about the centre of mass")  # noqa: E741
+    I = ac.Parameter(unit="kg.m2", min=0, doc="moment of inertia about the centre of mass")
     g = ac.Parameter(GRAVITY, unit="m/s2", shape=2, doc="acceleration of gravity of the world")
     enableGravity = ac.Option(True, doc="whether gravity acts")
     stateSelect = ac.Option("default", choices=STATE_SELECT, doc="priority of r, v, phi and w as states")  # fmt: skip

@@ -22,7 +22,7 @@ ARROW = (
 )  # fmt: skip
 
 
-class Resolving(ac.Component):
+class PartialResolving(ac.Component):
     """Base of what resolves vectors along the axes of a chosen frame."""
 
     __modelica__ = None
@@ -49,7 +49,7 @@ class Resolving(ac.Component):
             yield from free(self.frame_resolve)
 
 
-class PartialAbsolute(Resolving):
+class PartialAbsolute(PartialResolving):
     """Measures at ``frame_a``."""
 
     __modelica__ = None
@@ -65,7 +65,7 @@ class PartialAbsolute(Resolving):
         return self.frame_a.x, self.frame_a.y, self.frame_a.phi
 
 
-class PartialRelative(Resolving, PartialTwoFrames):
+class PartialRelative(PartialResolving, PartialTwoFrames):
     """Measures ``frame_b`` against ``frame_a``."""
 
     __modelica__ = None
@@ -165,7 +165,7 @@ class RelativeAcceleration(RelativeVelocity):
             yield ac.Eq(out, ac.der(speed))
 
 
-class Transforming(Resolving):
+class PartialTransform(PartialResolving):
     """Resolves a vector ``r_in`` along other axes: from those of ``frame_r_in`` to those of ``frame_r_out``."""
 
     __modelica__ = None
@@ -192,7 +192,7 @@ class Transforming(Resolving):
         return 0
 
 
-class TransformAbsoluteVector(Transforming):
+class TransformAbsoluteVector(PartialTransform):
     """Resolves a vector along other axes.
 
     As in Modelica's library the angle of ``frame_r_in`` is added to the third element where the frames differ.
@@ -210,7 +210,7 @@ class TransformAbsoluteVector(Transforming):
         yield from free(self.frame_a)
 
 
-class TransformRelativeVector(Transforming, PartialTwoFrames):
+class TransformRelativeVector(PartialTransform, PartialTwoFrames):
     """Resolves a vector along other axes; the third element stays."""
 
     def equations(self) -> Iterator[ac.Eq]:
@@ -239,7 +239,7 @@ class Distance(PartialTwoFrames):
         yield ac.Eq(self.distance, ac.where(square > small, far, smooth))
 
 
-class RigidSensor(PartialTwoFrames):
+class PartialRigidSensor(PartialTwoFrames):
     """Base of sensors in a rigid cut: both frames are at one place, forces and torques are in balance."""
 
     __modelica__ = None
@@ -253,7 +253,7 @@ class RigidSensor(PartialTwoFrames):
         yield ac.Eq(self.frame_a.t + self.frame_b.t, 0)
 
 
-class Power(RigidSensor):
+class Power(PartialRigidSensor):
     """Power [W] that enters at ``frame_a`` and leaves at ``frame_b``."""
 
     power = ac.Output(unit="W", doc="power into frame_a")
@@ -265,7 +265,7 @@ class Power(RigidSensor):
         yield ac.Eq(self.power, moved + a.t * ac.der(a.phi))
 
 
-class CutSensor(RigidSensor):
+class PartialCutSensor(PartialRigidSensor):
     """Base of sensors of what goes through a cut; ``positiveSign`` means as it acts at ``frame_a``."""
 
     __modelica__ = None
@@ -277,7 +277,7 @@ class CutSensor(RigidSensor):
         return 1 if self.positiveSign else -1
 
 
-class CutForce(Resolving, CutSensor):
+class CutForce(PartialResolving, PartialCutSensor):
     """The cut ``force`` [N], along the axes of the chosen frame."""
 
     force = ac.Output(unit="N", shape=2, doc="cut force")
@@ -289,7 +289,7 @@ class CutForce(Resolving, CutSensor):
             yield ac.Eq(out, self._sign * value)
 
 
-class CutTorque(CutSensor):
+class CutTorque(PartialCutSensor):
     """The cut ``torque`` [N.m]."""
 
     torque = ac.Output(unit="N.m", doc="cut torque")

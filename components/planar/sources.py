@@ -7,12 +7,12 @@ import acausal as ac
 from acausal.components import icons
 
 from .interfaces import Frame, PartialTwoFrames, turned
-from .sensors import ABSOLUTE, ARROW, RELATIVE, Resolving
+from .sensors import ABSOLUTE, ARROW, RELATIVE, PartialResolving
 
 __modelica__ = "PlanarMechanics.Sources"
 
 
-class WorldForce(Resolving):
+class WorldForce(PartialResolving):
     """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``.
 
     The force is along the axes of the chosen frame: of the ``world``, of ``frame_b`` or of ``frame_resolve``.
@@ -32,8 +32,8 @@ class WorldForce(Resolving):
         yield from acting(self.frame_b, self._angle(self.resolveInFrame), self.force)
 
 
-class RelativeForce(Resolving, PartialTwoFrames):
-    """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``; ``frame_a`` takes the opposite."""
+class RelativeForce(PartialResolving, PartialTwoFrames):
+    """A force and a torque ``force`` [N, N, N.m] on what is connected to ``frame_b``, and against ``frame_a``."""
 
     ICON = icons.FORCE
     UNUSED = ARROW
@@ -50,7 +50,7 @@ class RelativeForce(Resolving, PartialTwoFrames):
         yield ac.Eq(a.t + b.t, 0)
 
 
-class QuadraticSpeedDependentForce(Resolving):
+class QuadraticSpeedDependentForce(PartialResolving):
     """A force along each axis that grows with the square of the speed along it, and a torque likewise.
 
     ``force = F_nominal (v/v_nominal) |v/v_nominal|``, for the torque ``tau_nominal`` and ``w_nominal``; negative

@@ -1,7 +1,7 @@
 """The world: gravity for all bodies."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, ClassVar
 
 import acausal as ac
 
@@ -52,7 +52,7 @@ class PlanarWorldIn3D(PlanarWorld):
     """
 
     UNUSED = DRAWN
-    OUTER = {"gravity": "world.gravity"}
+    OUTER: ClassVar = {"gravity": "world.gravity"}
 
     inheritGravityFromMultiBody = ac.Option(
         False, doc="whether gravity is that of the spatial world"
@@ -68,4 +68,5 @@ class PlanarWorldIn3D(PlanarWorld):
 
     def equations(self) -> Iterator[ac.Eq]:
         if self.connectToMultiBody:
-            yield from multibody.free(self.MBFrame_a)
+            for flow in (*self.MBFrame_a.f, *self.MBFrame_a.t):
+                yield ac.Eq(flow, 0)

@@ -7,6 +7,9 @@ kept.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
 import acausal as ac
 from acausal.components import neural, planar, rotational as rot
 
@@ -17,6 +20,17 @@ GRAVITY = 9.80858
 ARMS = ("upper.I", "lower.I", "lower.m", "arm.r[2]")
 """Numbers of the arms that are trained beside the friction: all that a swing can tell of them."""
 DRAG = "air.tau_nominal"
+
+
+class Viscous(rot.PartialTwoFlanges):
+    """The joints' friction as published: ``flange_a.tau = d w``."""
+
+    d = ac.Parameter(unit="N.m.s/rad")
+
+    def equations(self) -> Iterator[ac.Eq]:
+        yield ac.Eq(self.flange_a.phi, self.flange_b.phi)
+        torque = self.d * ac.der(self.flange_a.phi)
+        yield ac.Eq(self.flange_a.tau + self.flange_b.tau, torque)
 
 
 class DoublePendulum(ac.Component):
@@ -30,7 +44,7 @@ class DoublePendulum(ac.Component):
     def __init__(self, shoulder: ac.Component, elbow: ac.Component, *, drag: bool = False) -> None:
         super().__init__()
         state = ac.Start(state="always")
-        absolute = {"g": (0.0, -GRAVITY), "phi": state, "w": state}
+        absolute: dict[str, Any] = {"g": (0.0, -GRAVITY), "phi": state, "w": state}
         self.wall = planar.Fixed()
         self.shoulder, self.elbow = (_hinge(), _hinge())
         self.shoulder_friction, self.elbow_friction = shoulder, elbow
@@ -68,7 +82,7 @@ def published() -> ac.System:
 def bearing() -> neural.BearingFriction:
     """A joint whose friction is a curve over its speed, the same in both directions: it never drives."""
     return neural.BearingFriction(
-        smooth=True, w_small=0.3, width=4, depth=1, input_scale=5.0, output_scale=5e-4
+        smooth=True, w_small=0.3, width=6, depth=1, input_scale=3.0, output_scale=5e-4
     )
 
 
