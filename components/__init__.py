@@ -11,6 +11,7 @@
 | `thermal` | `Modelica.Thermal.HeatTransfer` |
 | `fluid` | `Modelica.Thermal.FluidHeatFlow` |
 | `hydraulic` | after `Modelica.Fluid`, without heat |
+| `planar` | `PlanarMechanics`, a library of its own |
 | `neural` | none: two-ports of any domain whose law is a network |
 
 The library is written as users write their own: it uses the rest of the package only through
@@ -25,7 +26,7 @@ from .modelica import ALSO_CALLED, ENUMERATIONS, MODELICA, NOT_COVERED
 
 __all__ = ["ALSO_CALLED", "ENUMERATIONS", "FUNCTIONS", "MODELICA", "NOT_COVERED", "RECORDS"]
 
-PACKAGES = (*MODELICA.values(), "hydraulic", "neural")
+PACKAGES = (*dict.fromkeys(MODELICA.values()), "hydraulic", "neural")
 
 RECORDS: dict[str, Any]
 """Media, materials and material constants, by the last word of their Modelica name."""

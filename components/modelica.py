@@ -17,8 +17,11 @@ MODELICA: dict[str, str] = {
     "Modelica.Thermal.FluidHeatFlow": "fluid",
     "Modelica.Magnetic.FluxTubes": "magnetic",
     "Modelica.Blocks": "blocks",
+    "PlanarMechanics": "planar",
+    "Modelica.Mechanics.MultiBody": "planar",
+    "MB": "planar",
 }
-"""Package of Modelica -> package below `acausal.components`."""
+"""Package of Modelica, or the name under which a library imports it -> package below `acausal.components`."""
 
 NOT_COVERED: dict[str, str] = {
     "Modelica.Mechanics.Rotational.Interfaces": "InternalSupport",
@@ -62,6 +65,10 @@ ENUMERATIONS: tuple[str, ...] = (
     "LimiterHomotopy",
     "Logic",
     "Regularization",
+    "ResolveInFrameA",
+    "ResolveInFrameAB",
+    "ResolveInFrameB",
+    "RotationTypes",
     "SimpleController",
     "Smoothness",
     "StateSelect",
@@ -78,12 +85,12 @@ def export(package: str, *modules: str) -> None:
     and editors see it. At run time ``*`` also brings what those modules import, such as ``ac``; that is dropped here.
     """
     this = sys.modules[package]
-    domain = {place: m for m, place in MODELICA.items()}.get(package.rpartition(".")[2])
+    domains = [m for m, place in MODELICA.items() if place == package.rpartition(".")[2]]
     public, names = list(modules), dict[str, str]()
     for name, value in list(vars(this).items()):
         if name.startswith("_") or value is sys.modules.get(f"{package}.{name}"):
             continue
-        homes = [home for home in _homes(value) if domain and home.startswith(f"{domain}.")]
+        homes = [h for h in _homes(value) if any(f"{h}.".startswith(f"{d}.") for d in domains)]
         if homes or (isinstance(value, type) and value.__module__.startswith(f"{package}.")):
             public.append(name)
             names |= {f"{home}.{name}": name for home in homes}

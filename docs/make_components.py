@@ -19,7 +19,7 @@ import acausal.components
 
 HERE = Path(__file__).resolve().parent
 PAGE, REFERENCE = HERE / "components.md", HERE / "reference"
-MECHANICS, FLUIDS = ("translational", "rotational"), ("thermal", "fluid", "hydraulic")
+MECHANICS, FLUIDS = ("translational", "rotational", "planar"), ("thermal", "fluid", "hydraulic")
 FIRST = (*MECHANICS, "electrical", "battery", "magnetic", *FLUIDS, "blocks", "neural")
 """Order of the packages on the page; any other follows."""
 LEADING, TRAILING = ("components", "basic"), ("sources", "sensors", "adaptors", "utilities")

@@ -127,7 +127,10 @@ class Stub:
         yield f"\nclass {self.names[cls]}({', '.join(map(self._reference, bases))}):"
         known = {n: d for base in reversed(bases) for n, d in declarations_of(base).items()}
         lines = list(self._doc(cls))
-        for name, declared in declarations_of(cls).items():
+        for element, declared in declarations_of(cls).items():
+            name, _, first = element.partition("[")
+            if first.strip("1,]"):  # of a connector's vector, all elements but the first
+                continue
             if known.get(name) is not declared and not name.startswith("_"):
                 lines += self._attribute(name, declared)
         if issubclass(cls, ac.Component):

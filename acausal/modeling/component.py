@@ -40,8 +40,11 @@ class Component:
         DeclarationError: for an unknown name, a value of the wrong kind or outside an option's choices.
     """
 
-    DISCRETE: ClassVar[tuple[str, ...]] = ()
-    """Discrete variables of the Modelica class that this class lacks; files may give them starts."""
+    UNUSED: ClassVar[tuple[str, ...]] = ()
+    """What the Modelica class has and this class lacks, as it changes no result; files may modify it."""
+
+    OUTER: ClassVar[Mapping[str, str]] = {}
+    """Parameters that a file need not give: by name, the value in the nearest enclosing model, ``planarWorld.g``."""
 
     ICON: ClassVar[Icon | None] = None
     """How diagrams show it; a class without one is a box with the class's name."""

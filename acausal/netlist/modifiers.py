@@ -115,8 +115,9 @@ def modify(scope: Scope, part: Component, key: str, raw: Any, where: str) -> Non
             value = scope.option(declared, raw, where)
         case Module():
             raise NetlistError(f"{where} is a network, which a file cannot hold; give it in Python")
-        case None if key in part.DISCRETE and isinstance(raw, Mapping):
-            scope.start(raw, where)  # checked, but there is nothing to start
+        case None if key in part.UNUSED:
+            if isinstance(raw, Mapping):
+                scope.start(raw, where)  # checked, but there is nothing to start
             return
         case _:
             known = [*(n for n, _ in part._node.declarations()), *part._node.children]

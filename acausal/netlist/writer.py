@@ -30,7 +30,7 @@ from acausal.modeling import (
 )
 from acausal.netlist.file import EXPERIMENT_KEYS, NetlistError, within
 from acausal.netlist.library import Library
-from acausal.netlist.model import START_KEYS, Netlist, arguments_of, state
+from acausal.netlist.model import START_KEYS, Netlist, arguments_of, inherited, state
 from acausal.netlist.printer import written
 
 LEADING = ("start_time", "stop_time", "compare")
@@ -214,7 +214,8 @@ class Writer:
         found = dict(part._node.options)
         for name, value in part._node.modifiers.items():
             declared = cls._declared.get(name)
-            if isinstance(declared, Parameter) and declared.shape is not None:
+            vector = isinstance(declared, Parameter) and declared.shape is not None
+            if vector and not (_is_own(part, value) or _is_inherited(part, name, value)):
                 found[name] = value
         for name, default in arguments_of(cls).items():
             if name in part._node.constants and part._node.constants[name] != default:
@@ -248,6 +249,8 @@ class Writer:
         before = {**fresh._node.options, **fresh._node.modifiers}
         for key, value in given.items():
             if key in stated or key.partition(".")[0] in stated:
+                continue
+            if _is_inherited(part, key, value):
                 continue
             if key in before and _comparable(roots[0], value) == _comparable(roots[1], before[key]):
                 continue
@@ -374,6 +377,18 @@ def _is_within(model: Component, value: Any) -> bool:
     if not isinstance(value, sp.Expr):
         return True
     return all(r.owner.route_from(model._node) is not None for r in references(value))
+
+
+def _is_inherited(part: Component, name: str, value: Any) -> bool:
+    """Whether the value is the one that a part takes from around it, so that a file need not give it."""
+    outer = inherited(part, name) if name in part.OUTER else None
+    return outer is not None and np.array_equal(np.ravel(value), np.ravel(outer))
+
+
+def _is_own(part: Component, value: Any) -> bool:
+    """Whether a value is computed from the part's own parameters: what its class makes, no argument of it."""
+    found = [v for v in np.ravel(value) if isinstance(v, sp.Expr) and references(v)]
+    return bool(found) and all(r.owner is part._node for v in found for r in references(v))
 
 
 def _comparable(root: Component, value: Any) -> Any:

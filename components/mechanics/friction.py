@@ -26,7 +26,7 @@ class Locking(ac.Component):
     torques or forces.
     """
 
-    DISCRETE = ("mode", "startForward", "startBackward", "locked", "free", "stuck")
+    UNUSED = ("mode", "startForward", "startBackward", "locked", "free", "stuck")
 
     smooth = ac.Option(False, doc="whether a smooth law creeps at rest instead of locking")
     sa = ac.Variable(when="_locks", doc="path parameter: friction while locked, else acceleration")

@@ -16,6 +16,7 @@ from .friction import *
 from .hysteresis import *
 from .inductance import *
 from .interfaces import *
+from .mechanisms import *
 from .multiport import *
 from .resistance import *
 from .transformer import *

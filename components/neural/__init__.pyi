@@ -3,11 +3,12 @@
 Made by docs/make_stubs.py from the declarations of the classes; do not edit it.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, Literal, SupportsFloat, SupportsIndex
 
 import acausal as ac
 from acausal.components import (
+    planar as _planar,
     rotational as _rotational,
     thermal as _thermal,
     translational as _translational,
@@ -15,6 +16,7 @@ from acausal.components import (
 
 __all__ = [
     "BearingFriction",
+    "Bushing",
     "Characteristic",
     "Compliance",
     "CompliancePort",
@@ -29,6 +31,7 @@ __all__ = [
     "PartialTwoPort",
     "Resistance",
     "SupportFriction",
+    "Tyre",
 ]
 
 class PartialNetwork(ac.Component):
@@ -105,6 +108,58 @@ class PartialLaw(PartialNetwork):
     limits: ClassVar[ac.Option]
     """of the first input, a pair or one number; by default three input scales"""
     def __init__(self, **modifiers: Any) -> None: ...
+
+class Bushing(PartialNetwork, _planar.PartialTwoFrames):
+    """A neural bushing: an elastic and damping joint between two frames, as of rubber."""
+
+    odd: ClassVar[ac.Option]
+    """the same from both sides"""
+    passive: ClassVar[ac.Option]
+    """the energy is never negative, and zero at zero"""
+    convex: ClassVar[ac.Option]
+    """the energy is convex"""
+    floor: ClassVar[ac.Option]
+    """least curvature of a convex energy, relative to that of the scales"""
+    rate_scale: ClassVar[ac.Option]
+    """magnitude of the rates, one number or one for each"""
+    loss_scale: ClassVar[ac.Option]
+    """magnitude of the first damping effort"""
+    loss: ClassVar[ac.Module]
+    """the dissipation, half of what is lost where it is quadratic"""
+    u: ClassVar[ac.Variable]
+    """displacements along x and y of frame_a, and angle"""
+    v: ClassVar[ac.Variable]
+    """their rates"""
+    e: ClassVar[ac.Variable]
+    """forces along x and y of frame_a, and torque, at frame_b"""
+    E: ClassVar[ac.Variable]
+    """stored energy [J]"""
+    lossPower: ClassVar[ac.Variable]
+    """power that is lost [W]"""
+    def __init__(
+        self,
+        *,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        passive: bool = ...,
+        convex: bool = ...,
+        floor: Any = ...,
+        rate_scale: Any = ...,
+        loss_scale: Any = ...,
+        net: Callable[..., Any] = ...,
+        loss: Callable[..., Any] = ...,
+        frame_a: Mapping[str, Any] = ...,
+        frame_b: Mapping[str, Any] = ...,
+        u: ac.Start | Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
+        e: ac.Start | Mapping[str, Any] = ...,
+        E: ac.Start | Mapping[str, Any] = ...,
+        lossPower: ac.Start | Mapping[str, Any] = ...,
+    ) -> None: ...
 
 class Characteristic(PartialLaw):
     """A learned characteristic between signals: ``y = net(u)``."""
@@ -313,6 +368,70 @@ class Resistance(PartialNeural):
         heatPort: Mapping[str, Any] = ...,
         lossPower: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
+    ) -> None: ...
+
+class Tyre(PartialLaw, _planar.PartialSlippingWheel):
+    """A wheel whose friction is learned: ``f = fN net(slip)`` against the speed of the contact."""
+
+    input_scale: ClassVar[ac.Option]
+    """magnitude of the slip, and of the load where that is an input"""
+    output_scale: ClassVar[ac.Option]
+    """magnitude of the friction coefficient"""
+    extrapolation: ClassVar[ac.Option]
+    """how the law goes on beyond the limits"""
+    passive: ClassVar[ac.Option]
+    """the force is never along the slip"""
+    loads: ClassVar[ac.Option]
+    """whether the law depends on the load"""
+    N: ClassVar[ac.Parameter]
+    """normal force without dynamicLoad [N]"""
+    v_small: ClassVar[ac.Parameter]
+    """least speed of the rim that slip is over [m/s]"""
+    dynamicLoad: ClassVar[ac.Input]
+    """load in addition to N [N]"""
+    fN: ClassVar[ac.Variable]
+    """normal force [N]"""
+    slip: ClassVar[ac.Variable]
+    """speed of the contact over that of the rim"""
+    def __init__(
+        self,
+        *,
+        radius: SupportsFloat | ac.Start = ...,
+        r: SupportsFloat | Iterable[Any] = ...,
+        N: SupportsFloat | ac.Start = ...,
+        v_small: SupportsFloat | ac.Start = ...,
+        useHeatPort: bool = ...,
+        stateSelect: Literal["never", "avoid", "default", "prefer", "always"] = ...,
+        width: SupportsIndex = ...,
+        depth: SupportsIndex = ...,
+        activation: Any = ...,
+        input_scale: Any = ...,
+        output_scale: Any = ...,
+        odd: bool = ...,
+        extrapolation: Literal[None, "saturating", "linear", "cubic"] = ...,
+        limits: Any = ...,
+        passive: bool = ...,
+        loads: bool = ...,
+        net: Callable[..., Any] = ...,
+        heatPort: Mapping[str, Any] = ...,
+        frame_a: Mapping[str, Any] = ...,
+        flange_a: Mapping[str, Any] = ...,
+        dynamicLoad: ac.Start | Mapping[str, Any] = ...,
+        lossPower: ac.Start | Mapping[str, Any] = ...,
+        e0: ac.Start | Mapping[str, Any] = ...,
+        phi_roll: ac.Start | Mapping[str, Any] = ...,
+        w_roll: ac.Start | Mapping[str, Any] = ...,
+        v: ac.Start | Mapping[str, Any] = ...,
+        v_long: ac.Start | Mapping[str, Any] = ...,
+        f_long: ac.Start | Mapping[str, Any] = ...,
+        v_lat: ac.Start | Mapping[str, Any] = ...,
+        v_slip_long: ac.Start | Mapping[str, Any] = ...,
+        v_slip_lat: ac.Start | Mapping[str, Any] = ...,
+        v_slip: ac.Start | Mapping[str, Any] = ...,
+        f: ac.Start | Mapping[str, Any] = ...,
+        f_lat: ac.Start | Mapping[str, Any] = ...,
+        fN: ac.Start | Mapping[str, Any] = ...,
+        slip: ac.Start | Mapping[str, Any] = ...,
     ) -> None: ...
 
 class SupportFriction(PartialFrictionCurve, _translational.PartialSupportFriction):

@@ -1,0 +1,269 @@
+"""Planar mechanics: energy, balance of forces, loops, joints the other way round, what is drawn only."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+import pytest
+
+import acausal as ac
+from acausal.components import neural, planar, rotational as rot
+
+GRAVITY = 9.81
+
+
+class FourBar(ac.Component):
+    """A loop of three links on two fixed frames, driven by its weight.
+
+    Arguments:
+        parts: in which order they are declared. reversed_joints: whether joints are connected the other way round.
+    """
+
+    LENGTHS = (0.4, 1.0, 0.8)
+
+    def __init__(self, order: int = 1, *, reversed_joints: bool = False, d: float = 0.0) -> None:
+        super().__init__()
+        sign = -1 if reversed_joints else 1
+        angles = (0.6, 0.2, 1.2)  # about where the loop closes
+        makers: list[tuple[str, Any]] = [
+            ("left", lambda: planar.Fixed()),
+            ("right", lambda: planar.Fixed(r=(1.0, 0.0))),
+            ("crank", lambda: planar.Revolute(
+                useFlange=True, stateSelect="always",
+                phi=ac.Start(sign * angles[0], fixed=True), w=ac.Start(0.0, fixed=True),
+            )),
+            ("first", lambda: planar.Revolute(phi=ac.Start(sign * (angles[1] - angles[0])))),
+            ("second", lambda: planar.Revolute(phi=ac.Start(sign * (angles[2] - angles[1])))),
+            ("rocker", lambda: planar.Revolute(phi=ac.Start(-sign * angles[2]))),
+            ("damper", lambda: rot.Damper(d=d)),
+            *((f"rod{i}", lambda n=length: planar.FixedTranslation(r=(n, 0.0)))
+              for i, length in enumerate(self.LENGTHS)),
+            *((f"body{i}", lambda: planar.Body(m=1.0, I=0.02)) for i in range(3)),
+        ]  # fmt: skip
+        for name, make in makers[::order]:
+            setattr(self, name, make())
+        rods = [self.rod0, self.rod1, self.rod2]
+        ends = [self.left.frame, rods[0].frame_b, rods[1].frame_b, rods[2].frame_b]
+        starts = [rods[0].frame_a, rods[1].frame_a, rods[2].frame_a, self.right.frame]
+        joints = (self.crank, self.first, self.second, self.rocker)
+        for joint, before, after in zip(joints, ends, starts, strict=True):
+            first, second = ("frame_b", "frame_a") if reversed_joints else ("frame_a", "frame_b")
+            self.connect(before, getattr(joint, first))
+            self.connect(getattr(joint, second), after)
+        for rod, body in zip(rods, (self.body0, self.body1, self.body2), strict=True):
+            self.connect(rod.frame_b, body.frame_a)
+        self.connect(self.crank.support, self.damper.flange_a)
+        self.connect(self.damper.flange_b, self.crank.flange_a)
+
+
+BODIES = ("body0", "body1", "body2")
+
+
+def energy(found: ac.Solution) -> np.ndarray:
+    """Of the bodies of a `FourBar`."""
+    total = np.zeros(len(found.t))
+    for body in BODIES:
+        v_x, v_y, w, y = (
+            np.asarray(found[f"{body}.{n}"]) for n in ("v[1]", "v[2]", "w", "frame_a.y")
+        )
+        total += (v_x**2 + v_y**2) / 2 + 0.02 * w**2 / 2 + GRAVITY * y
+    return total
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> tuple[ac.System, ac.Solution]:
+    system = ac.compile(FourBar(d=0.0))
+    return system, ac.simulate(system, (0.0, 4.0), dt=0.02, rtol=1e-11, atol=1e-12, solver="tsit5")
+
+
+@pytest.mark.slow
+def test_a_loop_keeps_its_energy_and_stays_closed(four_bar: tuple[ac.System, ac.Solution]) -> None:
+    system, found = four_bar
+    assert len(system.states) == 2
+    total = energy(found)
+    assert np.ptp(np.asarray(found["crank.phi"])) > 0.5
+    assert np.ptp(total) < 1e-8
+    ends = [np.asarray(found[f"rod2.frame_b.{n}"]) for n in "xy"]
+    np.testing.assert_allclose(ends, np.broadcast_to([[1.0], [0.0]], (2, len(total))), atol=1e-9)
+
+
+@pytest.mark.slow
+def test_neither_the_order_nor_the_direction_of_joints_matters(
+    four_bar: tuple[ac.System, ac.Solution],
+) -> None:
+    found = four_bar[1]
+    for sign, other in ((1, FourBar(order=-1)), (-1, FourBar(reversed_joints=True))):
+        again = ac.simulate(
+            ac.compile(other), (0.0, 4.0), dt=0.02, rtol=1e-11, atol=1e-12, solver="tsit5"
+        )
+        for name in ("crank.phi", "rocker.phi"):
+            expected = sign * np.asarray(found[name])
+            np.testing.assert_allclose(np.asarray(again[name]), expected, atol=1e-7)
+
+
+@pytest.mark.slow
+def test_a_gradient_goes_through_a_loop(four_bar: tuple[ac.System, ac.Solution]) -> None:
+    system = four_bar[0]
+
+    @jax.jit
+    def at_end(mass: Any, damping: Any) -> Any:
+        params = {**system.parameters(), "body1.m": mass, "damper.d": damping}
+        found = ac.simulate(system, (0.0, 0.5), dt=0.01, params=params, solver="rk4")
+        return found["crank.phi"][-1]
+
+    at = (1.0, 0.3)
+    found = jax.grad(at_end, (0, 1))(*at)
+    for i, exact in enumerate(found):
+        step = [1e-4 * (k == i) for k in range(2)]
+        above, below = (
+            at_end(*(a + s * h for a, h in zip(at, step, strict=True))) for s in (1, -1)
+        )
+        assert exact == pytest.approx((above - below) / 2e-4, rel=1e-6)
+
+
+# -- world and files -------------------------------------------------------------------------------
+
+
+def document(**world: Any) -> dict[str, Any]:
+    """A body that falls, and one in a subsystem."""
+    free: dict[str, Any] = {"class": "PlanarMechanics.Parts.Body", "with": {"m": 1.0, "I": 0.1}}
+    drawn = {"sphereDiameter": "planarWorld.defaultBodyDiameter", "sphereColor": "{0,0,0}"}
+    return {
+        "model": "Falling",
+        "components": {
+            "body": {**free, "with": {**free["with"], **drawn}},
+            "inner": {"components": {"body": free, "own": free}},
+            "planarWorld": {"class": "PlanarMechanics.PlanarWorld", "with": world},
+        },
+    }
+
+
+def loaded(folder: Path, content: dict[str, Any]) -> ac.Component:
+    (folder / "model.json").write_text(json.dumps(content), encoding="utf-8")
+    return ac.load(folder / "model.json")
+
+
+def test_bodies_of_a_file_take_the_gravity_of_the_world_around_them(tmp_path: Path) -> None:
+    content = document(constantGravity="{1, -3}")
+    inner = content["components"]["inner"]["components"]
+    inner["own"] = {**inner["own"], "with": {"m": 1.0, "I": 0.1, "g": [0, -1]}}
+    model = loaded(tmp_path, content)
+    ac.save(model, tmp_path / "again.json")
+    for read in (model, ac.load(tmp_path / "again.json")):
+        system = ac.compile(read)
+        params = system.parameters()
+        x = np.zeros(18)
+        fallen = [system.observe(f"{n}.a[2]", 0.0, x, None, params) for n in ("body", "inner.body")]
+        np.testing.assert_allclose(fallen, -3.0)
+        assert system.observe("inner.own.a[2]", 0.0, x, None, params) == pytest.approx(-1.0)
+
+
+def test_a_file_is_told_of_a_modifier_that_is_nothing(tmp_path: Path) -> None:
+    content = document()
+    content["components"]["body"]["with"]["sphereDiametre"] = 0.1
+    with pytest.raises(ac.ModelError, match="sphereDiametre"):
+        loaded(tmp_path, content)
+
+
+# -- sensors and sources -------------------------------------------------------------------------------
+
+
+class Measured(ac.Component):
+    """A free body, and all that measures it against a frame that is turned and away."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.body = planar.Body(m=2.0, I=0.5, g=(0.0, 0.0))
+        self.wall = planar.Fixed(r=(1.0, 2.0), phi=0.5)
+        self.push = planar.WorldForce(resolveInFrame="frame_b")
+        self.place = planar.AbsolutePosition(resolveInFrame="frame_resolve")
+        self.speed = planar.AbsoluteVelocity()
+        self.acceleration = planar.AbsoluteAcceleration(resolveInFrame="world")
+        self.seen = planar.RelativeVelocity(resolveInFrame="frame_b")
+        self.distance = planar.Distance()
+        self.cut = planar.CutForceAndTorque(resolveInFrame="world", positiveSign=False)
+        self.power = planar.Power()
+        self.connect(self.push.frame_b, self.power.frame_a)
+        self.connect(self.power.frame_b, self.cut.frame_a)
+        self.connect(self.cut.frame_b, self.body.frame_a)
+        for sensor in (self.place, self.speed, self.acceleration):
+            self.connect(sensor.frame_a, self.body.frame_a)
+        self.connect(self.place.frame_resolve, self.wall.frame)
+        for sensor in (self.seen, self.distance):
+            self.connect(sensor.frame_a, self.wall.frame)
+            self.connect(sensor.frame_b, self.body.frame_a)
+
+
+def test_sensors_show_the_motion_along_the_axes_of_their_frames() -> None:
+    system = ac.compile(Measured())
+    state: dict[str, float] = {
+        "r[1]": 3.0,
+        "r[2]": 4.0,
+        "v[1]": 1.0,
+        "v[2]": -2.0,
+        "phi": 0.7,
+        "w": 0.3,
+    }
+    x = np.array([state[name.removeprefix("body.")] for name in system.states])
+    u = {"push.force[1]": 6.0, "push.force[2]": 1.0, "push.force[3]": 0.2}
+    forces = np.array([u[name] for name in system.inputs])
+
+    def found(name: str) -> float:
+        return float(system.observe(name, 0.0, x, forces, system.parameters()))
+
+    def turned(angle: float, x: float, y: float) -> np.ndarray:
+        c, s = np.cos(angle), np.sin(angle)
+        return np.array([c * x - s * y, s * x + c * y])
+
+    def vector(name: str) -> np.ndarray:
+        return np.array([found(f"{name}[{i + 1}]") for i in range(2)])
+
+    force = turned(0.7, 6.0, 1.0)
+    np.testing.assert_allclose(vector("acceleration.a"), force / 2.0)
+    np.testing.assert_allclose(vector("cut.force"), -force)
+    assert found("cut.torque") == pytest.approx(-0.2)
+    np.testing.assert_allclose(vector("place.r"), turned(-0.5, 3.0, 4.0))
+    assert found("place.r[3]") == pytest.approx(0.2)
+    for name in ("speed.v", "seen.v_rel"):
+        np.testing.assert_allclose(vector(name), turned(-0.7, 1.0, -2.0))
+        assert found(f"{name}[3]") == pytest.approx(0.3)
+    assert found("distance.distance") == pytest.approx(np.hypot(2.0, 2.0))
+    assert found("power.power") == pytest.approx(force @ [1.0, -2.0] + 0.2 * 0.3)
+
+
+# -- neural elements -------------------------------------------------------------------------------
+
+
+def mounted() -> ac.Component:
+    """A body in a bushing whose wall is turned."""
+    model = ac.Component()
+    model.wall = planar.Fixed(phi=0.3)
+    model.bushing = neural.Bushing(
+        passive=True, convex=True, width=4, depth=1, input_scale=[0.1, 0.1, 0.1], output_scale=50.0
+    )
+    model.body = planar.Body(m=1.0, I=0.1, g=(0.0, 0.0))
+    model.connect(model.wall.frame, model.bushing.frame_a)
+    model.connect(model.bushing.frame_b, model.body.frame_a)
+    return model
+
+
+def test_a_bushing_gives_back_no_more_than_it_took_less_what_it_lost() -> None:
+    system = ac.compile(mounted())
+    params = system.parameters(3)
+    x = jax.random.normal(jax.random.key(0), (6,))
+
+    def stored(x: Any) -> Any:
+        return system.observe("bushing.E", 0.0, x, np.zeros(0), params) + kinetic(x)
+
+    def kinetic(x: Any) -> Any:
+        at = {name.removeprefix("body."): x[i] for i, name in enumerate(system.states)}
+        return (at["v[1]"] ** 2 + at["v[2]"] ** 2) / 2 + 0.1 * at["w"] ** 2 / 2
+
+    rate = jax.grad(stored)(x) @ system.vector_field(0.0, x, np.zeros(0), params)
+    lost = system.observe("bushing.lossPower", 0.0, x, np.zeros(0), params)
+    assert lost > 0
+    assert float(rate) == pytest.approx(-float(lost), rel=1e-9)
