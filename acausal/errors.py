@@ -4,6 +4,7 @@ Every message says what is wrong, where (dotted names, at most a dozen), and how
 """
 
 import operator
+import re
 import sys
 from collections.abc import Iterable
 from difflib import get_close_matches
@@ -73,8 +74,14 @@ def shortened(text: object, limit: int = 80) -> str:
 
 
 def shown(value: object, limit: int = 80) -> str:
-    """A wrong value for a message: as Python writes it, but on one line of at most `limit` characters."""
-    return shortened(" ".join(repr(value).split()), limit)
+    """A wrong value for a message: as Python writes it, but on one line of at most `limit` characters.
+
+    Of a title above indented lines, as components have, it is the title.
+    """
+    text = repr(value)
+    title, _, more = text.partition("\n  ")
+    is_title = more and re.fullmatch(r"\w[\w' .,\[\]]*", title)
+    return shortened(" ".join((title if is_title else text).split()), limit)
 
 
 def listing(names: Iterable[object], limit: int = 12) -> str:

@@ -95,14 +95,37 @@ DIODE = element("M-30 0H-9M9 0H30M9 -10V10M-9 -10L9 0L-9 10Z")
 ZENER = element("M-30 0H-9M9 0H30M5 -10H9V10H13M-9 -10L9 0L-9 10Z")
 THYRISTOR = element("M-30 0H-9M9 0H30M9 -10V10M-9 -10L9 0L-9 10ZM9 0L17 12")
 POLES = ((-22.0, -9.0, "M-3 0H3M0 -3V3"), (22.0, -9.0, "M-3 0H3"))
-WAVE, PULSES = "M-9 0C-6 -10 -3 -10 0 0S6 10 9 0", "M-9 5H-5V-5H1V5H7V-5H9"
+CURVES = {
+    "sine": "M-9 0C-6 -10 -3 -10 0 0S6 10 9 0",
+    "damped": "M-10 0C-8 -12 -5 -12 -3 0S1 8 3 0S7 -4 9 0",
+    "pulse": "M-9 5H-5V-5H1V5H7V-5H9",
+    "step": "M-8 5H0V-5H8",
+    "ramp": "M-9 5H-5L5 -5H9",
+    "sawtooth": "M-9 5L-3 -5V5L3 -5V5L9 -5",
+    "trapezoid": "M-10 5H-7L-4 -5H3L6 5H10",
+    "exponential": "M-9 5C-6 -8 -1 -6 0 -6C1 3 5 5 9 5",
+    "table": "M-7 -6H7V6H-7ZM-7 0H7M-1 -6V6",
+}
+"""Small curves over time, for sources."""
 VOLTAGE = ac.Icon("M-30 0H30" + ROUND, size=LYING, source=True, upright=POLES)
 SIGNAL_VOLTAGE = replace(VOLTAGE, fills="M-5 -13H5L0 -4Z")
-SINE_VOLTAGE = replace(VOLTAGE, strokes=ENDS + ROUND, upright=(*POLES, (0.0, 0.0, WAVE)))
-PULSE_VOLTAGE = replace(VOLTAGE, strokes=ENDS + ROUND, upright=(*POLES, (0.0, 0.0, PULSES)))
 CURRENT = element(
     ENDS + ROUND + "M0 -14V14M-24 -8H-18", fills="M-16 -8L-22 -11.5V-4.5Z", source=True
 )
+SIGNAL_CURRENT = replace(CURRENT, strokes=CURRENT.strokes + "M-5 0H5")
+
+
+def voltage(curve: str) -> ac.Icon:
+    """A source of voltage with one of `CURVES`."""
+    return replace(VOLTAGE, strokes=ENDS + ROUND, upright=(*POLES, (0.0, 0.0, CURVES[curve])))
+
+
+def current(curve: str) -> ac.Icon:
+    """A source of current with one of `CURVES`."""
+    strokes = ENDS + ROUND + "M-24 -8H-18"
+    return replace(CURRENT, strokes=strokes, upright=((0.0, 0.0, CURVES[curve]),))
+
+
 CELL = element("M-30 0H-5M-5 -13V13M5 -7V7M5 0H30M-14 -10H-8M-11 -13V-7", source=True)
 SWITCH = element(
     "M-30 0H-12L11 -11M12 0H30",

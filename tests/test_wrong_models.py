@@ -385,7 +385,7 @@ GALLERY: dict[str, Wrong] = {
     "a component instead of its connector": (
         lambda: joined("m", "f.flange", m=tl.Mass(m=1), f=tl.Fixed()),
         ac.ConnectionError,
-        ("<Mass 'm'> is not a connector",),
+        ("Mass 'm' is not a connector",),
     ),
     "a parameter instead of a connector": (
         lambda: joined("m.m", "f.flange", m=tl.Mass(m=1), f=tl.Fixed()),

@@ -15,7 +15,7 @@ __modelica__ = "Modelica.Electrical.Analog.Sources"
 class SignalCurrent(ac.Component):
     """A current given by a signal ``i`` [A]: ``i = p.i = -n.i``, ``v = p.v - n.v`` [V]."""
 
-    ICON = icons.CURRENT
+    ICON = icons.SIGNAL_CURRENT
 
     p = PositivePin()
     n = NegativePin()
@@ -43,17 +43,25 @@ class ConstantCurrent(OnePort):
 class StepCurrent(waveforms.Step, waveforms.Current):
     """``i = offset``, from ``startTime`` on ``i = offset + I``."""
 
+    ICON = icons.current("step")
+
 
 class RampCurrent(waveforms.Ramp, waveforms.Current):
     """``i`` rises by ``I`` during ``duration`` [s] and stays there."""
+
+    ICON = icons.current("ramp")
 
 
 class SineCurrent(waveforms.Sine, waveforms.Current):
     """``i = offset + I sin(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
+    ICON = icons.current("sine")
+
 
 class CosineCurrent(waveforms.Cosine, waveforms.Current):
     """``i = offset + I cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
+
+    ICON = icons.current("sine")
 
 
 class SineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
@@ -79,6 +87,8 @@ class CosineCurrentVariableFrequencyAndAmplitude(waveforms.VariableCurrent):
 class ExpSineCurrent(waveforms.ExpSine, waveforms.Current):
     """``i = offset + I exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
 
+    ICON = icons.current("damped")
+
 
 class ExponentialsCurrent(waveforms.Exponentials, CurrentSource):
     """Rises towards ``iMax`` for ``riseTime`` [s], then falls, both exponentially.
@@ -86,6 +96,8 @@ class ExponentialsCurrent(waveforms.Exponentials, CurrentSource):
     ``i = offset + iMax (1 - exp(-t/riseTimeConst))``; after ``riseTime`` the value reached decays with
     ``fallTimeConst``.
     """
+
+    ICON = icons.current("exponential")
 
     iMax = ac.Parameter(unit="A", doc="current after an infinite rise")
 
@@ -97,14 +109,22 @@ class ExponentialsCurrent(waveforms.Exponentials, CurrentSource):
 class PulseCurrent(waveforms.Pulse, waveforms.Current):
     """``i = offset + I`` for the first ``width`` per cent of each ``period``, else ``offset``."""
 
+    ICON = icons.current("pulse")
+
 
 class SawToothCurrent(waveforms.SawTooth, waveforms.Current):
     """``i`` rises from ``offset`` by ``I`` in each ``period``."""
+
+    ICON = icons.current("sawtooth")
 
 
 class TrapezoidCurrent(waveforms.Trapezoid, waveforms.Current):
     """In each ``period``: ``rising``, at ``offset + I`` for ``width``, ``falling`` [s], then ``offset``."""
 
+    ICON = icons.current("trapezoid")
+
 
 class TableCurrent(waveforms.Table, CurrentSource):
     """``i`` by linear interpolation in the rows of ``table``: time [s], current [A]."""
+
+    ICON = icons.current("table")

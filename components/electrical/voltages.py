@@ -43,21 +43,25 @@ class ConstantVoltage(OnePort):
 class StepVoltage(waveforms.Step, waveforms.Voltage):
     """``v = offset``, from ``startTime`` on ``v = offset + V``."""
 
+    ICON = icons.voltage("step")
+
 
 class RampVoltage(waveforms.Ramp, waveforms.Voltage):
     """``v`` rises by ``V`` during ``duration`` [s] and stays there."""
+
+    ICON = icons.voltage("ramp")
 
 
 class SineVoltage(waveforms.Sine, waveforms.Voltage):
     """``v = offset + V sin(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
-    ICON = icons.SINE_VOLTAGE
+    ICON = icons.voltage("sine")
 
 
 class CosineVoltage(waveforms.Cosine, waveforms.Voltage):
     """``v = offset + V cos(2 pi f t + phase)`` for ``t = time - startTime >= 0``, else ``offset``."""
 
-    ICON = icons.SINE_VOLTAGE
+    ICON = icons.voltage("sine")
 
 
 class SineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
@@ -83,6 +87,8 @@ class CosineVoltageVariableFrequencyAndAmplitude(waveforms.VariableVoltage):
 class ExpSineVoltage(waveforms.ExpSine, waveforms.Voltage):
     """``v = offset + V exp(-damping t) sin(2 pi f t + phase)``, ``t = time - startTime``."""
 
+    ICON = icons.voltage("damped")
+
 
 class ExponentialsVoltage(waveforms.Exponentials, VoltageSource):
     """Rises towards ``vMax`` for ``riseTime`` [s], then falls, both exponentially.
@@ -90,6 +96,8 @@ class ExponentialsVoltage(waveforms.Exponentials, VoltageSource):
     ``v = offset + vMax (1 - exp(-t/riseTimeConst))``; after ``riseTime`` the value reached decays with
     ``fallTimeConst``.
     """
+
+    ICON = icons.voltage("exponential")
 
     vMax = ac.Parameter(unit="V", doc="voltage after an infinite rise")
 
@@ -101,19 +109,25 @@ class ExponentialsVoltage(waveforms.Exponentials, VoltageSource):
 class PulseVoltage(waveforms.Pulse, waveforms.Voltage):
     """``v = offset + V`` for the first ``width`` per cent of each ``period``, else ``offset``."""
 
-    ICON = icons.PULSE_VOLTAGE
+    ICON = icons.voltage("pulse")
 
 
 class SawToothVoltage(waveforms.SawTooth, waveforms.Voltage):
     """``v`` rises from ``offset`` by ``V`` in each ``period``."""
 
+    ICON = icons.voltage("sawtooth")
+
 
 class TrapezoidVoltage(waveforms.Trapezoid, waveforms.Voltage):
     """In each ``period``: ``rising``, at ``offset + V`` for ``width``, ``falling`` [s], then ``offset``."""
 
+    ICON = icons.voltage("trapezoid")
+
 
 class TableVoltage(waveforms.Table, VoltageSource):
     """``v`` by linear interpolation in the rows of ``table``: time [s], voltage [V]."""
+
+    ICON = icons.voltage("table")
 
 
 class SupplyVoltage(ac.Component):

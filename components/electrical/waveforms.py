@@ -192,7 +192,7 @@ class VariableWave(OnePort):
 class VariableVoltage(VariableWave):
     """A voltage with the amplitude ``V`` as input."""
 
-    ICON = icons.VOLTAGE
+    ICON = icons.voltage("sine")
 
     constantAmplitude = ac.Parameter(1.0, unit="V", doc="amplitude without input")
     offset = ac.Parameter(0.0, unit="V", doc="offset of the voltage")
@@ -210,7 +210,7 @@ class VariableVoltage(VariableWave):
 class VariableCurrent(VariableWave):
     """A current with the amplitude ``I`` as input."""
 
-    ICON = icons.CURRENT
+    ICON = icons.current("sine")
 
     constantAmplitude = ac.Parameter(1.0, unit="A", doc="amplitude without input")
     offset = ac.Parameter(0.0, unit="A", doc="offset of the current")

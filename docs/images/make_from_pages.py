@@ -18,7 +18,14 @@ sys.path.insert(0, str(ROOT))
 from tests.test_docs import blocks  # noqa: E402
 
 GALLERY = sorted(p.relative_to(HERE.parent).as_posix() for p in HERE.parent.glob("gallery/*.md"))
-PAGES = ("getting-started.md", "quarter-vehicle.md", "neural.md", "drawings.md", *GALLERY)
+PAGES = (
+    "getting-started.md",
+    "next-hour.md",
+    "quarter-vehicle.md",
+    "neural.md",
+    "drawings.md",
+    *GALLERY,
+)
 
 
 def main() -> None:

@@ -93,7 +93,7 @@ def test_temperatures_have_an_offset():
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME}).for_system(plain().model),
-            "for_system needs a compiled model, got <Oscillator>: give ac.compile(model).",
+            "for_system needs a compiled model, got Oscillator: give ac.compile(model).",
         ),
         (
             lambda: ac.Signal(TIME, TIME)("now"),

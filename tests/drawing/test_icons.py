@@ -39,14 +39,15 @@ def test_subclasses_inherit_pictures() -> None:
         pass
 
     assert Rusty.ICON is tl.Spring.ICON is icons.SPRING
-    assert el.SineVoltage.ICON is icons.SINE_VOLTAGE
-    assert el.RampVoltage.ICON is icons.VOLTAGE
+    assert el.Conductor.ICON is icons.RESISTOR
     assert neural.Compliance.ICON is neural.Resistance.ICON is icons.NEURAL
 
 
-def test_sources_of_voltage_are_told_apart() -> None:
-    kinds = (el.ConstantVoltage, el.SineVoltage, el.SignalVoltage, el.PulseVoltage)
-    assert len({(kind.ICON.strokes, kind.ICON.fills, kind.ICON.upright) for kind in kinds}) == 4
+@pytest.mark.parametrize("kind", ["Voltage", "Current"])
+def test_sources_are_told_apart(kind: str) -> None:
+    waves = "Constant Signal Step Ramp Sine ExpSine Exponentials Pulse SawTooth Trapezoid Table"
+    found = [getattr(el, wave + kind).ICON for wave in waves.split()]
+    assert len({(icon.strokes, icon.fills, icon.upright) for icon in found}) == len(found)
 
 
 @pytest.mark.parametrize("domain", ["electrical", "rotational", "translational"])
