@@ -393,6 +393,10 @@ class Harmonic(ac.Component):
     """initial value of the integral with the cosine"""
     x0Sin: ClassVar[ac.Parameter]
     """initial value of the integral with the sine"""
+    y0Cos: ClassVar[ac.Parameter]
+    """initial mean with the cosine"""
+    y0Sin: ClassVar[ac.Parameter]
+    """initial mean with the sine"""
     u: ClassVar[ac.Input]
     """input signal"""
     y_rms: ClassVar[ac.Output]
@@ -414,6 +418,8 @@ class Harmonic(ac.Component):
         k: SupportsFloat | ac.Start = ...,
         x0Cos: SupportsFloat | ac.Start = ...,
         x0Sin: SupportsFloat | ac.Start = ...,
+        y0Cos: SupportsFloat | ac.Start = ...,
+        y0Sin: SupportsFloat | ac.Start = ...,
         useConjugateComplex: bool = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y_rms: ac.Start | Mapping[str, Any] = ...,
@@ -2148,6 +2154,8 @@ class RectifiedMean(SISO):
     """base frequency, greater than zero [Hz]"""
     x0: ClassVar[ac.Parameter]
     """initial value of the integral"""
+    y0: ClassVar[ac.Parameter]
+    """initial value of the output"""
     abs1: Abs
     mean: Mean
     def __init__(
@@ -2155,6 +2163,7 @@ class RectifiedMean(SISO):
         *,
         f: SupportsFloat | ac.Start = ...,
         x0: SupportsFloat | ac.Start = ...,
+        y0: SupportsFloat | ac.Start = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],
@@ -2177,6 +2186,8 @@ class RootMeanSquare(SISO):
     """base frequency, greater than zero [Hz]"""
     x0: ClassVar[ac.Parameter]
     """initial value of the integral"""
+    y0: ClassVar[ac.Parameter]
+    """initial value of the output"""
     product: MultiProduct
     mean: Mean
     sqrt1: Sqrt
@@ -2185,6 +2196,7 @@ class RootMeanSquare(SISO):
         *,
         f: SupportsFloat | ac.Start = ...,
         x0: SupportsFloat | ac.Start = ...,
+        y0: SupportsFloat | ac.Start = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,
         **modifiers: Mapping[str, Any],

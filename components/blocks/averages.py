@@ -53,11 +53,12 @@ class RectifiedMean(SISO):
 
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     x0 = ac.Parameter(0.0, doc="initial value of the integral")
+    y0 = ac.Parameter(0.0, min=0, doc="initial value of the output")
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
         self.abs1 = Abs()
-        self.mean = Mean(f=self.f, x0=self.x0, yGreaterOrEqualZero=True)
+        self.mean = Mean(f=self.f, x0=self.x0, y0=self.y0, yGreaterOrEqualZero=True)
         self.connect(self.u, self.abs1.u)
         self.connect(self.abs1.y, self.mean.u)
         self.connect(self.mean.y, self.y)
@@ -76,11 +77,12 @@ class RootMeanSquare(SISO):
 
     f = ac.Parameter(unit="Hz", min=SMALL, doc="base frequency, greater than zero")
     x0 = ac.Parameter(0.0, doc="initial value of the integral")
+    y0 = ac.Parameter(0.0, min=0, doc="initial value of the output")
 
     def __init__(self, **modifiers: Any) -> None:
         super().__init__(**modifiers)
         self.product = MultiProduct(nu=2)
-        self.mean = Mean(f=self.f, x0=self.x0, yGreaterOrEqualZero=True)
+        self.mean = Mean(f=self.f, x0=self.x0, y0=self.y0**2, yGreaterOrEqualZero=True)
         self.sqrt1 = _Root()
         self.connect(self.u, self.product.u[0])
         self.connect(self.u, self.product.u[1])
@@ -100,6 +102,8 @@ class Harmonic(ac.Component):
     useConjugateComplex = ac.Option(False, doc="whether y_arg has the opposite sign")
     x0Cos = ac.Parameter(0.0, doc="initial value of the integral with the cosine")
     x0Sin = ac.Parameter(0.0, doc="initial value of the integral with the sine")
+    y0Cos = ac.Parameter(0.0, doc="initial mean with the cosine")
+    y0Sin = ac.Parameter(0.0, doc="initial mean with the sine")
     u = ac.Input(doc="input signal")
     y_rms = ac.Output(doc="root mean square of the harmonic")
     y_arg = ac.Output(unit="rad", doc="angle of the harmonic")
@@ -109,7 +113,8 @@ class Harmonic(ac.Component):
         f = self.k * self.f
         self.sin1, self.sin2 = Cosine(amplitude=2**0.5, f=f), Sine(amplitude=2**0.5, f=f)
         self.product1, self.product2 = MultiProduct(nu=2), MultiProduct(nu=2)
-        self.mean1, self.mean2 = Mean(f=self.f, x0=self.x0Cos), Mean(f=self.f, x0=self.x0Sin)
+        self.mean1 = Mean(f=self.f, x0=self.x0Cos, y0=self.y0Cos)
+        self.mean2 = Mean(f=self.f, x0=self.x0Sin, y0=self.y0Sin)
         self.rectangularToPolar = RectangularToPolar()
         self.gain = Gain(k=-1 if self.useConjugateComplex else 1)
         self.connect(self.sin1.y, self.product1.u[0])
