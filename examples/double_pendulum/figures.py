@@ -24,6 +24,7 @@ MEASURED, LEARNED = "#22303c", "#1f5c99"
 
 def page(path: Path, swings: Mapping[int, ac.Data], rows: Sequence[Row], fit: ac.Fit) -> None:
     """Write the page."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     shown = opening(
         "Double pendulum",
         "Free swings of two arms on ball bearings, measured by K. Kaheman and others (2023).",
