@@ -101,5 +101,6 @@ def _stopped(names: list[str], origins: Sequence[Origin], values: Array, residua
     return (
         f"Newton's method finds no solution of the equations for {listing(names)}; "
         f"the nearest point is {at}, which leaves {listing(left, 6)}. "
-        "Give start values nearer to the solution (ac.Start), or check the parameters."
+        "Give start values nearer to the solution (ac.Start), check the parameters, or, where a mechanism passes a "
+        "dead point of its states, choose others (stateSelect)."
     )

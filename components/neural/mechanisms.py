@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import acausal as ac
-from acausal.components.planar.interfaces import PartialTwoFrames, turned
+from acausal.components.planar.conventions import turned
+from acausal.components.planar.interfaces import PartialTwoFrames
 from acausal.components.planar.vehicle import PartialSlippingWheel
 
 from .interfaces import PartialLaw, PartialNetwork

@@ -1,7 +1,6 @@
 """The frame of planar mechanics, and the bases of components that have frames."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import acausal as ac
 from acausal.components import thermal
@@ -30,32 +29,6 @@ class Frame(ac.Connector):
 
 
 Frame_a = Frame_b = Frame_resolve = Frame
-
-
-def turned(phi: Any, x: Any, y: Any) -> tuple[Any, Any]:
-    """A vector turned by ``phi``: from a frame of that angle into the world; by ``-phi``, back."""
-    return ac.cos(phi) * x - ac.sin(phi) * y, ac.sin(phi) * x + ac.cos(phi) * y
-
-
-def direction(r: Any) -> tuple[Any, Any]:
-    """The unit vector along ``r``."""
-    length = ac.sqrt(r[0] ** 2 + r[1] ** 2)
-    return r[0] / length, r[1] / length
-
-
-def free(frame: Frame) -> Iterator[ac.Eq]:
-    """A frame that is looked at only: no force and no torque."""
-    yield ac.Eq(frame.fx, 0)
-    yield ac.Eq(frame.fy, 0)
-    yield ac.Eq(frame.t, 0)
-
-
-def coincident(a: Frame, b: Frame) -> Iterator[ac.Eq]:
-    """Two frames at the same place, whose forces are in balance."""
-    yield ac.Eq(a.x, b.x)
-    yield ac.Eq(a.y, b.y)
-    yield ac.Eq(a.fx + b.fx, 0)
-    yield ac.Eq(a.fy + b.fy, 0)
 
 
 class PartialTwoFrames(ac.Component):

@@ -7,9 +7,9 @@ from acausal.components import icons, thermal
 from acausal.components.choices import STATE_SELECT
 from acausal.components.mechanics import rotational, translational
 
+from .conventions import DRAWN, coincident, direction, turned
 from .friction import striple
-from .interfaces import Frame, Offset, PartialTwoFrames, coincident, direction, turned
-from .parts import DRAWN
+from .interfaces import Frame, Offset, PartialTwoFrames
 
 __modelica__ = "PlanarMechanics.Joints"
 

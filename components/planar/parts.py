@@ -7,18 +7,10 @@ import acausal as ac
 from acausal.components import icons, thermal
 from acausal.components.choices import STATE_SELECT
 
-from .interfaces import Frame, Offset, PartialTwoFrames, coincident, turned
-from .world import GRAVITY
+from .conventions import DRAWN, GRAVITY, LINE, coincident, turned
+from .interfaces import Frame, Offset, PartialTwoFrames
 
 __modelica__ = "PlanarMechanics.Parts"
-
-DRAWN = ("animate", "zPosition", "specularCoefficient")
-"""What parts of Modelica's library have for drawing alone."""
-LINE = (
-    *DRAWN, "animateConnectors", "diameterConnector_a", "diameterConnector_b", "colorConnector_a",
-    "colorConnector_b", "enableAssert", "length_a", "diameter_a", "diameter_b", "color_a", "color_b",
-    "numberOfWindings", "width", "color", "s_small",
-)  # fmt: skip
 
 
 class Fixed(ac.Component):

@@ -10,16 +10,10 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .interfaces import Frame, PartialTwoFrames, coincident, free, turned
+from .conventions import ABSOLUTE, ARROW, RELATIVE, coincident, free, turned
+from .interfaces import Frame, PartialTwoFrames
 
 __modelica__ = "PlanarMechanics.Sensors"
-
-ABSOLUTE = ("world", "frame_a", "frame_resolve")
-RELATIVE = ("world", "frame_a", "frame_b", "frame_resolve")
-ARROW = (
-    "animation", "arrowDiameter", "arrowColor", "specularCoefficient", "s_small", "N_to_m", "Nm_to_m",
-    "forceDiameter", "torqueDiameter", "forceColor", "torqueColor", "diameter", "color", "zPosition",
-)  # fmt: skip
 
 
 class PartialResolving(ac.Component):

@@ -1,13 +1,13 @@
 """Forces and torques: given by signals, or that grow with the square of the speed."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import acausal as ac
 from acausal.components import icons
 
-from .interfaces import Frame, PartialTwoFrames, turned
-from .sensors import ABSOLUTE, ARROW, RELATIVE, PartialResolving
+from .conventions import ABSOLUTE, ARROW, RELATIVE, acting, turned
+from .interfaces import Frame, PartialTwoFrames
+from .sensors import PartialResolving
 
 __modelica__ = "PlanarMechanics.Sources"
 
@@ -79,11 +79,3 @@ class QuadraticSpeedDependentForce(PartialResolving):
         for force, size, ratio in zip(self.force, nominal, ratios, strict=True):
             yield ac.Eq(force, size * ratio * ac.Abs(ratio))
         yield from acting(frame, angle, self.force)
-
-
-def acting(frame: Frame, angle: Any, force: Any) -> Iterator[ac.Eq]:
-    """A force along the axes of a frame of an angle, and a torque, on what is connected to a frame."""
-    x, y = turned(angle, force[0], force[1])
-    yield ac.Eq(frame.fx + x, 0)
-    yield ac.Eq(frame.fy + y, 0)
-    yield ac.Eq(frame.t + force[2], 0)

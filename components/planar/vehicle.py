@@ -9,8 +9,9 @@ from acausal.components.choices import STATE_SELECT
 from acausal.components.mechanics import rotational
 from acausal.components.rotational.gears import IdealPlanetary
 
+from .conventions import direction, turned
 from .friction import striple
-from .interfaces import Frame, direction, turned
+from .interfaces import Frame
 
 __modelica__ = "PlanarMechanics.VehicleComponents.Wheels"
 

@@ -17,7 +17,7 @@ GRAVITY = 9.81
 
 
 class FourBar(ac.Component):
-    """A loop of three links on two fixed frames, driven by its weight.
+    """A loop of three links on two fixed frames, driven by a weight that pulls upward, so that it stays on its side.
 
     Arguments:
         parts: in which order they are declared. reversed_joints: whether joints are connected the other way round.
@@ -42,7 +42,7 @@ class FourBar(ac.Component):
             ("damper", lambda: rot.Damper(d=d)),
             *((f"rod{i}", lambda n=length: planar.FixedTranslation(r=(n, 0.0)))
               for i, length in enumerate(self.LENGTHS)),
-            *((f"body{i}", lambda: planar.Body(m=1.0, I=0.02)) for i in range(3)),
+            *((f"body{i}", lambda: planar.Body(m=1.0, I=0.02, g=(0.0, GRAVITY))) for i in range(3)),
         ]  # fmt: skip
         for name, make in makers[::order]:
             setattr(self, name, make())
@@ -70,14 +70,14 @@ def energy(found: ac.Solution) -> np.ndarray:
         v_x, v_y, w, y = (
             np.asarray(found[f"{body}.{n}"]) for n in ("v[1]", "v[2]", "w", "frame_a.y")
         )
-        total += (v_x**2 + v_y**2) / 2 + 0.02 * w**2 / 2 + GRAVITY * y
+        total += (v_x**2 + v_y**2) / 2 + 0.02 * w**2 / 2 - GRAVITY * y
     return total
 
 
 @pytest.fixture(scope="module")
 def four_bar() -> tuple[ac.System, ac.Solution]:
     system = ac.compile(FourBar(d=0.0))
-    return system, ac.simulate(system, (0.0, 4.0), dt=0.02, rtol=1e-11, atol=1e-12, solver="tsit5")
+    return system, ac.simulate(system, (0.0, 0.2), dt=0.01, rtol=1e-11, atol=1e-12, solver="tsit5")
 
 
 @pytest.mark.slow
@@ -85,7 +85,7 @@ def test_a_loop_keeps_its_energy_and_stays_closed(four_bar: tuple[ac.System, ac.
     system, found = four_bar
     assert len(system.states) == 2
     total = energy(found)
-    assert np.ptp(np.asarray(found["crank.phi"])) > 0.5
+    assert np.ptp(np.asarray(found["crank.phi"])) > 0.05
     assert np.ptp(total) < 1e-8
     ends = [np.asarray(found[f"rod2.frame_b.{n}"]) for n in "xy"]
     np.testing.assert_allclose(ends, np.broadcast_to([[1.0], [0.0]], (2, len(total))), atol=1e-9)
@@ -95,24 +95,21 @@ def test_a_loop_keeps_its_energy_and_stays_closed(four_bar: tuple[ac.System, ac.
 def test_neither_the_order_nor_the_direction_of_joints_matters(
     four_bar: tuple[ac.System, ac.Solution],
 ) -> None:
-    found = four_bar[1]
-    for sign, other in ((1, FourBar(order=-1)), (-1, FourBar(reversed_joints=True))):
-        again = ac.simulate(
-            ac.compile(other), (0.0, 4.0), dt=0.02, rtol=1e-11, atol=1e-12, solver="tsit5"
-        )
-        for name in ("crank.phi", "rocker.phi"):
-            expected = sign * np.asarray(found[name])
-            np.testing.assert_allclose(np.asarray(again[name]), expected, atol=1e-7)
+    found, other = four_bar[1], ac.compile(FourBar(order=-1, reversed_joints=True))
+    again = ac.simulate(other, (0.0, 0.2), dt=0.01, rtol=1e-11, atol=1e-12, solver="tsit5")
+    for name in ("crank.phi", "rocker.phi"):
+        turn = np.asarray(again[name]) + np.asarray(found[name])
+        np.testing.assert_allclose(np.mod(turn + 1.0, 2 * np.pi), 1.0, atol=1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.machines
 def test_a_gradient_goes_through_a_loop(four_bar: tuple[ac.System, ac.Solution]) -> None:
     system = four_bar[0]
 
     @jax.jit
     def at_end(mass: Any, damping: Any) -> Any:
         params = {**system.parameters(), "body1.m": mass, "damper.d": damping}
-        found = ac.simulate(system, (0.0, 0.5), dt=0.01, params=params, solver="rk4")
+        found = ac.simulate(system, (0.0, 0.1), dt=0.01, params=params, solver="heun")
         return found["crank.phi"][-1]
 
     at = (1.0, 0.3)
@@ -122,7 +119,38 @@ def test_a_gradient_goes_through_a_loop(four_bar: tuple[ac.System, ac.Solution])
         above, below = (
             at_end(*(a + s * h for a, h in zip(at, step, strict=True))) for s in (1, -1)
         )
-        assert exact == pytest.approx((above - below) / 2e-4, rel=1e-6)
+        assert float(exact) == pytest.approx(float(above - below) / 2e-4, rel=1e-6)
+
+
+class Slider(ac.Component):
+    """A crank moves a piston; the piston's way is the state."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.wall, self.disc = planar.Fixed(), planar.Body(m=1.0, I=0.1, g=(0.0, 0.0))
+        self.slide = planar.Prismatic(
+            r=(1.0, 0.0),
+            stateSelect="always",
+            s=ac.Start(0.9, fixed=True),
+            v=ac.Start(0.5, fixed=True),
+        )
+        self.drive = planar.Revolute(phi=ac.Start(0.6), stateSelect="never")
+        self.pin, self.end = (planar.Revolute(phi=ac.Start(phi)) for phi in (-1.0, 0.4))
+        self.crank, self.rod = (planar.FixedTranslation(r=(length, 0.0)) for length in (0.3, 0.8))
+        self.connect(self.wall.frame, self.drive.frame_a, self.slide.frame_a)
+        self.connect(self.drive.frame_b, self.crank.frame_a, self.disc.frame_a)
+        self.connect(self.crank.frame_b, self.pin.frame_a)
+        self.connect(self.pin.frame_b, self.rod.frame_a)
+        self.connect(self.rod.frame_b, self.end.frame_a)
+        self.connect(self.end.frame_b, self.slide.frame_b)
+
+
+@pytest.mark.slow
+def test_a_dead_point_of_the_state_is_an_error_that_names_the_remedy() -> None:
+    system = ac.compile(Slider())
+    assert system.states == ("slide.s", "slide.v")
+    with pytest.raises(ac.SimulationError, match=r"dead point of its states.*stateSelect"):
+        ac.simulate(system, (0.0, 3.0), dt=0.01, solver="rk4")
 
 
 # -- world and files -------------------------------------------------------------------------------

@@ -1,0 +1,79 @@
+"""What the modules of planar mechanics share: turned vectors, balances of frames, names that only draw."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import acausal as ac
+
+GRAVITY = (0.0, -9.81)
+"""Acceleration of gravity [m/s2] where a model gives no other."""
+
+
+WORLD_DRAWN = (
+    "enableAnimation", "animateWorld", "animateGravity", "label1", "label2", "axisLength", "axisDiameter",
+    "axisShowLabels", "axisColor_x", "axisColor_y", "axisColor_z", "gravityArrowTail", "gravityArrowLength",
+    "gravityArrowDiameter", "gravityArrowColor", "defaultZPosition", "nominalLength", "defaultJointLength",
+    "defaultJointWidth", "defaultBodyDiameter", "defaultWidthFraction", "defaultArrowDiameter",
+    "defaultForceLength", "defaultForceWidth", "defaultFrameDiameterFraction", "defaultSpecularCoefficient",
+    "defaultN_to_m", "defaultNm_to_m",
+)  # fmt: skip
+
+
+DRAWN = ("animate", "zPosition", "specularCoefficient")
+"""What parts of Modelica's library have for drawing alone."""
+
+
+LINE = (
+    *DRAWN, "animateConnectors", "diameterConnector_a", "diameterConnector_b", "colorConnector_a",
+    "colorConnector_b", "enableAssert", "length_a", "diameter_a", "diameter_b", "color_a", "color_b",
+    "numberOfWindings", "width", "color", "s_small",
+)  # fmt: skip
+
+
+ARROW = (
+    "animation", "arrowDiameter", "arrowColor", "specularCoefficient", "s_small", "N_to_m", "Nm_to_m",
+    "forceDiameter", "torqueDiameter", "forceColor", "torqueColor", "diameter", "color", "zPosition",
+)  # fmt: skip
+
+
+GEAR_DRAWN = ("animate", "StartAngle_a", "StartAngle_b", "Tooth_a", "RGB_a", "RGB_b", "z_offset")
+
+
+ABSOLUTE = ("world", "frame_a", "frame_resolve")
+
+
+RELATIVE = ("world", "frame_a", "frame_b", "frame_resolve")
+
+
+def turned(phi: Any, x: Any, y: Any) -> tuple[Any, Any]:
+    """A vector turned by ``phi``: from a frame of that angle into the world; by ``-phi``, back."""
+    return ac.cos(phi) * x - ac.sin(phi) * y, ac.sin(phi) * x + ac.cos(phi) * y
+
+
+def direction(r: Any) -> tuple[Any, Any]:
+    """The unit vector along ``r``."""
+    length = ac.sqrt(r[0] ** 2 + r[1] ** 2)
+    return r[0] / length, r[1] / length
+
+
+def free(frame: Any) -> Iterator[ac.Eq]:
+    """A frame that is looked at only: no force and no torque."""
+    yield ac.Eq(frame.fx, 0)
+    yield ac.Eq(frame.fy, 0)
+    yield ac.Eq(frame.t, 0)
+
+
+def coincident(a: Any, b: Any) -> Iterator[ac.Eq]:
+    """Two frames at the same place, whose forces are in balance."""
+    yield ac.Eq(a.x, b.x)
+    yield ac.Eq(a.y, b.y)
+    yield ac.Eq(a.fx + b.fx, 0)
+    yield ac.Eq(a.fy + b.fy, 0)
+
+
+def acting(frame: Any, angle: Any, force: Any) -> Iterator[ac.Eq]:
+    """A force along the axes of a frame of an angle, and a torque, on what is connected to a frame."""
+    x, y = turned(angle, force[0], force[1])
+    yield ac.Eq(frame.fx + x, 0)
+    yield ac.Eq(frame.fy + y, 0)
+    yield ac.Eq(frame.t + force[2], 0)
