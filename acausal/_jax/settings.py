@@ -22,7 +22,7 @@ def configure() -> None:
 
     if "JAX_ENABLE_X64" not in os.environ:
         jax.config.update("jax_enable_x64", True)
-    xla.compile_small_loops(os.environ, jaxlib_version)
+    xla.choose_options(os.environ, jaxlib_version)
     compilation_cache.begin(os.environ)
 
 

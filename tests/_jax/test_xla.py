@@ -8,10 +8,12 @@ import pytest
 import acausal as ac
 from acausal._jax import batching
 from acausal._jax.scan import stored_scan
-from acausal._jax.xla import compile_small_loops, compiles_small_loops
+from acausal._jax.xla import choose_options, compiles_small_loops
 from acausal.components import translational as tl
 
-ASKED = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=1048576"
+EMITTERS = "--xla_cpu_use_fusion_emitters=false"
+LOOPS = "--xla_backend_extra_options=xla_cpu_small_while_loop_byte_threshold=1048576"
+ASKED = f"{LOOPS} {EMITTERS}"
 OTHER = "--xla_cpu_enable_fast_math=false"
 OWN = "--xla_backend_extra_options=xla_cpu_other=1"
 
@@ -19,20 +21,24 @@ OWN = "--xla_backend_extra_options=xla_cpu_other=1"
 @pytest.mark.parametrize("version", ["0.7.0", "0.10.2", "0.10.3.dev20261101"])
 @pytest.mark.parametrize(
     ("before", "after"),
-    [({}, ASKED), ({"XLA_FLAGS": OTHER}, f"{OTHER} {ASKED}"), ({"XLA_FLAGS": OWN}, OWN)],
+    [
+        ({}, ASKED),
+        ({"XLA_FLAGS": OTHER}, f"{OTHER} {ASKED}"),
+        ({"XLA_FLAGS": OWN}, f"{OWN} {EMITTERS}"),
+    ],
     ids=["nothing", "other flags", "own options"],
 )
 def test_the_flag_is_added(version, before, after):
     environment = dict(before)
     for _ in range(2):
-        compile_small_loops(environment, version)
+        choose_options(environment, version)
         assert environment["XLA_FLAGS"] == after
 
 
 @pytest.mark.parametrize("version", ["0.6.2", "0.11.0", "1.0"])
 def test_a_version_that_may_not_know_the_flag_is_not_asked(version):
     environment = {"XLA_FLAGS": OTHER}
-    compile_small_loops(environment, version)
+    choose_options(environment, version)
     assert environment == {"XLA_FLAGS": OTHER}
 
 
