@@ -11,6 +11,7 @@ import diffrax as dfx
 import numpy as np
 from jax.typing import DTypeLike
 from jaxtyping import Float
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from acausal._jax import array, is_real, known, need_double_precision, precision, select, traced
@@ -41,6 +42,9 @@ SHARE = 50
 
 STEPS_OF_A_SINE = 8
 """At least so many steps are made in a period of a sine of time."""
+
+FEWEST, JUMP = 10, 10.0
+"""Points among which jumps are looked for, and how much larger a jump is than moves around it, and than rates allow."""
 
 POINTS = 500
 """Points that an adaptive simulation saves by default."""
@@ -111,7 +115,8 @@ def simulate(
 
     Warns:
         UserWarning: if derivatives are taken, outside of `jax.jit` and `jax.vmap`, through steps far too long for an
-            explicit solver.
+            explicit solver; if the points of the output hide a source's period; if positions that equations of several
+            solutions give, as in a linkage, jump from one to another.
     """
     need_compiled(system, "simulate")
     need_double_precision()
@@ -147,7 +152,9 @@ def simulate(
     if ends is not None and system.events is None and not are_split(run, ends, adjoint):
         scheme = solvers.solver_named("tsit5" if called == "auto" else solver, fixed=True)
         direct = forward or isinstance(adjoint, dfx.DirectAdjoint)
-        return simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
+        solution = simulate_fixed(run, ends, saved, scheme, dtype=kind, direct=direct)
+        _warn_of_another_solution(solution)
+        return solution
     if adjoint is not None and not forward and system.events is None and ends is None:
         warnings.warn(
             "Adaptive steps have derivatives in both modes: leave out adjoint=, which will be removed.",
@@ -174,7 +181,32 @@ def simulate(
     )
     if saveat is None and ends is None:
         _warn_of_few_points(solution, end - start)
+    _warn_of_another_solution(solution)
     return solution
+
+
+def _warn_of_another_solution(solution: Solution) -> None:
+    """Warn where positions that a nonlinear loop computes jump: a linkage has gone to its other assembly."""
+    pairs = solution.system.reduced.solved_positions
+    if not pairs or known((solution.t, solution.x)) is None or len(solution.t) < FEWEST:
+        return
+    t, (names, derivatives) = np.asarray(solution.t), zip(*pairs, strict=True)
+    positions, rates = (
+        np.stack([np.asarray(solution[name]) for name in of]) for of in (names, derivatives)
+    )
+    moves = np.abs(np.diff(positions))
+    fastest = np.maximum(np.abs(rates[:, :-1]), np.abs(rates[:, 1:])) * np.diff(t)
+    around = sliding_window_view(np.pad(moves, ((0, 0), (4, 4)), "edge"), 9, 1)
+    usual = np.maximum(np.median(around, -1), fastest)
+    jumps = moves > JUMP * usual + 1e-6 * np.max(np.abs(positions), 1, keepdims=True)
+    if jumps.any():
+        row, k = np.argwhere(jumps)[np.argmin(np.argwhere(jumps)[:, 1])]
+        warnings.warn(
+            f"'{names[row]}' jumps from {positions[row, k]:.4g} to {positions[row, k + 1]:.4g} between t = "
+            f"{t[k]:.4g} and {t[k + 1]:.4g} s: its equations have several solutions, and there it is another one. "
+            'Give ac.Start values nearer to the motion, or choose other states (stateSelect="always").',
+            stacklevel=user_level(),
+        )
 
 
 def _warn_of_few_points(solution: Solution, span: float) -> None:

@@ -13,12 +13,14 @@ import numpy as np
 from acausal.errors import StructureError
 from acausal.flattening import FlatModel, Integers, LeavesCaches
 from acausal.structure import graph
+from acausal.structure.algebraic_loops import TornLoop
 from acausal.structure.aliases import AliasFree, eliminate_aliases
 from acausal.structure.blocks import SolvingStep, order_steps
 from acausal.structure.discrete import check_jumps, discrete_nodes
 from acausal.structure.equations import Equations
 from acausal.structure.hidden_constraints import expose_constraints
 from acausal.structure.singularity import explain_singularity
+from acausal.structure.sparse_loops import SparseLoop
 from acausal.structure.state_selection import select_states
 
 OFF_ZERO = 1e-3
@@ -111,6 +113,23 @@ class ReducedModel(LeavesCaches):
         """Typical magnitudes of nodes; 1 for derivatives without a name."""
         named = nodes < self.model.n_variables
         return np.where(named, self.model.nominal[np.where(named, nodes, 0)], 1.0)
+
+    @cached_property
+    def solved_positions(self) -> tuple[tuple[str, str], ...]:
+        """Names of variables that nonlinear loops compute, such as the angles of a linkage, and of their derivatives.
+
+        There may be several solutions, of which only one goes on from that of the moment before.
+        """
+        nodes: set[int] = set()
+        for step in self.steps:
+            if isinstance(step, TornLoop) and not step.shape.is_linear:
+                nodes |= set(step.unknowns.ravel().tolist())
+            if isinstance(step, SparseLoop) and not step.is_linear:
+                nodes |= set(step.unknowns.tolist())
+        named = [n for n in sorted(nodes) if n < self.model.n_variables]
+        pairs = [(n, self.resolve_derivative(n, 1)) for n in named]
+        known = [(n, rate[0]) for n, rate in pairs if rate and rate[0] < self.model.n_variables]
+        return tuple((self.name(position), self.name(rate)) for position, rate in known)
 
     def name(self, node: int) -> str:
         """Dotted name of a node; derivatives without one are called ``der(...)``."""
