@@ -59,6 +59,11 @@ FRICTION = element(
     "M-30 0H30M-14 -8H14M-14 8H14"
     "M-14 -8L-10 -13M-6 -8L-2 -13M2 -8L6 -13M10 -8L14 -13M-14 13L-10 8M-6 13L-2 8M2 13L6 8M10 13L14 8"
 )
+REVOLUTE = ac.Icon(
+    "M-30 0H-12M12 0H30M-12 0A12 12 0 1 0 12 0A12 12 0 1 0 -12 0M-4 0A4 4 0 1 0 4 0A4 4 0 1 0 -4 0",
+    sides={"flange_a": "top", "support": "bottom"},
+)
+PRISMATIC = ac.Icon("M-30 0H30M-14 -12H14V12H-14Z", sides={"flange_a": "top", "support": "bottom"})
 ROLLING = element("M-30 0H-12M-12 0a12 12 0 1 0 24 0a12 12 0 1 0 -24 0M-20 12H30M30 12V0")
 VEHICLE = ac.Icon(
     "M-26 8V-2L-18 -4L-12 -13H10L18 -4L26 -2V8Z"

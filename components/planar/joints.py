@@ -20,7 +20,7 @@ class Prismatic(Offset):
     With ``useFlange`` the force ``f = flange_a.f`` drives it against ``support``, which is fixed in the world.
     """
 
-    ICON = icons.MASS
+    ICON = icons.PRISMATIC
     UNUSED = (*DRAWN, "boxWidth", "boxColor")
 
     useFlange = ac.Option(False, doc="whether a flange drives the joint")
@@ -58,7 +58,7 @@ class Revolute(PartialTwoFrames):
     With ``useFlange`` the torque ``t = flange_a.tau`` drives it against ``support``, which is fixed in the world.
     """
 
-    ICON = icons.INERTIA
+    ICON = icons.REVOLUTE
     UNUSED = (*DRAWN, "cylinderLength", "cylinderDiameter", "cylinderColor", "extraLine")
 
     useFlange = ac.Option(False, doc="whether a flange drives the joint")
