@@ -2410,6 +2410,8 @@ class TransferFunction(SISO):
     """initial or guess values of the states"""
     y_start: ClassVar[ac.Parameter]
     """initial value of the output"""
+    a_end: ClassVar[ac.Parameter]
+    """last coefficient of a, or 1 where it is next to nothing"""
     x: ClassVar[ac.Variable]
     """states in controller canonical form"""
     x_scaled: ClassVar[ac.Variable]
@@ -2421,6 +2423,7 @@ class TransferFunction(SISO):
         a: SupportsFloat | Iterable[Any] = ...,
         x_start: SupportsFloat | Iterable[Any] = ...,
         y_start: SupportsFloat | ac.Start = ...,
+        a_end: SupportsFloat | ac.Start = ...,
         initType: Literal["NoInit", "SteadyState", "InitialState", "InitialOutput"] = ...,
         u: ac.Start | Mapping[str, Any] = ...,
         y: ac.Start | Mapping[str, Any] = ...,

@@ -1,6 +1,7 @@
 """Continuous blocks with states; integrators, controllers, filters come from their own modules."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -52,11 +53,16 @@ class SecondOrder(SISO, PartialStart):
             yield ac.Eq(self.yd, self.yd_start)
 
 
+def _unless_negligible(a: Sequence[Any]) -> Any:
+    small = 100 * np.finfo(float).eps * ac.sqrt(dot(a, a))
+    return ac.where(a[-1] > small, a[-1], 1)
+
+
 class TransferFunction(SISO):
     """``(b[1] s**m + ... + b[m+1])/(a[1] s**n + ... + a[n+1])`` with ``m <= n``.
 
     In controller canonical form: ``a[1] der(x[1]) = u - a[2] x[1] - ... - a[n+1] x[n]``,
-    ``der(x[i]) = x[i-1]``. ``x_scaled`` is ``a[n+1] x``, or ``x`` where ``a[n+1]`` is next to nothing.
+    ``der(x[i]) = x[i-1]``. ``x_scaled`` is ``a_end x``.
     """
 
     ICON = icons.TRANSFER
@@ -66,6 +72,10 @@ class TransferFunction(SISO):
     initType = ac.Option("NoInit", choices=INIT, doc="type of initialization")
     x_start = ac.Parameter(0.0, shape="nx", doc="initial or guess values of the states")
     y_start = ac.Parameter(0.0, doc="initial value of the output")
+    a_end = ac.Parameter(
+        lambda self: _unless_negligible(self.a),
+        doc="last coefficient of a, or 1 where it is next to nothing",
+    )
     x = ac.Variable(shape="nx", start="x_start", doc="states in controller canonical form")
     x_scaled = ac.Variable(shape="nx", doc="states times the last coefficient of a")
 
@@ -81,10 +91,8 @@ class TransferFunction(SISO):
                 f"{len(self.a)}; it must not have fewer"
             )
         yield from canonical_form(self.u, self.y, self.x, self.b, self.a)
-        last, size = self.a[-1], ac.sqrt(dot(self.a, self.a))
-        scale = ac.where(last > 100 * np.finfo(float).eps * size, last, 1, events=None)
         for x, scaled in zip(self.x, self.x_scaled, strict=True):
-            yield ac.Eq(scaled, scale * x)
+            yield ac.Eq(scaled, self.a_end * x)
 
     def initial_equations(self) -> Iterator[ac.Eq]:
         match self.initType:

@@ -7,6 +7,8 @@ from tests.support.oscillator import plain
 
 TIME = np.linspace(0, 1, 11)
 
+KINDS = "linear, previous, cubic, akima, modified-akima, monotone, steffen, band-limited"
+
 
 def refused(make):
     with pytest.raises(ac.DataError) as error:
@@ -81,7 +83,7 @@ def test_temperatures_have_an_offset():
         ),
         (
             lambda: ac.Data(TIME, {"x": TIME}, interpolation=3),
-            "interpolation=3; choose one of linear, previous, cubic, band-limited, for all or by name.",
+            f"interpolation=3; choose one of {KINDS}, for all or by name.",
         ),
         (
             lambda: ac.Data.from_csv(3.5),
@@ -217,7 +219,7 @@ def test_interpolation_goes_along_with_the_record():
 @pytest.mark.parametrize(
     ("given", "sentence"),
     [
-        ("spline", "The record has interpolation='spline'; choose one of linear, previous, cubic, band-limited."),
+        ("spline", f"The record has interpolation='spline'; choose one of {KINDS}."),
         ({"v": "cubic"}, "There is a choice of interpolation for 'v' but no such signal: known are 'u'."),
     ],
 )  # fmt: skip

@@ -464,7 +464,7 @@ def test_outputs_alone_suffice_for_the_whole_record():
          ac.DataError,
          ("The data lack 'mass.v', with which the record starts: "
           "leave out x0='data' to have them found, or give x0={'mass.v': ...}.")),
-        ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is not a state of the model: did you mean 'mass.v'?"),
+        ({"x0": {"mass.x": 0.0}}, ac.DataError, "x0: 'mass.x' is not a state; did you mean 'mass.v'?"),
         ({"x0": {"mass.s": float("nan")}}, ac.DataError, "x0: 'mass.s' is nan; give a finite number."),
         ({"x0": {"mass.s": np.zeros(1)}}, ac.DataError, "x0: 'mass.s' is array([0.]); give a finite number."),
         ({"x0": {"mass.s": "rest"}}, ac.DataError, "x0: 'mass.s' is 'rest'; give a finite number."),
