@@ -12,7 +12,7 @@ import sympy as sp
 from acausal.errors import DeclarationError
 from acausal.flattening.layout import Layout
 from acausal.flattening.template import Integers
-from acausal.modeling import Parameter, Reference, references
+from acausal.modeling import Parameter, Reference, literal, references
 
 ALONE = sp.Symbol("p0", real=True)
 """The symbol in a binding to a single parameter."""
@@ -66,7 +66,9 @@ def bind(layout: Layout, target: int, expression: sp.Expr, name: Callable[[int],
         symbols.append(names[reference])
         index = layout.form(number).parameter_index[reference.path]
         arguments.append(int(layout.parameter_base[number]) + index)
-    named: Any = ALONE if alone else expression.xreplace(names)
+    named: Any = (
+        ALONE if alone else literal(expression).xreplace(names)
+    )  # parameters have no events
     return Binding(target, named, tuple(symbols), tuple(arguments))
 
 

@@ -758,3 +758,17 @@ def test_whole_numbers_stay_exact_and_apart_from_others():
     )
     kinds = [{type(n) for n in g.template.residual.atoms(sp.Number)} for g in system.flat.groups]
     assert [any(issubclass(k, sp.Float) for k in some) for some in kinds].count(True) == 1
+
+
+def test_a_parameter_that_follows_by_cases_has_no_event():
+    class Decay(ac.Component):
+        k = ac.Parameter(2.0)
+        least = ac.Parameter(lambda self: ac.where(self.k > 1, self.k, 1, events=None))
+        x = ac.Variable()
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), -self.least * self.x)
+
+    decay = ac.compile(Decay())
+    rates = [decay.vector_field(0.0, jnp.ones(1), None, {"k": k}).item() for k in (0.5, 3.0)]
+    assert rates == [-1.0, -3.0]
