@@ -33,6 +33,14 @@ def linspace(first: float, last: float, n: int) -> list[float]:
     return np.linspace(first, last, len(fill(0.0, n))).tolist()
 
 
+def size(array: Any, axis: float = 1) -> int:
+    """The length of an array along an axis, counted from 1."""
+    shape = np.shape(array)
+    if axis not in range(1, len(shape) + 1):
+        raise ValueError(f"size of axis {axis:g} of an array of {len(shape)} dimensions")
+    return shape[int(axis) - 1]
+
+
 ARRAYS: dict[str, Callable[..., Any]] = {
     "fill": fill,
     "zeros": lambda *sizes: fill(0, *sizes),
@@ -40,7 +48,7 @@ ARRAYS: dict[str, Callable[..., Any]] = {
     "transpose": transpose,
     "identity": identity,
     "linspace": linspace,
-    "size": lambda array, axis=1: np.shape(array)[int(axis) - 1],
+    "size": size,
     "vector": lambda array: np.ravel(array).tolist(),
 }
 """Name -> function."""

@@ -32,7 +32,7 @@ def test_oracles_are_there() -> None:
     assert len(NETLISTS) >= 16
 
 
-@pytest.mark.cases(fast=1, slow=6)
+@pytest.mark.cases(fast=1, slow=3)
 @pytest.mark.parametrize("name", some_slow(NETLISTS, SLOW, MACHINES))
 def test_oracle(name: str, record_property: Any) -> None:
     errors = compare(name, FOLDER)

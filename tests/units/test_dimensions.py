@@ -654,7 +654,8 @@ def instances(package: str) -> tuple[FlatModel, ...]:
 
 SHARES = {"blocks": (150, 0.4), "digital": (10, 0), "electrical": (150, 0.85), "fluid": (40, 0.9),
           "hydraulic": (11, 0.9), "magnetic": (35, 0.8),
-          "neural": (2, 0.8), "rotational": (60, 0.9), "thermal": (25, 1), "translational": (60, 0.9)}  # fmt: skip
+          "neural": (2, 0.8), "planar": (100, 0.85), "rotational": (60, 0.9),
+          "thermal": (25, 1), "translational": (60, 0.9)}  # fmt: skip
 """By package, how many variants there are and which share of wrong units is found, at least.
 
 What a network gives has any unit: an energy that is computed from it tells nothing.
