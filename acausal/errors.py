@@ -6,10 +6,12 @@ Every message says what is wrong, where (dotted names, at most a dozen), and how
 import operator
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 LIBRARY = str(Path(__file__).parent)
 
@@ -89,6 +91,12 @@ def listing(names: Iterable[object], limit: int = 12) -> str:
     quoted = [f"'{shortened(name)}'" for name in names]
     shown = ", ".join(quoted[:limit])
     return shown if len(quoted) <= limit else f"{shown} and {len(quoted) - limit} more"
+
+
+def cut_short(things: Sequence[T], most: int, line: Callable[[T], str] = str) -> list[str]:
+    """A line for each of the first things, and a last one that counts the others."""
+    more = [f"... and {len(things) - most} more"] if len(things) > most else []
+    return [*map(line, things[:most]), *more]
 
 
 def nearest(name: object, known: Iterable[str]) -> str:

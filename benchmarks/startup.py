@@ -1,4 +1,4 @@
-"""How long a user waits for the quarter vehicle: from ``import acausal`` to the first simulated result.
+"""How long a user waits from ``import acausal`` to the first result: the quarter vehicle, and clutches with events.
 
 Each figure is the median over fresh processes. Cold: an empty compilation cache; warm: a second run with the same.
 """
@@ -38,14 +38,44 @@ ride = ac.simulate(system, (0.0, 42.0), dt=1e-3, inputs={"road.v_ref": road})
 assert abs(float(ride["body.a"][-1])) < 10.0
 """
 
-CODE = {"import": "import acausal", "jax_import": "import jax", "cold": RIDE, "warm": RIDE}
-"""In this order: the first ride fills the compilation cache."""
+CLUTCHES = """
+import acausal as ac
+from acausal.components import blocks, rotational as rot
+
+class Drive(ac.Component):
+    def __init__(self):
+        super().__init__()
+        self.wave, self.torque = blocks.Sine(f=1.0, amplitude=10.0), rot.Torque()
+        self.pressed = blocks.Constant(k=1.0)
+        self.inertias = [rot.Inertia(J=1.0) for _ in range(3)]
+        self.clutches = [rot.Clutch(fn_max=8.0) for _ in range(2)]
+        self.connect(self.wave.y, self.torque.tau)
+        self.connect(self.torque.flange, self.inertias[0].flange_a)
+        for clutch, left, right in zip(self.clutches, self.inertias, self.inertias[1:]):
+            self.connect(self.pressed.y, clutch.f_normalized)
+            self.connect(left.flange_b, clutch.flange_a)
+            self.connect(clutch.flange_b, right.flange_a)
+
+assert ac.simulate(ac.compile(Drive()), 2.0).events
+"""
+
+CODE = {
+    "import": "import acausal",
+    "jax_import": "import jax",
+    "cold": RIDE,
+    "warm": RIDE,
+    "events_cold": CLUTCHES,
+    "events_warm": CLUTCHES,
+}
+"""In this order: the first run of each fills the compilation cache."""
 
 ROWS = {
     "import": "import acausal",
     "jax_import": "import jax",
-    "cold": "from the import to the first result, cold",
+    "cold": "quarter vehicle, from the import to the first result, cold",
     "warm": "... warm",
+    "events_cold": "three inertias and two clutches, cold",
+    "events_warm": "... warm",
 }
 
 
@@ -79,7 +109,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=5, help="processes for every figure")
     rounds = [measured() for _ in range(parser.parse_args().rounds)]
     found = {key: statistics.median(r[key] for r in rounds) for key in rounds[0]}
-    table = Table("quarter vehicle", "seconds", "of processor time")
+    table = Table("", "seconds", "of processor time")
     for name, title in ROWS.items():
         both = (found[f"{name}_{kind}"] for kind in ("seconds", "processor_seconds"))
         table.add_row(title, *(f"{value:.2f}" for value in both))

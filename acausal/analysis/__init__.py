@@ -9,7 +9,7 @@ from acausal.analysis.estimate import estimate as estimate
 from acausal.analysis.estimation import Estimation as Estimation
 from acausal.analysis.formula import Formula as Formula
 from acausal.analysis.linearization import Linearization as Linearization, linearize as linearize
-from acausal.analysis.loops import Loop as Loop, open_loop as open_loop
+from acausal.analysis.loops import OpenLoop as OpenLoop, open_loop as open_loop
 from acausal.analysis.module_calls import (
     Calls as Calls,
     Labels as Labels,

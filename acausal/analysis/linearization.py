@@ -16,7 +16,7 @@ from scipy.linalg import expm, solve_continuous_are
 from acausal._jax import check_time, is_real
 from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
-from acausal.errors import DataError, need_compiled, shown
+from acausal.errors import DataError, cut_short, need_compiled, shown
 from acausal.modeling import names_in
 
 if TYPE_CHECKING:
@@ -300,14 +300,7 @@ class Linearization:
         values = [
             (v, z) for v, z in zip(self.eigenvalues(), self.damping(), strict=True) if v.imag >= 0
         ]
-        texts = [
-            f"{v.real:.4g} ± {v.imag:.4g}j: {abs(v) / (2 * np.pi):.4g} Hz, damping {z:.3g}"
-            if v.imag
-            else f"{v.real:.4g}" + (f": time constant {-1 / v.real:.4g} s" if v.real < 0 else "")
-            for v, z in values[:MOST_STATES]
-        ]
-        more = [f"... and {len(values) - MOST_STATES} more"] if len(values) > MOST_STATES else []
-        return [f"mode {text}" for text in texts] + more
+        return cut_short(values, MOST_STATES, lambda mode: f"mode {_in_words(*mode)}")
 
     def _repr_html_(self) -> str:
         from acausal.reporting import View, html_table
@@ -320,6 +313,15 @@ class Linearization:
                 cells = [(n, *row) for n, row in zip(down, np.asarray(m).tolist(), strict=True)]
                 view.folded(name, html_table(("", *columns[name]), cells), opened=True)
         return str(view)
+
+
+def _in_words(eigenvalue: complex, damping: float) -> str:
+    if eigenvalue.imag:
+        frequency = abs(eigenvalue) / (2 * np.pi)
+        shown = f"{eigenvalue.real:.4g} ± {eigenvalue.imag:.4g}j"
+        return f"{shown}: {frequency:.4g} Hz, damping {damping:.3g}"
+    rate = eigenvalue.real
+    return f"{rate:.4g}" + (f": time constant {-1 / rate:.4g} s" if rate < 0 else "")
 
 
 def _weights(

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Loop:
+class OpenLoop:
     """What a model does to signals that are added at analysis points, near a point of operation.
 
     A point is a signal that a connection feeds. With the connection open, ``output = G input``: ``input`` enters at the
@@ -66,7 +66,7 @@ def open_loop(
     inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
     params: Params | None = None,
     t: float | None = None,
-) -> Loop:
+) -> OpenLoop:
     """Open signal connections and linearize the model there; the model stays as it is.
 
     Arguments:
@@ -100,4 +100,4 @@ def open_loop(
         t=t,
     )
     columns = jnp.array([opened.inputs.index(name) for name in points])
-    return Loop(replace(found, B=found.B[:, columns], D=found.D[:, columns], inputs=points))
+    return OpenLoop(replace(found, B=found.B[:, columns], D=found.D[:, columns], inputs=points))

@@ -29,6 +29,7 @@ from acausal.codegen.iteration_matrix import (
     IterationMatrix as IterationMatrix,
     SparseIterationMatrix as SparseIterationMatrix,
 )
+from acausal.codegen.lines import PART_OF_PERIOD as PART_OF_PERIOD
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
 from acausal.codegen.nonfinite import (

@@ -18,7 +18,7 @@ from sympy.core.relational import Relational
 from acausal.codegen.lower import ModuleValue, evaluate
 from acausal.modeling import ModuleCall, time
 
-SHARE = 0.125
+PART_OF_PERIOD = 0.125
 """The longest step, as a part of the period of a sine."""
 
 WAVES = (sp.sin, sp.cos, sp.tan)
@@ -198,7 +198,7 @@ class Walk:
             return NOTHING
         moves = jnp.abs(rate) > 0
         period = 2 * jnp.pi / jnp.where(moves, jnp.abs(rate), 1.0)
-        return Ahead(jnp.inf, jnp.inf, jnp.where(moves, SHARE * period, jnp.inf))
+        return Ahead(jnp.inf, jnp.inf, jnp.where(moves, PART_OF_PERIOD * period, jnp.inf))
 
     def _table(self, node: Any) -> Ahead:
         called = self._called(node)

@@ -66,9 +66,8 @@ def bind(layout: Layout, target: int, expression: sp.Expr, name: Callable[[int],
         symbols.append(names[reference])
         index = layout.form(number).parameter_index[reference.path]
         arguments.append(int(layout.parameter_base[number]) + index)
-    named: Any = (
-        ALONE if alone else literal(expression).xreplace(names)
-    )  # parameters have no events
+    without_events = literal(expression)
+    named: Any = ALONE if alone else without_events.xreplace(names)
     return Binding(target, named, tuple(symbols), tuple(arguments))
 
 

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
+from acausal.errors import cut_short
 from acausal.modeling import Component, sections, unit_and_doc, value_text
 from acausal.reporting.diagram_picture import diagram_svg
 from acausal.reporting.mathml import latex, mathml, name_as_mathml, names_in
@@ -72,9 +73,7 @@ class Formulas(tuple[sp.Equality, ...]):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        lines = [f"{_left(e.lhs)} = {e.rhs}" for e in self[:MOST_EQUATIONS]]
-        more = [f"... and {len(self) - MOST_EQUATIONS} more"] if len(self) > MOST_EQUATIONS else []
-        return "\n".join([*lines, *more])
+        return "\n".join(cut_short(self, MOST_EQUATIONS, lambda e: f"{_left(e.lhs)} = {e.rhs}"))
 
     def _repr_html_(self) -> str:
         names = shorten(names_in(self))

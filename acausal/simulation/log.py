@@ -13,7 +13,7 @@ from jax.typing import DTypeLike
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import array, known
-from acausal.errors import DataError
+from acausal.errors import DataError, cut_short
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -72,8 +72,7 @@ class EventList(tuple[Event, ...]):
     __slots__ = ()
 
     def __repr__(self) -> str:
-        more = [f"... and {len(self) - LINES} more"] if len(self) > LINES else []
-        return "\n".join([*map(str, self[:LINES]), *more]) or "no events"
+        return "\n".join(cut_short(self, LINES)) or "no events"
 
 
 class Log(NamedTuple):

@@ -15,7 +15,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from acausal._jax import array, is_real, known, need_double_precision, precision, select, traced
-from acausal.codegen import traced_names
+from acausal.codegen import PART_OF_PERIOD, traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
 from acausal.simulation import solvers
@@ -39,9 +39,6 @@ LOGGER = logging.getLogger(__name__)
 
 SHARE = 50
 """Adaptive steps are not longer than this part of the span."""
-
-STEPS_OF_A_SINE = 8
-"""At least so many steps are made in a period of a sine of time."""
 
 FEWEST, JUMP = 10, 10.0
 """Points among which jumps are looked for, and how much larger a jump is than moves around it, and than rates allow."""
@@ -191,16 +188,14 @@ def _warn_of_another_solution(solution: Solution) -> None:
     if not pairs or known((solution.t, solution.x)) is None or len(solution.t) < FEWEST:
         return
     t, (names, derivatives) = np.asarray(solution.t), zip(*pairs, strict=True)
-    positions, rates = (
-        np.stack([np.asarray(solution[name]) for name in of]) for of in (names, derivatives)
-    )
+    positions, rates = np.split(np.asarray(solution[[*names, *derivatives]]).T, 2)
     moves = np.abs(np.diff(positions))
     fastest = np.maximum(np.abs(rates[:, :-1]), np.abs(rates[:, 1:])) * np.diff(t)
     around = sliding_window_view(np.pad(moves, ((0, 0), (4, 4)), "edge"), 9, 1)
     usual = np.maximum(np.median(around, -1), fastest)
     jumps = moves > JUMP * usual + 1e-6 * np.max(np.abs(positions), 1, keepdims=True)
     if jumps.any():
-        row, k = np.argwhere(jumps)[np.argmin(np.argwhere(jumps)[:, 1])]
+        k, row = np.argwhere(jumps.T)[0]
         warnings.warn(
             f"'{names[row]}' jumps from {positions[row, k]:.4g} to {positions[row, k + 1]:.4g} between t = "
             f"{t[k]:.4g} and {t[k + 1]:.4g} s: its equations have several solutions, and there it is another one. "
@@ -218,9 +213,9 @@ def _warn_of_few_points(solution: Solution, span: float) -> None:
     steps, edges, start = (float(count) for count in counts)
     apart, system = span / POINTS, solution.system
     period = np.inf if system.inputs or not edges else 2 * span / edges  # inputs bend at samples
-    if steps > STEPS_OF_A_SINE * POINTS and system.edges:
+    if steps > POINTS / PART_OF_PERIOD and system.edges:
         step = system.edges.ahead(solution.values.packed, start, 1e-9 * span).longest
-        period = min(period, STEPS_OF_A_SINE * float(step))
+        period = min(period, float(step) / PART_OF_PERIOD)
     if period < apart:
         warnings.warn(
             f"The {POINTS} points of the output are {apart:.3g} s apart, and a source has a period of about "

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from acausal.errors import cut_short
 from acausal.training.reported import SHOWN, Progress, rate_of
 
 EVERY = 0.2
@@ -73,9 +74,7 @@ def words(progress: Progress, done: bool) -> str:
 
 def bar(epoch: int, epochs: int, text: str, divergences: list[str] | None = None) -> str:
     """HTML of a bar with a line of text; below it the first divergences."""
-    lines = [html.escape(d) for d in (divergences or [])[:SHOWN]]
-    if divergences and len(divergences) > SHOWN:
-        lines.append(f"... and {len(divergences) - SHOWN} more")
+    lines = cut_short(divergences or [], SHOWN, html.escape)
     below = f'<div style="opacity:.75">{"<br>".join(lines)}</div>' if lines else ""
     return (
         '<div style="font:13px system-ui,sans-serif;font-variant-numeric:tabular-nums">'

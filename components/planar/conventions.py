@@ -1,6 +1,6 @@
 """What the modules of planar mechanics share: turned vectors, balances of frames, names that only draw."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import acausal as ac
@@ -9,40 +9,26 @@ GRAVITY = (0.0, -9.81)
 """Acceleration of gravity [m/s2] where a model gives no other."""
 
 
-WORLD_DRAWN = (
-    "enableAnimation", "animateWorld", "animateGravity", "label1", "label2", "axisLength", "axisDiameter",
-    "axisShowLabels", "axisColor_x", "axisColor_y", "axisColor_z", "gravityArrowTail", "gravityArrowLength",
-    "gravityArrowDiameter", "gravityArrowColor", "defaultZPosition", "nominalLength", "defaultJointLength",
-    "defaultJointWidth", "defaultBodyDiameter", "defaultWidthFraction", "defaultArrowDiameter",
-    "defaultForceLength", "defaultForceWidth", "defaultFrameDiameterFraction", "defaultSpecularCoefficient",
-    "defaultN_to_m", "defaultNm_to_m",
-)  # fmt: skip
-
-
 DRAWN = ("animate", "zPosition", "specularCoefficient")
 """What parts of Modelica's library have for drawing alone."""
-
-
-LINE = (
-    *DRAWN, "animateConnectors", "diameterConnector_a", "diameterConnector_b", "colorConnector_a",
-    "colorConnector_b", "enableAssert", "length_a", "diameter_a", "diameter_b", "color_a", "color_b",
-    "numberOfWindings", "width", "color", "s_small",
-)  # fmt: skip
 
 
 ARROW = (
     "animation", "arrowDiameter", "arrowColor", "specularCoefficient", "s_small", "N_to_m", "Nm_to_m",
     "forceDiameter", "torqueDiameter", "forceColor", "torqueColor", "diameter", "color", "zPosition",
 )  # fmt: skip
-
-
-GEAR_DRAWN = ("animate", "StartAngle_a", "StartAngle_b", "Tooth_a", "RGB_a", "RGB_b", "z_offset")
+"""The same of sensors and sources, which are drawn as arrows."""
 
 
 ABSOLUTE = ("world", "frame_a", "frame_resolve")
-
-
 RELATIVE = ("world", "frame_a", "frame_b", "frame_resolve")
+"""Frames along whose axes vectors of one frame, and of two, may be resolved."""
+
+
+def equal(vector: Any, values: Iterable[Any]) -> Iterator[ac.Eq]:
+    """The elements of a vector, one by one."""
+    for element, value in zip(vector, values, strict=True):
+        yield ac.Eq(element, value)
 
 
 def turned(phi: Any, x: Any, y: Any) -> tuple[Any, Any]:

@@ -9,13 +9,14 @@ from acausal.components.mechanics import rotational
 from acausal.components.rotational.components import Inertia
 
 from . import multibody
-from .conventions import GEAR_DRAWN
 from .interfaces import PartialTwoFramesAndHeat
 from .joints import Revolute
 from .parts import Body, Fixed, FixedRotation, FixedTranslation
 from .world import PlanarWorldIn3D
 
 __modelica__ = "PlanarMechanics.GearComponents"
+
+_DRAWN = ("animate", "StartAngle_a", "StartAngle_b", "Tooth_a", "RGB_a", "RGB_b", "z_offset")
 
 
 class PartialGear(PartialTwoFramesAndHeat):
@@ -26,7 +27,7 @@ class PartialGear(PartialTwoFramesAndHeat):
     """
 
     ICON = icons.GEAR
-    UNUSED = GEAR_DRAWN
+    UNUSED = _DRAWN
     _INSIDE = False
 
     r_a = ac.Parameter(1.0, unit="m", doc="radius of gear A")

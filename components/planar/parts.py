@@ -7,10 +7,16 @@ import acausal as ac
 from acausal.components import icons, thermal
 from acausal.components.choices import STATE_SELECT
 
-from .conventions import DRAWN, GRAVITY, LINE, coincident, turned
+from .conventions import DRAWN, GRAVITY, coincident, turned
 from .interfaces import Frame, Offset, PartialTwoFrames
 
 __modelica__ = "PlanarMechanics.Parts"
+
+_LINE = (
+    *DRAWN, "animateConnectors", "diameterConnector_a", "diameterConnector_b", "colorConnector_a",
+    "colorConnector_b", "enableAssert", "length_a", "diameter_a", "diameter_b", "color_a", "color_b",
+    "numberOfWindings", "width", "color", "s_small",
+)  # fmt: skip
 
 
 class Fixed(ac.Component):
@@ -105,7 +111,7 @@ class PartialSpring(PartialTwoFrames):
     ``frame_b.fx = f_x = -frame_a.fx``, and likewise along y. ``phi_rel = frame_b.phi - frame_a.phi`` [rad].
     """
 
-    UNUSED = LINE
+    UNUSED = _LINE
 
     c_x = ac.Parameter(unit="N/m", min=0, doc="stiffness along the world's x-axis")
     c_y = ac.Parameter(unit="N/m", min=0, doc="stiffness along the world's y-axis")
@@ -186,7 +192,7 @@ class Damper(PartialTwoFrames, thermal.PartialElementaryConditionalHeatPort):
     """
 
     ICON = icons.DAMPER
-    UNUSED = LINE
+    UNUSED = _LINE
 
     d = ac.Parameter(1.0, unit="N.s/m", min=0, doc="damping constant")
     s_small = ac.Parameter(1e-10, unit="m", min=0, doc="least distance of the frames")

@@ -10,7 +10,7 @@ from typing import Any
 import acausal as ac
 from acausal.components import icons
 
-from .conventions import ABSOLUTE, ARROW, RELATIVE, coincident, free, turned
+from .conventions import ABSOLUTE, ARROW, RELATIVE, coincident, equal, free, turned
 from .interfaces import Frame, PartialTwoFrames
 
 __modelica__ = "PlanarMechanics.Sensors"
@@ -87,8 +87,7 @@ class AbsolutePosition(PartialAbsolute):
         yield from super().equations()
         x, y, phi = self._place()
         angle = self._angle(self.resolveInFrame)
-        for out, value in zip(self.r, (*turned(-angle, x, y), phi - angle), strict=True):
-            yield ac.Eq(out, value)
+        yield from equal(self.r, (*turned(-angle, x, y), phi - angle))
 
 
 class AbsoluteVelocity(PartialAbsolute):
@@ -100,8 +99,7 @@ class AbsoluteVelocity(PartialAbsolute):
         yield from super().equations()
         x, y, w = (ac.der(value) for value in self._place())
         angle = self._angle(self.resolveInFrame)
-        for out, value in zip(self.v, (*turned(-angle, x, y), w), strict=True):
-            yield ac.Eq(out, value)
+        yield from equal(self.v, (*turned(-angle, x, y), w))
 
 
 class AbsoluteAcceleration(PartialAbsolute):
@@ -112,12 +110,10 @@ class AbsoluteAcceleration(PartialAbsolute):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        for speed, place in zip(self.v_0, self._place(), strict=True):
-            yield ac.Eq(speed, ac.der(place))
+        yield from equal(self.v_0, map(ac.der, self._place()))
         x, y, z = (ac.der(speed) for speed in self.v_0)
         angle = self._angle(self.resolveInFrame)
-        for out, value in zip(self.a, (*turned(-angle, x, y), z), strict=True):
-            yield ac.Eq(out, value)
+        yield from equal(self.a, (*turned(-angle, x, y), z))
 
 
 class RelativePosition(PartialRelative):
@@ -127,8 +123,7 @@ class RelativePosition(PartialRelative):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        for out, value in zip(self.r_rel, self._difference(self.resolveInFrame), strict=True):
-            yield ac.Eq(out, value)
+        yield from equal(self.r_rel, self._difference(self.resolveInFrame))
 
 
 class RelativeVelocity(PartialRelative):
@@ -139,12 +134,10 @@ class RelativeVelocity(PartialRelative):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        for place, value in zip(self.r_a, self._difference("frame_a"), strict=True):
-            yield ac.Eq(place, value)
+        yield from equal(self.r_a, self._difference("frame_a"))
         x, y, w = (ac.der(place) for place in self.r_a)
         angle = self._angle(self.resolveInFrame) - self.frame_a.phi
-        for out, value in zip(self.v_rel, (*turned(-angle, x, y), w), strict=True):
-            yield ac.Eq(out, value)
+        yield from equal(self.v_rel, (*turned(-angle, x, y), w))
 
 
 class RelativeAcceleration(RelativeVelocity):
@@ -155,8 +148,7 @@ class RelativeAcceleration(RelativeVelocity):
 
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
-        for out, speed in zip(self.a_rel, self.v_rel, strict=True):
-            yield ac.Eq(out, ac.der(speed))
+        yield from equal(self.a_rel, map(ac.der, self.v_rel))
 
 
 class PartialTransform(PartialResolving):
@@ -178,8 +170,7 @@ class PartialTransform(PartialResolving):
         angle = self._angle(self.frame_r_in) - self._angle(self.frame_r_out)
         x, y, third = self.r_in
         shift = self._shift() if self.frame_r_in != self.frame_r_out else 0
-        for out, value in zip(self.r_out, (*turned(angle, x, y), third + shift), strict=True):
-            yield ac.Eq(out, value)
+        yield from equal(self.r_out, (*turned(angle, x, y), third + shift))
 
     def _shift(self) -> Any:
         """What is added to the third element."""

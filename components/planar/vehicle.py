@@ -9,7 +9,7 @@ from acausal.components.choices import STATE_SELECT
 from acausal.components.mechanics import rotational
 from acausal.components.rotational.gears import IdealPlanetary
 
-from .conventions import direction, turned
+from .conventions import direction, equal, turned
 from .friction import striple
 from .interfaces import Frame
 
@@ -42,8 +42,7 @@ class PartialWheel(thermal.PartialElementaryConditionalHeatPortWithoutT):
     def equations(self) -> Iterator[ac.Eq]:
         yield from super().equations()
         frame = self.frame_a
-        for e0, along in zip(self.e0, turned(frame.phi, *direction(self.r)), strict=True):
-            yield ac.Eq(e0, along)
+        yield from equal(self.e0, turned(frame.phi, *direction(self.r)))
         yield ac.Eq(self.v[0], ac.der(frame.x))
         yield ac.Eq(self.v[1], ac.der(frame.y))
         yield ac.Eq(self.phi_roll, self.flange_a.phi)

@@ -6,9 +6,18 @@ from typing import Any, ClassVar
 import acausal as ac
 
 from . import multibody
-from .conventions import GRAVITY, WORLD_DRAWN
+from .conventions import GRAVITY
 
 __modelica__ = "PlanarMechanics"
+
+_DRAWN = (
+    "enableAnimation", "animateWorld", "animateGravity", "label1", "label2", "axisLength", "axisDiameter",
+    "axisShowLabels", "axisColor_x", "axisColor_y", "axisColor_z", "gravityArrowTail", "gravityArrowLength",
+    "gravityArrowDiameter", "gravityArrowColor", "defaultZPosition", "nominalLength", "defaultJointLength",
+    "defaultJointWidth", "defaultBodyDiameter", "defaultWidthFraction", "defaultArrowDiameter",
+    "defaultForceLength", "defaultForceWidth", "defaultFrameDiameterFraction", "defaultSpecularCoefficient",
+    "defaultN_to_m", "defaultNm_to_m",
+)  # fmt: skip
 
 
 class PlanarWorld(ac.Component):
@@ -18,7 +27,7 @@ class PlanarWorld(ac.Component):
     hands it down: ``planar.Body(m=1.0, I=0.1, g=self.planarWorld.g)``.
     """
 
-    UNUSED = WORLD_DRAWN
+    UNUSED = _DRAWN
 
     constantGravity = ac.Parameter(
         GRAVITY, unit="m/s2", shape=2, doc="acceleration of gravity, resolved in the world"
@@ -40,7 +49,7 @@ class PlanarWorldIn3D(PlanarWorld):
     may be turned about the direction of gravity only. What moves in the plane does not act on the spatial frame.
     """
 
-    UNUSED = WORLD_DRAWN
+    UNUSED = _DRAWN
     OUTER: ClassVar = {"gravity": "world.gravity"}
 
     inheritGravityFromMultiBody = ac.Option(

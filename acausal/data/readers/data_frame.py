@@ -9,8 +9,16 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 
-from acausal.data.readers.table import Selection, Table, headers, library, need_time, seconds
-from acausal.errors import DataError, nearest, reason, shown
+from acausal.data.readers.table import (
+    Selection,
+    Table,
+    headers,
+    library,
+    need_column,
+    need_time,
+    seconds,
+)
+from acausal.errors import DataError, reason, shown
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Index
@@ -55,11 +63,8 @@ def read_runs(frame: object, selection: Selection, source: str = "") -> Table | 
     """`read_data_frame`, with a table of each run where the selection has a column that names them."""
     if selection.group is None or not is_data_frame(frame):
         return read_data_frame(frame, selection, source)
-    if selection.group not in frame.columns:
-        known = [n for n in frame.columns if isinstance(n, str)]
-        raise DataError(
-            f"{source or 'The data frame'} has no column '{selection.group}': {nearest(selection.group, known)}"
-        )
+    texts = [n for n in frame.columns if isinstance(n, str)]
+    need_column(selection.group, texts, source or "The data frame")
     parts = frame.groupby(selection.group, sort=False)
     what = f"{source}, run" if source else "Run"
     return {str(run): read_data_frame(part, selection, f"{what} '{run}'") for run, part in parts}

@@ -68,8 +68,7 @@ class Selection:
         columns = None if self.columns is None else names_in(self.columns, "columns")
         group = () if self.group is None else names_in(self.group, "group")
         for name in (*(columns or ()), *names_in(self.rename or (), "rename"), *group):
-            if name not in known:
-                raise DataError(f"{source} has no column '{name}': {nearest(name, known)}")
+            need_column(name, known, source)
         return [n for n in (known if columns is None else columns) if n not in (self.time, *group)]
 
     def table(
@@ -129,6 +128,12 @@ def headers(cells: Sequence[str], where: str) -> tuple[list[str], dict[str, str]
         if match["unit"] is not None:
             units[name] = match["unit"]
     return names, units
+
+
+def need_column(name: str, known: Collection[str], source: str) -> None:
+    """Refuse a column that a source does not have."""
+    if name not in known:
+        raise DataError(f"{source} has no column '{name}': {nearest(name, known)}")
 
 
 def need_time(selection: Selection, known: Collection[str], source: str) -> None:
