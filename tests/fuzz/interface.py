@@ -103,8 +103,8 @@ SOUND_OF: dict[str, dict[str, Callable[[Case], Any]]] = {
 
 RESULTS = frozenset([
     "CrossValidation", "Diagram", "Distilled", "Ensemble", "Estimation", "Fit", "Formula", "Initialization",
-    "Linearization", "Observer", "OpenLoop", "OperatingPoint", "Prediction", "Predictions", "Profile", "RecordFit", "Solution",
-    "Stability", "Sweep", "System",
+    "Linearization", "Observer", "OpenLoop", "OperatingPoint", "Prediction", "Predictions", "Profile",
+    "RecordFit", "Solution", "Stability", "Sweep", "System",
 ])  # fmt: skip
 """Classes of which no user makes objects."""
 
