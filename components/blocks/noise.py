@@ -18,6 +18,9 @@ from .interfaces import SO
 
 __modelica__ = "Modelica.Blocks.Noise"
 
+_LONGEST = 2**20
+"""Numbers until noise repeats, at most: they are drawn when parameters are made, a million in half a second."""
+
 
 class GlobalSeed(ac.Component):
     """The seed of all noise in the component that it is a part of, and below.
@@ -77,6 +80,10 @@ class PartialNoise(SO):
         raise NotImplementedError
 
     def equations(self) -> Iterator[ac.Eq]:
+        if not 1 <= self.length <= _LONGEST:
+            raise ac.DeclarationError(
+                f"{type(self).__name__}: length={self.length}; give 1 to {_LONGEST} numbers"
+            )
         if not (self.enableNoise and self._global.enableNoise):
             yield ac.Eq(self.y, self.y_off)
             return

@@ -95,3 +95,9 @@ def test_another_seed_gives_other_numbers() -> None:
     assert not np.isclose(*numbers).any()
     with pytest.raises(ac.DeclarationError, match="useAutomaticSeed=True"):
         blocks.GlobalSeed(useAutomaticSeed=True)  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize("length", [-3, 0, 2**20 + 1])
+def test_a_length_that_cannot_be_is_refused(length: int) -> None:
+    with pytest.raises(ac.DeclarationError, match=f"NormalNoise: length={length}; give 1 to"):
+        ac.compile(blocks.NormalNoise(length=length))
