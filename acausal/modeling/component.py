@@ -192,8 +192,14 @@ class Component:
                 f"{self._node.label} has a '{name}' already; choose another name"
             )
         if anew and hasattr(type(self), name):
+            stated = name in ("equations", "initial_equations")
             raise DeclarationError(
-                f"'{name}' is an attribute of class {type(self).__name__}; choose another name"
+                f"'{name}' is an attribute of class {type(self).__name__}; "
+                + (
+                    f"define it: def {name}(self): yield ac.Eq(...)"
+                    if stated
+                    else "choose another name"
+                )
             )
 
     def _add_all(self, name: str, parts: Sequence[Any], *index: int) -> list[Any]:

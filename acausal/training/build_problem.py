@@ -103,6 +103,7 @@ def build_problem(
         solver=solver,
         timing=times,
         held=system.held_inputs,
+        rates=system.rates_among_states if options.automatic else None,
     )
     for record in data.values():
         announce_derivatives(system.inputs, record)

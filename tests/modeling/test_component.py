@@ -213,7 +213,10 @@ def test_names_do_not_hide_what_the_framework_needs():
     model = Model()
     with refused(ac.DeclarationError, "'connect' is an attribute of class Model"):
         model.connect = Mass(m=1.0)
-    with refused(ac.DeclarationError, "'equations' is an attribute of class Model"):
+    with refused(
+        ac.DeclarationError,
+        "'equations' is an attribute of class Model; define it: def equations(self)",
+    ):
         model.equations = 3.0
     with refused(ac.DeclarationError, "'time' is the time"):
         model.time = ac.Parameter(1.0)

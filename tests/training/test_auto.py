@@ -20,7 +20,9 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
+from acausal.training.build_problem import build_problem
 from acausal.training.objective.noise import noise_of
+from acausal.training.options import FitOptions
 from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow
 from tests.training.test_checkpoint import stop
@@ -90,6 +92,23 @@ def test_a_law_comes_out_without_options() -> None:
     assert "damper.net was seen between" in repr(fit)
     assert fit.step_error is not None
     assert fit.step_error < 1e-3
+
+
+def test_windows_begin_at_rates_of_positions_where_speeds_are_not_measured() -> None:
+    system = trained().system
+    records = {"run": data().select(["push.f", "mass.s"])}
+
+    def states(**options) -> np.ndarray | None:
+        problem = build_problem(
+            system, records, ("mass.s",), system.parameters(), FitOptions(**options)
+        )
+        return None if problem.records.x is None else np.asarray(problem.records.x)
+
+    assert states(strategy="whole_record") is None
+    found = states()
+    assert found is not None
+    speed = np.asarray(data()["mass.v"])
+    assert np.std(found[:, system.states.index("mass.v")] - speed) < 0.1 * np.std(speed)
 
 
 def test_scales_go_along_in_files(tmp_path: Path) -> None:

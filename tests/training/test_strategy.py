@@ -17,7 +17,7 @@ from acausal.training.build_problem import build_problem
 from acausal.training.history import Log
 from acausal.training.objective.records import Places
 from acausal.training.objective.sequences import Batch
-from acausal.training.objective.smoothing import smoothed
+from acausal.training.objective.smoothing import rate, smoothed
 from acausal.training.objective.whole_record import over_whole_record
 from acausal.training.optimizers.gradients import Evaluated
 from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
@@ -218,6 +218,11 @@ def test_smoothing_takes_out_noise_and_leaves_what_has_none():
     np.testing.assert_allclose(smoothed(clean), clean, atol=1e-5)
     np.testing.assert_array_equal(smoothed(np.full(50, 2.0)), 2.0)
     np.testing.assert_array_equal(smoothed(clean[:3]), clean[:3])
+    true = 4 * np.cos(4 * t) + 6.3 * np.cos(21 * t)
+    assert np.std(rate(t, noisy) - true) < 0.15 * np.std(true)
+    assert np.std(np.gradient(noisy, t) - true) > 1.0 * np.std(true)
+    gap = np.where((t > 3) & (t < 4), np.nan, clean)
+    np.testing.assert_array_equal(np.isnan(rate(t, gap)), np.isnan(gap))
 
 
 def test_smoothed_states_lessen_the_bias_of_noise():

@@ -106,7 +106,7 @@ def automatic(
     fixed = tuple(n for n in names if n not in shapes and not hasattr(params[0][n], "left_open"))
     linear = {n: linear_module(shape) for n, shape in shapes.items()}
     part = _part(records, MOST)
-    base = replace(options, sequence_length=None, strategy="whole_record", epochs=None)
+    base = replace(options, sequence_length=None, epochs=None)
 
     def problem_of(data: dict[str, Data], step: Step, x0: Any = None) -> Problem:
         own = step.of(base, data)
@@ -121,9 +121,9 @@ def automatic(
             step, start, explains = trial, found, found.loss < level
         if explains:
             break
-        pieces = _pieces(part) if shapes and found.problem.records.x is not None else {}
+        pieces, begins = _pieces(part, found.problem) if shapes else ({}, {})
         if pieces:
-            short = _start(problem_of(pieces, trial, "data"), shapes)
+            short = _start(problem_of(pieces, trial, begins), shapes)
             if np.isfinite(short.loss):
                 step, start = trial, replace(short, trainable=replace(short.trainable, states=None))
                 break
@@ -161,18 +161,27 @@ def _part(records: dict[str, Data], most: int) -> dict[str, Data]:
     return {n: found[n] for n in records if n in found}
 
 
-def _pieces(records: dict[str, Data]) -> dict[str, Data]:
-    """Short pieces of records."""
+def _pieces(
+    data: dict[str, Data], problem: Problem
+) -> tuple[dict[str, Data], dict[str, dict[str, float]]]:
+    """Short pieces of records that begin where all states are known, and the states there."""
+    if problem.records.x is None:
+        return {}, {}
+    x = np.asarray(problem.records.x)
     cuts = [
-        (name, data, k)
-        for name, data in records.items()
-        for k in range(0, len(data) - PIECE, PIECE)
+        (name, k, x[row])
+        for i, (name, record) in enumerate(data.items())
+        for k, row in enumerate(problem.records.rows_of(i)[:-PIECE])
+        if k % PIECE == 0 and np.isfinite(x[row]).all()
     ]
-    chosen = cuts[:: max(1, -(-len(cuts) // PIECES))]
-    return {
-        f"{name} from {data.time[k]:g} s": data.between(data.time[k], data.time[k + PIECE - 1])
-        for name, data, k in chosen
-    }
+    pieces: dict[str, Data] = {}
+    begins: dict[str, dict[str, float]] = {}
+    for name, k, state in cuts[:: max(1, -(-len(cuts) // PIECES))]:
+        t = data[name].time
+        piece = f"{name} from {t[k]:g} s"
+        pieces[piece] = data[name].between(t[k], t[k + PIECE - 1])
+        begins[piece] = dict(zip(problem.system.states, state.tolist(), strict=True))
+    return pieces, begins
 
 
 def _scales(

@@ -16,14 +16,11 @@ from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.sequences import Batch
-from acausal.training.objective.smoothing import bridged, smoothed
+from acausal.training.objective.smoothing import without_noise
 from acausal.training.objective.trainable import Trainable
 
 SAMPLES = 5000
 """The most samples of the records that count; they are evenly spread."""
-
-UNEVEN = 1e-6
-"""Sample times that differ by less than this part count as equal."""
 
 
 class EquationError(eqx.Module):
@@ -123,13 +120,11 @@ def _smoothed(
 ) -> Float[np.ndarray, "N n_states"]:
     """The measured states, record by record: short gaps bridged, and smoothed where samples are evenly spaced."""
     found = x.copy()
-    h = np.asarray(records.steps.h)
+    t = np.asarray(records.steps.t)
     for k in range(records.count):
         rows = records.rows_of(k)
-        even = h.ndim == 0 or np.ptp(h[rows[:-1]]) <= UNEVEN * h[rows[0]]
         for i in range(x.shape[1]):
-            column = bridged(x[rows, i])
-            found[rows, i] = smoothed(column) if even else column
+            found[rows, i] = without_noise(t[rows], x[rows, i])
     return found
 
 

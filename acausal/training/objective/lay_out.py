@@ -25,6 +25,7 @@ from acausal.simulation import (
 )
 from acausal.training.objective.input_delays import delayed_inputs
 from acausal.training.objective.records import Records
+from acausal.training.objective.smoothing import rate
 from acausal.training.objective.timing import Timing
 
 ALIKE = 1e-6
@@ -54,6 +55,7 @@ def lay_out(
     timing: Timing | None = None,
     held: Set[str] = frozenset(),
     measured: bool = True,
+    rates: Mapping[str, tuple[str, int]] | None = None,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
 
@@ -67,6 +69,7 @@ def lay_out(
         timing: the delays, where inputs are delayed.
         held: inputs that keep each sample until the next, unless a record says otherwise.
         measured: whether the data need samples of every target.
+        rates: by state that no record need have, the one that is differentiated in its place, and a sign.
 
     Raises:
         DataError: for a signal that is missing.
@@ -75,8 +78,10 @@ def lay_out(
     even = sample_time(data.values())
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
+    present = {n for d in data.values() for n in d.signals}
+    lacking = {n: of for n, of in (rates or {}).items() if n not in present}
     rows = [
-        _rows(d, g, inputs, targets, states, held, measured)
+        _rows(d, g, inputs, targets, states, held, measured, lacking)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -135,6 +140,7 @@ def _rows(
     states: tuple[str, ...] | None,
     held: Set[str],
     measured: bool,
+    rates: Mapping[str, tuple[str, int]],
 ) -> _Rows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
@@ -146,7 +152,14 @@ def _rows(
     inner = polynomials_over_steps(functions, grid.t)
     names = states or ()
     nothing = np.full(len(data), np.nan)
-    x = [data.signals.get(n, nothing) for n in names] or [nothing]
+
+    def state(name: str) -> Float[np.ndarray, " n_samples"]:
+        if name in rates:
+            position, sign = rates[name]
+            return sign * rate(data.time, data.signals.get(position, nothing))
+        return data.signals.get(name, nothing)
+
+    x = [state(n) for n in names] or [nothing]
     if measured:
         y = data.columns(targets, "a target of the training")
     else:

@@ -61,7 +61,8 @@ class Records(eqx.Module):
         y: targets; zero where they are not measured.
         weight: how much each counts; zero where it is not measured.
         sigma: standard deviations of the targets over all records.
-        x: states where all of them are measured, else NaN; ``None`` where that is never so.
+        x: states where all of them are measured, else NaN; ``None`` where that is never so. Where the training chooses
+            its stages, speeds that no record has are the rates of positions without most of their noise.
         of: the record of every row.
         first, last: of every record, its first and its last row.
         sampled: the rows that hold samples; the others only shorten steps.

@@ -19,6 +19,28 @@ DEGREE = 3
 SHORT = 10
 """The most samples that may be missing in a row for the gap to be bridged."""
 
+UNEVEN = 1e-6
+"""Sample times that differ by less than this part count as evenly spaced."""
+
+
+def without_noise(
+    t: Float[np.ndarray, " N"], signal: Float[np.ndarray, " N"]
+) -> Float[np.ndarray, " N"]:
+    """A signal whose short gaps are bridged, and `smoothed` where its samples are evenly spaced."""
+    steps = np.diff(t)
+    column = bridged(signal)
+    return smoothed(column) if np.ptp(steps) <= UNEVEN * steps[0] else column
+
+
+def rate(t: Float[np.ndarray, " N"], signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
+    """The derivative by time of what `without_noise` leaves of a signal; NaN in long gaps."""
+    column = without_noise(t, signal)
+    known = ~np.isnan(column)
+    found = np.full_like(column, np.nan)
+    if known.sum() > 1:
+        found[known] = np.gradient(column[known], t[known])
+    return found
+
 
 def bridged(signal: Float[np.ndarray, " N"]) -> Float[np.ndarray, " N"]:
     """A signal whose short gaps are filled by a monotone cubic through their neighbours; long ones stay NaN."""
