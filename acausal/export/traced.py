@@ -5,7 +5,7 @@ What JAX traces is read here once; the writers of C and of other languages see o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -91,6 +91,16 @@ class Block:
     operations: tuple[Operation, ...]
     outputs: tuple[Atom, ...]
 
+    def part(self, outputs: Iterable[Atom]) -> Block:
+        """The same with these results, and without operations that reach none of them."""
+        results = tuple(outputs)
+        wanted, kept = set(results), list[Operation]()
+        for operation in reversed(self.operations):
+            if not wanted.isdisjoint(operation.outputs):
+                kept.append(operation)
+                wanted.update(operation.inputs)
+        return Block(self.inputs, tuple(reversed(kept)), results)
+
 
 def kind_of(dtype: Any) -> str:
     """The kind of a number type: "real", "int" or "bool".
@@ -116,7 +126,7 @@ def block_of(closed: ClosedJaxpr) -> Block:
     inputs = tuple(_value(v) for v in jaxpr.invars)
     operations: list[Operation] = []
     outputs = _inline(closed, inputs, operations, "")
-    return _without_unused(Block(inputs, tuple(operations), tuple(outputs)))
+    return Block(inputs, tuple(operations), ()).part(outputs)
 
 
 def _value(variable: Any) -> Value:
@@ -160,13 +170,3 @@ def _inline(
 def _is_known(arguments: Sequence[Atom], equation: Any) -> bool:
     sizes = [int(np.prod(v.aval.shape, dtype=np.int64)) for v in equation.outvars]
     return all(isinstance(a, Constant) for a in arguments) and max(sizes, default=0) <= FOLDED
-
-
-def _without_unused(block: Block) -> Block:
-    wanted = {id(a) for a in block.outputs}
-    kept: list[Operation] = []
-    for operation in reversed(block.operations):
-        if any(id(o) in wanted for o in operation.outputs):
-            kept.append(operation)
-            wanted |= {id(a) for a in operation.inputs}
-    return Block(block.inputs, tuple(reversed(kept)), block.outputs)

@@ -1,17 +1,4 @@
-"""Events in C: the search for their instants within a step, and what happens there, as `acausal.simulate` does it."""
-
-from __future__ import annotations
-
-import re
-from collections.abc import Iterator
-
-import numpy as np
-
-from acausal.codegen import Events
-from acausal.initialization import COINCIDE, DECREED, ONE_BY_ONE, PASSES, ROUNDS
-from acausal.simulation import BAND, CLOSE, CROWD, DEADER, NEAR, TRIES
-
-EVENT = """/* -- events ---------------------------------------------------------------------------------------
+/* -- events ---------------------------------------------------------------------------------------
 
    m->d are the discrete variables; the first GUARDS of them are conditions: 1 where they hold. Each has a number
    that is positive where it holds (or zero, unless it is strict). */
@@ -32,7 +19,7 @@ static void copy(const real *from, real *to, int n) {
    Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero become
    what m->e.decreed says. At first all that disagree change at once, later
    the first of them alone. */
-static int settle(NAME *m, const real t, const real *u, const real initial) {
+static int settle(Model *m, const real t, const real *u, const real initial) {
     for (int pass = 0; pass < PASSES + ONE_BY_ONE; pass++) {
         int others = 1;
         const real behind = t + COINCIDE * fabs(t);
@@ -58,7 +45,7 @@ static int settle(NAME *m, const real t, const real *u, const real initial) {
 }
 
 /* A condition at zero becomes what its rate says; 0 if that was known. */
-static int turn(NAME *m, const real t, const real *u, const real *along_u) {
+static int turn(Model *m, const real t, const real *u, const real *along_u) {
     int changed = 0;
     rates(m, t, m->x, u, m->e.dx_begin);
     conditions(m, t, m->x, u, m->x, m->d, m->e.number);
@@ -73,12 +60,12 @@ static int turn(NAME *m, const real t, const real *u, const real *along_u) {
 }
 
 /* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at. */
-static NAME_status happen(NAME *m, const real t, const real *u, const real *along_u) {
+static Status happen(Model *m, const real t, const real *u, const real *along_u) {
     int turned = !along_u;
     for (int round = 0; round < ROUNDS; round++) {
         copy(m->x, m->e.x_before, STATES);
         copy(m->d, m->e.d_before, DISCRETE);
-        if (!settle(m, t, u, 0)) return UPPER_UNSETTLED;
+        if (!settle(m, t, u, 0)) return STATUS_UNSETTLED;
         int done = equal(m->d, m->e.d_before, DISCRETE);
         jumped(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.next_x);
         copy(m->e.next_x, m->x, STATES);
@@ -88,13 +75,13 @@ static NAME_status happen(NAME *m, const real t, const real *u, const real *alon
             turned = 1;
             done = !turn(m, t, u, along_u);
         }
-        if (done) return UPPER_OK;
+        if (done) return STATUS_OK;
     }
-    return UPPER_UNSETTLED;
+    return STATUS_UNSETTLED;
 }
 
 /* When conditions change whose time is known: m->e.due, and how fast their numbers grow: m->e.rate. */
-static void find_due(NAME *m, const real *u) {
+static void find_due(Model *m, const real *u) {
     if (!ANY_TIMED) {
         for (int i = 0; i < GUARDS; i++) m->e.due[i] = INFINITY, m->e.rate[i] = 0;
         return;
@@ -108,7 +95,7 @@ static void find_due(NAME *m, const real *u) {
 }
 
 /* Conditions whose time has come change, whatever rounding makes of their numbers. */
-static void decree(NAME *m, const real t, const real *u, const real apart) {
+static void decree(Model *m, const real t, const real *u, const real apart) {
     find_due(m, u);
     for (int i = 0; i < GUARDS; i++) {
         const int near = fabs(m->e.due[i] - t) <= apart;
@@ -116,12 +103,11 @@ static void decree(NAME *m, const real t, const real *u, const real apart) {
         m->e.decreed[i] = m->e.rate[i] > 0;
     }
 }
-"""
 
-SEARCH = """/* -- steps with events ---------------------------------------------------------------------------- */
+/* -- steps with events ---------------------------------------------------------------------------- */
 
 /* Where a step is looked at; the state between its ends lies on the cubic through them. */
-static void look_at_points(NAME *m, const real t, const real h) {
+static void look_at_points(Model *m, const real t, const real h) {
     for (int k = 0; k < POINTS; k++) {
         const real s = (real)k / (POINTS - 1);
         const real *x = k == 0 ? m->x : k == POINTS - 1 ? m->e.x_end : m->e.x_before;
@@ -131,13 +117,14 @@ static void look_at_points(NAME *m, const real t, const real h) {
                 const real bend = ends + (s - 1) * h * m->e.dx_begin[i] + s * h * m->e.dx_end[i];
                 m->e.x_before[i] = (1 - s) * m->x[i] + s * m->e.x_end[i] + s * (s - 1) * bend;
             }
-        INPUTS_BETWEEN
+        real u[INPUTS + 1] = {0};
+        for (int i = 0; i < INPUTS; i++) u[i] = m->e.u_from[i] + s * (m->e.u_to[i] - m->e.u_from[i]);
         conditions(m, t + s * h, x, u, x, m->d, m->e.number + k * GUARDS);
     }
 }
 
 /* The next length to try: false position, sometimes the middle. */
-static real next_length(const NAME_hunt *hunt) {
+static real next_length(const model_hunt *hunt) {
     real share = hunt->off_low / (hunt->off_low - hunt->off_high);
     if (!isfinite(share) || hunt->tries % (hunt->off_low >= -CLOSE ? 2 : 6) == 1) share = R(0.5);
     else share = share < R(1e-9) ? R(1e-9) : share > 1 - R(1e-9) ? 1 - R(1e-9) : share;
@@ -145,8 +132,8 @@ static real next_length(const NAME_hunt *hunt) {
 }
 
 /* See whether conditions, whose time is not known, change in a step of length h: 1 if it ends there. */
-static int look(NAME *m, const real t, const real h) {
-    NAME_hunt *const hunt = &m->e.hunt;
+static int look(Model *m, const real t, const real h) {
+    model_hunt *const hunt = &m->e.hunt;
     real off[POINTS];
     for (int k = 0; k < POINTS; k++) off[k] = -INFINITY;
     hunt->which = 0;
@@ -180,7 +167,7 @@ static int look(NAME *m, const real t, const real h) {
         for (int k = 0; k + 1 < POINTS && !hunt->active; k++) {
             if (!(off[k + 1] > 0)) continue;
             const real part = h / (POINTS - 1);
-            *hunt = (NAME_hunt){.active = 1, .low = (real)k * part, .high = (real)(k + 1) * part,
+            *hunt = (model_hunt){.active = 1, .low = (real)k * part, .high = (real)(k + 1) * part,
                                 .off_low = off[k] < 0 ? off[k] : 0, .off_high = off[k + 1], .away = off[k] < -CLOSE};
             hunt->h = next_length(hunt);
         }
@@ -216,11 +203,11 @@ static int look(NAME *m, const real t, const real h) {
 }
 
 /* An event at m->time, where the step led to m->e.x_end. */
-static NAME_status end_with_event(NAME *m, const real *u, const real *along_u, const int searched, const real span) {
+static Status end_with_event(Model *m, const real *u, const real *along_u, const int searched, const real span) {
     copy(m->e.x_end, m->x, STATES);
     copy(m->d, m->e.d_last, DISCRETE);
     for (int i = 0; i < GUARDS; i++) m->e.touched[i] = m->e.band[i];
-    const NAME_status status = happen(m, m->time, u, along_u);
+    const Status status = happen(m, m->time, u, along_u);
     if (status) return status;
     /* an event that rounding has made changes nothing: the number must go farther next time */
     const int moved = !searched || !equal(m->d, m->e.d_last, DISCRETE) || !equal(m->x, m->e.x_end, STATES);
@@ -232,24 +219,31 @@ static NAME_status end_with_event(NAME *m, const real *u, const real *along_u, c
         m->e.crowd = m->time - m->e.last_event < NEAR * span ? m->e.crowd + 1 : 0;
         m->e.last_event = m->time;
     }
-    return m->e.crowd >= CROWD ? UPPER_CROWDED : UPPER_OK;
+    return m->e.crowd >= CROWD ? STATUS_CROWDED : STATUS_OK;
 }
-"""
 
-
-STEP = """    const real begin = m->time, end = begin + h;
-    INPUTS_BEGIN
+/* Divided at events. */
+Status model_step(Model *m, const real h, const real *u_end) {
+    const real begin = m->time, end = begin + h;
+    for (int i = 0; i < INPUTS; i++) {
+        m->e.u_begin[i] = m->u[i];
+        m->e.along_u[i] = u_end ? (u_end[i] - m->u[i]) / h : 0;
+    }
     m->e.hunt.active = 0;
     while (m->time < end) {
         const real t = m->time, apart = COINCIDE * (fabs(t) > h ? fabs(t) : h);
         real stop = end, soonest = INFINITY;
-        INPUTS_FROM
+        for (int i = 0; i < INPUTS; i++)
+            m->e.u_from[i] = m->e.u_begin[i] + (t - begin) * m->e.along_u[i];
         find_due(m, m->e.u_from);
         for (int i = 0; i < GUARDS; i++)
             if (m->e.due[i] > t + apart && m->e.due[i] < soonest) soonest = m->e.due[i];
         int is_timed = soonest <= stop + apart;
         if (is_timed) stop = soonest;
-        EDGE
+#if EDGES
+        find_edge(m, apart);
+        if (m->until < stop - apart) stop = m->until, is_timed = 0;
+#endif
         for (int i = 0; i < GUARDS; i++) {
             if (!(m->e.due[i] > t + apart)) m->e.due[i] = INFINITY;
             m->e.rounding[i] = 2 * apart * fabs(m->e.rate[i]);
@@ -258,13 +252,14 @@ STEP = """    const real begin = m->time, end = begin + h;
         }
         const int hunted = m->e.hunt.active;
         const real length = hunted ? m->e.hunt.h : stop - t;
-        INPUTS_TO
-        NAME_status status = attempt(m, t, length);
+        for (int i = 0; i < INPUTS; i++)
+            m->e.u_to[i] = m->e.u_begin[i] + (t + length - begin) * m->e.along_u[i];
+        Status status = attempt(m, t, length);
         if (status && !hunted) return status;
         look_at_points(m, t, length);
         const int found = look(m, t, length);
         if (m->e.hunt.active) continue;
-        status = UPPER_OK;
+        status = STATUS_OK;
         if (found) {
             m->time = t + length;
             for (int i = 0; i < GUARDS; i++) { /* what is due just now would be missed after it */
@@ -282,23 +277,23 @@ STEP = """    const real begin = m->time, end = begin + h;
         if (status) return status;
     }
     m->time = end;
-    INPUTS_END
-    return UPPER_OK;"""
-"""The body of a step; words in capital letters stand for what depends on the model."""
+    for (int i = 0; i < INPUTS; i++) m->u[i] = u_end ? u_end[i] : m->e.u_begin[i];
+    return STATUS_OK;
+}
 
-PUBLIC = """NAME_status NAME_begin(NAME *m) {
-    START_D
+Status model_begin(Model *m) {
+    fill_d(m->d);
     for (int i = 0; i < GUARDS; i++) m->e.band[i] = -1, m->e.dead[i] = m->e.usual[i] = 0;
     m->e.crowd = 0;
     m->e.last_event = -INFINITY;
     copy(m->x, m->e.x_before, STATES);
     copy(m->d, m->e.d_before, DISCRETE);
-    if (!settle(m, m->time, m->u, 1)) return UPPER_UNSETTLED;
+    if (!settle(m, m->time, m->u, 1)) return STATUS_UNSETTLED;
     decree(m, m->time, m->u, COINCIDE * fabs(m->time));
     return happen(m, m->time, m->u, NULL);
 }
 
-NAME_status NAME_event(NAME *m) {
+Status model_event(Model *m) {
     decree(m, m->time, m->u, COINCIDE * fabs(m->time));
     conditions(m, m->time, m->x, m->u, m->x, m->d, m->e.number);
     for (int i = 0; i < GUARDS; i++) {
@@ -313,129 +308,25 @@ NAME_status NAME_event(NAME *m) {
     return happen(m, m->time, m->u, m->e.along_u);
 }
 
-NAME_status NAME_conditions(NAME *m) {
+Status model_conditions(Model *m) {
     conditions(m, m->time, m->x, m->u, m->x, m->d, m->e.number);
-    return all_finite(m->e.number, GUARDS) ? UPPER_OK : UPPER_NOT_FINITE;
+    return all_finite(m->e.number, GUARDS) ? STATUS_OK : STATUS_NOT_FINITE;
 }
 
-void NAME_completed(NAME *m) {
+void model_completed(Model *m) {
     conditions(m, m->time, m->x, m->u, m->x, m->d, m->e.number);
     for (int i = 0; i < GUARDS; i++)
         if (fabs(m->e.number[i]) > m->e.usual[i]) m->e.usual[i] = fabs(m->e.number[i]);
 }
 
-NAME_real NAME_next_event(NAME *m) {
+real model_next_event(Model *m) {
     real soonest = INFINITY;
-    NEXT_EDGE
+#if EDGES
+    find_edge(m, APART(fabs(m->time)));
+    soonest = m->until;
+#endif
     find_due(m, m->u);
     for (int i = 0; i < GUARDS; i++)
         if (m->e.due[i] > m->time + COINCIDE * fabs(m->time) && m->e.due[i] < soonest) soonest = m->e.due[i];
     return soonest;
 }
-"""
-"""The functions of the header."""
-
-INPUTS = {
-    "INPUTS_BEGIN": """for (int i = 0; i < INPUTS; i++) {
-        m->e.u_begin[i] = m->u[i];
-        m->e.along_u[i] = u_end ? (u_end[i] - m->u[i]) / h : 0;
-    }""",
-    "INPUTS_FROM": """for (int i = 0; i < INPUTS; i++)
-            m->e.u_from[i] = m->e.u_begin[i] + (t - begin) * m->e.along_u[i];""",
-    "INPUTS_TO": """for (int i = 0; i < INPUTS; i++)
-            m->e.u_to[i] = m->e.u_begin[i] + (t + length - begin) * m->e.along_u[i];""",
-    "INPUTS_END": "for (int i = 0; i < INPUTS; i++) m->u[i] = u_end ? u_end[i] : m->e.u_begin[i];",
-    "INPUTS_BETWEEN": """real u[INPUTS];
-        for (int i = 0; i < INPUTS; i++) u[i] = m->e.u_from[i] + s * (m->e.u_to[i] - m->e.u_from[i]);""",
-}  # fmt: skip
-
-NO_INPUTS = {
-    "INPUTS_BEGIN": "(void)u_end;",
-    "INPUTS_FROM": "",
-    "INPUTS_TO": "",
-    "INPUTS_END": "",
-    "INPUTS_BETWEEN": "const real *const u = m->u;",
-}
-
-
-EDGES = {
-    "EDGE": """find_edge(m, apart);
-        if (m->until < stop - apart) stop = m->until, is_timed = 0;""",
-    "NEXT_EDGE": """find_edge(m, APART(fabs(m->time)));
-    soonest = m->until;""",
-}
-
-
-def filled(text: str, name: str, inputs: bool, edges: bool) -> Iterator[str]:
-    """The lines of one of these texts for a model.
-
-    Arguments:
-        name: of the model. inputs: whether it has any. edges: whether its rates jump or bend at known times.
-    """
-    words = (INPUTS if inputs else NO_INPUTS) | (EDGES if edges else dict.fromkeys(EDGES, ""))
-    for word, lines in words.items():
-        text = text.replace(f"    {word}\n", f"    {lines}\n" if lines else "")
-    text = text.replace("NAME", name).replace("UPPER", name.upper())
-    if not inputs:
-        text = text.replace("    for (int i = 0; i < INPUTS; i++) m->e.along_u[i] = 0;\n", "")
-    return iter(text.splitlines())
-
-
-def event_struct(name: str) -> Iterator[str]:
-    """The type of what steps with events need, for the header."""
-    text = """/* The search for the instant of an event. */
-typedef struct {
-    int active, tries, above, away, which;
-    NAME_real h, low, high, off_low, off_high;
-} NAME_hunt;
-
-/* What steps with events need. number: of each condition, positive where it holds, at five points of a step. */
-typedef struct {
-    NAME_real number[5 * CONDITIONS + 1], rate[CONDITIONS + 1], due[CONDITIONS + 1], rounding[CONDITIONS + 1];
-    NAME_real band[CONDITIONS + 1], touched[CONDITIONS + 1], dead[CONDITIONS + 1], usual[CONDITIONS + 1];
-    NAME_real scale[CONDITIONS + 1], over[CONDITIONS + 1], holds[CONDITIONS + 1];
-    int later[CONDITIONS + 1], decreed[CONDITIONS + 1], crowd;
-    NAME_real last_event, d_before[DISCRETE], d_last[DISCRETE], next_d[DISCRETE];
-    NAME_real x_before[STATES + 1], next_x[STATES + 1], x_end[STATES + 1], dx_begin[STATES + 1], dx_end[STATES + 1];
-    NAME_real u_begin[INPUTS + 1], u_from[INPUTS + 1], u_to[INPUTS + 1], along_u[INPUTS + 1];
-    NAME_hunt hunt;
-} NAME_events;
-"""
-    text = re.sub(r"\b(CONDITIONS|DISCRETE|STATES|INPUTS)\b", rf"{name.upper()}_\1", text)
-    return iter(text.replace("NAME", name).splitlines())
-
-
-def constants() -> Iterator[str]:
-    """The limits of event iteration and search, those of `acausal.simulate`."""
-    reals = {"CLOSE": CLOSE, "BAND": BAND, "NEAR": NEAR, "DEADER": DEADER, "COINCIDE": COINCIDE}
-    counts = {
-        "TRIES": TRIES,
-        "CROWD": CROWD,
-        "ROUNDS": ROUNDS,
-        "PASSES": PASSES,
-        "DECREED": DECREED,
-    }
-    yield from (f"#define {name} R({value!r})" for name, value in reals.items())
-    whole = ", ".join(f"{n} = {v}" for n, v in {**counts, "ONE_BY_ONE": ONE_BY_ONE}.items())
-    yield f"enum {{ {whole} }};"
-
-
-def event_tables(events: Events) -> Iterator[str]:
-    """What is known of the conditions."""
-    yield f"enum {{ GUARDS = {events.n_guards}, DISCRETE = {len(events.exact)}, POINTS = 5 }};"
-    yield f"enum {{ ANY_TIMED = {int(events.timed.any())} }};"
-    for name, values in (
-        ("strict", events.strict),
-        ("timed", events.timed),
-        ("resets", events.resets),
-        ("ticks", events.ticks),
-    ):
-        yield from _flags(name, values)
-
-
-def _flags(name: str, values: np.ndarray) -> Iterator[str]:
-    written = [str(int(v)) for v in values.tolist()] or ["0"]
-    rows = [", ".join(written[i : i + 30]) for i in range(0, len(written), 30)]
-    yield f"static const unsigned char {name}[] = {{"
-    yield from (f"    {row}," for row in rows)
-    yield "};"

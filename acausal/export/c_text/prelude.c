@@ -1,30 +1,48 @@
-"""Helper functions of C; those that a model needs are written into its file."""
+static int all_finite(const real *a, int n) {
+    for (int i = 0; i < n; i++)
+        if (!isfinite(a[i])) return 0;
+    return 1;
+}
 
-PRELUDE: dict[str, str] = {
-    # like XLA: what is not a number stays so
-    "maximum": "static inline real maximum(real a, real b) { return b > a || b != b ? b : a; }",
-    "minimum": "static inline real minimum(real a, real b) { return b < a || b != b ? b : a; }",
-    "maximum_int": "static inline int maximum_int(int a, int b) { return a > b ? a : b; }",
-    "minimum_int": "static inline int minimum_int(int a, int b) { return a < b ? a : b; }",
-    "absolute_int": "static inline int absolute_int(int a) { return a < 0 ? -a : a; }",
-    "signum": "static inline real signum(real a) { return a > 0 ? (real)1 : a < 0 ? (real)-1 : a; }",
-    "signum_int": "static inline int signum_int(int a) { return (a > 0) - (a < 0); }",
-    "remainder_int": "static inline int remainder_int(int a, int b) { return b ? a % b : a; }",
-    "square": "static inline real square(real a) { return a * a; }",
-    "one_minus_square": "static inline real one_minus_square(real a) { return (1 - a) * (1 + a); }",
-    "logistic": "static inline real logistic(real a) { return 1 / (1 + exp(-a)); }",
-    "inverse_sqrt": "static inline real inverse_sqrt(real a) { return 1 / sqrt(a); }",
-    "round_even": "static inline real round_even(real a) { return nearbyint(a); }",
-    "within": "static inline int within(int i, int highest) { return i < 0 ? 0 : i > highest ? highest : i; }",
-    "sort_real": """static void sort_real(real *a, int n) {
+/* like XLA: what is not a number stays so */
+static inline real maximum(real a, real b) { return b > a || b != b ? b : a; }
+
+static inline real minimum(real a, real b) { return b < a || b != b ? b : a; }
+
+static inline int maximum_int(int a, int b) { return a > b ? a : b; }
+
+static inline int minimum_int(int a, int b) { return a < b ? a : b; }
+
+static inline int absolute_int(int a) { return a < 0 ? -a : a; }
+
+static inline real signum(real a) { return a > 0 ? (real)1 : a < 0 ? (real)-1 : a; }
+
+static inline int signum_int(int a) { return (a > 0) - (a < 0); }
+
+static inline int remainder_int(int a, int b) { return b ? a % b : a; }
+
+static inline real square(real a) { return a * a; }
+
+static inline real one_minus_square(real a) { return (1 - a) * (1 + a); }
+
+static inline real logistic(real a) { return 1 / (1 + exp(-a)); }
+
+static inline real inverse_sqrt(real a) { return 1 / sqrt(a); }
+
+static inline real round_even(real a) { return nearbyint(a); }
+
+static inline int within(int i, int highest) { return i < 0 ? 0 : i > highest ? highest : i; }
+
+static void sort_real(real *a, int n) {
     for (int i = 1; i < n; i++) {
         const real next = a[i];
         int j = i;
         for (; j > 0 && (a[j - 1] > next || (a[j - 1] != a[j - 1] && next == next)); j--) a[j] = a[j - 1];
         a[j] = next;
     }
-}""",
-    "sort_with": """static void sort_with(real *a, int *with, int n) {
+}
+
+static void sort_with(real *a, int *with, int n) {
     for (int i = 1; i < n; i++) {
         const real next = a[i];
         const int its = with[i];
@@ -36,8 +54,9 @@ PRELUDE: dict[str, str] = {
         a[j] = next;
         with[j] = its;
     }
-}""",
-    "svd": """/* a = left diag(values) right by one-sided Jacobi rotations (Hestenes); a lies in the larger factor. */
+}
+
+/* a = left diag(values) right by one-sided Jacobi rotations (Hestenes); a lies in the larger factor. */
 static void svd(real *values, real *left, real *right, int rows, int columns) {
     const int wide = columns > rows, k = wide ? rows : columns, n = wide ? columns : rows;
     real *const a = wide ? right : left, *const v = wide ? left : right; /* n x k, k x k */
@@ -98,6 +117,4 @@ static void svd(real *values, real *left, real *right, int rows, int columns) {
             v[i * down_v + best * over_v] = old;
         }
     }
-}""",
 }
-"""C text by name. ``real`` is the model's type of number."""
