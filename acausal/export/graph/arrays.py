@@ -8,8 +8,8 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from acausal._jax import bind, shapes
-from acausal.export.graph.builder import WHOLE, Rule, Site, Tensor, Value, known
+from acausal._jax import bind
+from acausal.export.graph.builder import WHOLE, Rule, Site, Tensor, Value
 
 
 def _axes(site: Site, *axes: int) -> str:
@@ -257,15 +257,6 @@ def _arg(operation: str) -> Rule:
 def _cumsum(site: Site) -> list[str]:
     axis = site.graph.constant(int(site.params["axis"]), np.int64)
     return [site.graph.add("CumSum", site.names[0], axis, reverse=int(site.params["reverse"]))]
-
-
-def fold(site: Site) -> list[Value] | None:
-    """The results, if all arguments are known."""
-    arguments = known(site.values)
-    sizes = [n for shape in shapes(site.equation.outvars) for n in shape]
-    if arguments is None or not all(isinstance(n, int | np.integer) for n in sizes):
-        return None
-    return [np.asarray(value) for value in bind(site.equation, arguments)]
 
 
 RULES: dict[str, Rule] = {

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from itertools import count
 from typing import Any, Protocol, TypeAlias
 
-import jax
 import numpy as np
 from jax.extend.core import ClosedJaxpr
 from onnx import NodeProto, TensorProto, helper, numpy_helper
@@ -180,7 +179,7 @@ Rule: TypeAlias = Callable[[Site], Sequence[str | Value]]
 """The names (or values) of the results of an operation."""
 
 
-def results(graph: Graph, equation: Equation, found: Sequence[str | Value]) -> list[Value]:
+def results(equation: Equation, found: Sequence[str | Value]) -> list[Value]:
     """The results of an operation with their sizes and types."""
     values: list[Value] = []
     for var, name in zip(equation.outvars, found, strict=True):
@@ -188,10 +187,3 @@ def results(graph: Graph, equation: Equation, found: Sequence[str | Value]) -> l
         new = Tensor(name, aval.shape, np.dtype(aval.dtype)) if isinstance(name, str) else name
         values.append(new)
     return values
-
-
-def known(values: Sequence[Value]) -> list[jax.Array] | None:
-    """The values, if all are known."""
-    if any(isinstance(v, Tensor) for v in values):
-        return None
-    return [jax.numpy.asarray(v) for v in values]

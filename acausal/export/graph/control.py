@@ -1,4 +1,4 @@
-"""Rules of operations that call, repeat or choose other functions."""
+"""Rules of operations that repeat or choose other functions."""
 
 from __future__ import annotations
 
@@ -8,13 +8,9 @@ from typing import Any
 import numpy as np
 from onnx import helper
 
-from acausal._jax import CALLS, called, scan_of
+from acausal._jax import scan_of
 from acausal.errors import DataError
 from acausal.export.graph.builder import Graph, Rule, Site, Tensor, Value
-
-
-def _call(site: Site) -> list[Value]:
-    return site.lower(site.graph, called(site.equation), site.values)
 
 
 def _linear_solve(site: Site) -> list[Value]:
@@ -135,7 +131,6 @@ def _callback(site: Site) -> list[str]:
 
 
 RULES: dict[str, Rule] = {
-    **dict.fromkeys(CALLS, _call),
     **dict.fromkeys(("pure_callback", "io_callback", "debug_callback"), _callback),
     "cond": _cond,
     "custom_linear_solve": _linear_solve,
