@@ -1,4 +1,4 @@
-from . import export as export, networks as networks
+from . import control as control, export as export, networks as networks
 from ._jax import use_compilation_cache as use_compilation_cache
 from .analysis import (
     Distilled as Distilled,
