@@ -9,4 +9,4 @@ from acausal.pages.components import Known as Known, Law as Law, component_cards
 from acausal.pages.drawn import schematic as schematic
 from acausal.pages.page import page as page, summary as summary, write_page as write_page
 from acausal.pages.parallel import parallel_law as parallel_law
-from acausal.pages.trajectories import labelled as labelled, thinned as thinned
+from acausal.pages.trajectories import labelled as labelled

@@ -26,9 +26,9 @@ from acausal.reporting import (
     table,
     titled_sections,
 )
-from acausal.reporting.page import library
-from acausal.reporting.page.mathml import mathml
-from acausal.reporting.page.numbers import Pool, as_json
+from acausal.reporting.document import library
+from acausal.reporting.document.mathml import mathml
+from acausal.reporting.document.numbers import Pool, as_json
 from tests.support.pages import EVIL, content
 
 
@@ -75,7 +75,7 @@ def test_without_a_library_plots_are_pictures_and_the_page_says_so():
     text = render(content(), "")
     assert "plain pictures" in text
     assert "pip install &#x27;acausal[page]&#x27;" in text
-    assert text.count('<path class="curve') == sum(len(p.curves) for p in content().plots)
+    assert text.count('<path class="curve ') == sum(len(p.curves) for p in content().plots)
     assert "data-plot" not in text
 
 
