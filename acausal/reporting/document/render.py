@@ -22,9 +22,10 @@ from acausal.reporting.document.content import (
     Text,
 )
 from acausal.reporting.document.library import INSTALL, plot_library
-from acausal.reporting.document.mathml import mathml
 from acausal.reporting.document.numbers import Pool, Raw, as_json, numbers
 from acausal.reporting.document.picture import colors, picture
+from acausal.reporting.mathml import mathml, name_of
+from acausal.reporting.short_names import with_owners
 
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 """What browsers may load: nothing."""
@@ -128,11 +129,8 @@ class _Writer:
             case Table():
                 return _table(block)
             case Equations():
-                written = (
-                    f"<code>{_safe(e)}</code>" if isinstance(e, str) else mathml(*e)
-                    for e in block.equations
-                )
-                return f'<div class="equations">{"".join(written)}</div>'
+                written = "".join(map(_equation, block.equations))
+                return f'<div class="equations">{written}</div>'
             case Plot():
                 return self.plot(block)
 
@@ -173,6 +171,13 @@ class _Writer:
             }
         )
         return f'<figure class="plot" data-plot="{len(self.specs) - 1}">{caption}</figure>'
+
+
+def _equation(equation: tuple[Any, Any] | str) -> str:
+    if isinstance(equation, str):
+        return f"<code>{_safe(equation)}</code>"
+    names = {name_of(symbol) for side in equation for symbol in side.free_symbols}
+    return mathml(*equation, with_owners(names))
 
 
 def _schematic(svg: str) -> str:
