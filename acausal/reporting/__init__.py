@@ -5,8 +5,6 @@ It does not know the classes of results, whose methods such as `Fit.report` call
 with the attributes of a small protocol.
 """
 
-from acausal.reporting.diagram import diagram as diagram
-from acausal.reporting.diagram_picture import diagram_svg as diagram_svg
 from acausal.reporting.document import (
     Block as Block,
     Card as Card,

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
+from acausal.drawing import diagram_svg
 from acausal.errors import cut_short
 from acausal.modeling import Component, sections, unit_and_doc, value_text
-from acausal.reporting.diagram_picture import diagram_svg
 from acausal.reporting.mathml import latex, mathml, name_as_mathml, named, names_in
 from acausal.reporting.short_names import Short, shorten
 from acausal.reporting.view import Html, View, html_table
