@@ -10,8 +10,7 @@ from importlib.resources import files
 from itertools import count, groupby
 from typing import Any
 
-from acausal.reporting.page.colors import colors
-from acausal.reporting.page.content import (
+from acausal.reporting.document.content import (
     Block,
     Card,
     Equations,
@@ -22,10 +21,11 @@ from acausal.reporting.page.content import (
     Table,
     Text,
 )
-from acausal.reporting.page.library import INSTALL, plot_library
-from acausal.reporting.page.mathml import mathml
-from acausal.reporting.page.numbers import Pool, Raw, as_json, numbers
-from acausal.reporting.page.pictures import picture
+from acausal.reporting.document.library import INSTALL, plot_library
+from acausal.reporting.document.numbers import Pool, Raw, as_json, numbers
+from acausal.reporting.document.picture import colors, picture
+from acausal.reporting.mathml import mathml, name_of
+from acausal.reporting.short_names import with_owners
 
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 """What browsers may load: nothing."""
@@ -34,6 +34,9 @@ PLAIN = (
     "Plots are plain pictures here, without zoom and cursors: the plot library was not installed "
     f"when this page was written ({INSTALL})."
 )
+SIZE, LOW = (760, 270), (760, 150)
+"""Width and height of a plain picture, in pixels, and those of a low one."""
+
 NUMERIC = frozenset("0123456789.+-−±%einfna ")
 
 
@@ -126,11 +129,8 @@ class _Writer:
             case Table():
                 return _table(block)
             case Equations():
-                written = (
-                    f"<code>{_safe(e)}</code>" if isinstance(e, str) else mathml(*e)
-                    for e in block.equations
-                )
-                return f'<div class="equations">{"".join(written)}</div>'
+                written = "".join(map(_equation, block.equations))
+                return f'<div class="equations">{written}</div>'
             case Plot():
                 return self.plot(block)
 
@@ -139,9 +139,10 @@ class _Writer:
         if not self.interactive:
             keys = "".join(
                 f'<span class="key {color}">{_safe(c.label)}</span>'
-                for c, color in zip(plot.curves, colors(plot.curves), strict=True)
+                for c, (color, _) in zip(plot.curves, colors(plot.curves), strict=True)
             )
-            return f'<figure class="plot"><div class="bar">{keys}</div>{picture(plot)}{caption}</figure>'
+            drawn = picture(plot, LOW if plot.low else SIZE)
+            return f'<figure class="plot"><div class="bar">{keys}</div>{drawn}{caption}</figure>'
         self.specs.append(
             {
                 "caption": plot.caption,
@@ -165,11 +166,18 @@ class _Writer:
                         "dots": curve.dots,
                         "steps": curve.steps,
                     }
-                    for curve, color in zip(plot.curves, colors(plot.curves), strict=True)
+                    for curve, (color, _) in zip(plot.curves, colors(plot.curves), strict=True)
                 ],
             }
         )
         return f'<figure class="plot" data-plot="{len(self.specs) - 1}">{caption}</figure>'
+
+
+def _equation(equation: tuple[Any, Any] | str) -> str:
+    if isinstance(equation, str):
+        return f"<code>{_safe(equation)}</code>"
+    names = {name_of(symbol) for side in equation for symbol in side.free_symbols}
+    return mathml(*equation, with_owners(names))
 
 
 def _schematic(svg: str) -> str:
@@ -213,7 +221,7 @@ def _in_script(text: str) -> str:
 
 
 def _own(name: str) -> str:
-    return (files("acausal.reporting.page") / name).read_text(encoding="utf-8")
+    return (files("acausal.reporting.document") / name).read_text(encoding="utf-8")
 
 
 def _prose(text: str) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeGuard
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 Role = Literal["measured", "before", "after", "known", "sum", "other"]
 """What a curve is, which decides on its colour; ``other`` ones take colours in turn."""
@@ -70,6 +70,12 @@ class Curve:
         if self.bounds is not None or self.sigma is None:
             return self.bounds
         return self.y - 2 * self.sigma, self.y + 2 * self.sigma
+
+    def at(self, rows: Int[np.ndarray, " m"]) -> Curve:
+        """The same at some of its points."""
+        bounds = self.bounds and (self.bounds[0][rows], self.bounds[1][rows])
+        sigma = None if self.sigma is None else self.sigma[rows]
+        return replace(self, x=self.x[rows], y=self.y[rows], sigma=sigma, bounds=bounds)
 
 
 @dataclass(frozen=True, eq=False)

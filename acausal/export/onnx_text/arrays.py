@@ -1,7 +1,8 @@
-"""Rules of operations that move elements or add them up."""
+"""Rules of operations that move elements or add them up, and of products of matrices."""
 
 from __future__ import annotations
 
+import string
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from acausal._jax import bind
-from acausal.export.graph.builder import WHOLE, Rule, Site, Tensor, Value
+from acausal.export.onnx_text.builder import WHOLE, Graph, Rule, Site, Tensor, Value
 
 
 def _axes(site: Site, *axes: int) -> str:
@@ -259,12 +260,55 @@ def _cumsum(site: Site) -> list[str]:
     return [site.graph.add("CumSum", site.names[0], axis, reverse=int(site.params["reverse"]))]
 
 
+def _dot(site: Site) -> list[str]:
+    """``Gemm`` of matrices, which turns them itself, ``MatMul`` with vectors, else ``Einsum``."""
+    g, (one, two) = site.graph, site.values
+    (left, right), (batch, _) = site.params["dimension_numbers"]
+    ranks = [len(shape) for shape in site.shapes]
+    if not len(batch) and len(left) == 1 and max(ranks) <= 2:
+        turned = left[0] != ranks[0] - 1, right[0] != 0
+        if ranks == [2, 2]:
+            a, b = site.names
+            return [g.add("Gemm", a, b, transA=int(turned[0]), transB=int(turned[1]))]
+        a = _turned(g, one) if turned[0] else g.read(one)
+        b = _turned(g, two) if turned[1] else g.read(two)
+        return [g.add("MatMul", a, b)]
+    return _einsum(site, ranks)
+
+
+def _turned(g: Graph, matrix: Value) -> str:
+    """A matrix with its axes exchanged, now if it is known."""
+    if isinstance(matrix, Tensor):
+        return g.add("Transpose", matrix.name, perm=[1, 0])
+    return g.constant(matrix.T)
+
+
+def _einsum(site: Site, ranks: Sequence[int]) -> list[str]:
+    (left, right), (batch_left, batch_right) = site.params["dimension_numbers"]
+    letters = iter(string.ascii_letters)
+    one, two = [""] * ranks[0], [""] * ranks[1]
+    shared = list(zip(batch_left, batch_right, strict=True))
+    for i, j in [*shared, *zip(left, right, strict=True)]:
+        one[i] = two[j] = next(letters)
+    one = [letter or next(letters) for letter in one]
+    two = [letter or next(letters) for letter in two]
+    out = [one[i] for i in batch_left]
+    out += [c for i, c in enumerate(one) if i not in (*batch_left, *left)]
+    out += [c for j, c in enumerate(two) if j not in (*batch_right, *right)]
+    return [
+        site.graph.add(
+            "Einsum", *site.names, equation=f"{''.join(one)},{''.join(two)}->{''.join(out)}"
+        )
+    ]
+
+
 RULES: dict[str, Rule] = {
     "argmax": _arg("ArgMax"),
     "argmin": _arg("ArgMin"),
     "broadcast_in_dim": _broadcast,
     "concatenate": _concatenate,
     "cumsum": _cumsum,
+    "dot_general": _dot,
     "dynamic_slice": _dynamic_slice,
     "dynamic_update_slice": _dynamic_update,
     "expand_dims": _unsqueeze,

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from acausal.export.graph.builder import Graph, Rule, Site, Value
+from acausal.export.onnx_text.builder import Graph, Rule, Site, Value
 
 SAME = {
     "abs": "Abs", "add": "Add", "add_any": "Add", "ceil": "Ceil", "div": "Div", "eq": "Equal",

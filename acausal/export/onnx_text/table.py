@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from jax.extend.core import ClosedJaxpr
 
 from acausal._jax import Equation, name_of
-from acausal.export.graph import arithmetic, arrays, control, products
-from acausal.export.graph.builder import Graph, Rule, Site, Value, results
+from acausal.export.onnx_text import arithmetic, arrays, control
+from acausal.export.onnx_text.builder import Graph, Rule, Site, Value, results
 from acausal.export.traced import walk
 
-TABLE: dict[str, Rule] = {**arithmetic.RULES, **arrays.RULES, **products.RULES, **control.RULES}
+TABLE: dict[str, Rule] = {**arithmetic.RULES, **arrays.RULES, **control.RULES}
 """By operation of JAX, how its nodes are made."""
 
 

@@ -6,13 +6,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from acausal.reporting import SmallCurve, small_plot
-from acausal.reporting.svg_plot import POINTS, ticks
+from acausal.reporting import Curve, small_plot
+from acausal.reporting.document.picture import POINTS, ticks
 
 
-def curve(y: object, **options: object) -> SmallCurve:
+def curve(y: object, **options: object) -> Curve:
     y = np.asarray(y, float)
-    return SmallCurve("a <b>", np.arange(len(y), dtype=float), y, **options)  # pyright: ignore[reportArgumentType]
+    return Curve("a <b>", np.arange(len(y), dtype=float), y, **options)  # pyright: ignore[reportArgumentType]
 
 
 def test_a_plot_is_valid_svg_with_labels() -> None:
@@ -24,7 +24,7 @@ def test_a_plot_is_valid_svg_with_labels() -> None:
 
 def test_what_is_not_finite_interrupts_a_curve() -> None:
     (path,) = re.findall(
-        r'<path d="(M[^"]*L[^"]*)" fill="none"', small_plot([curve([0, 1, np.nan, 2, 3])])
+        r' d="(M[^"]*L[^"]*)" fill="none"', small_plot([curve([0, 1, np.nan, 2, 3])])
     )
     assert path.count("M") == 2
 

@@ -24,19 +24,14 @@ def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
     try:
         from matplotlib import pyplot as plt
     except ModuleNotFoundError as error:
-        raise _missing(error) from None
+        if (error.name or "").partition(".")[0] != "matplotlib":
+            raise
+        raise AcausalError("Drawing needs matplotlib: pip install 'acausal[plot]'.") from None
     figure, grid = plt.subplots(
         rows, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
     )
     figure._ipython_display_ = partial(_show_once, figure)  # pyright: ignore[reportAttributeAccessIssue]
     return list(grid[:, 0])
-
-
-def close(figure: Figure) -> None:
-    """Take a figure of `new_axes` away from what windows and notebooks show."""
-    from matplotlib import pyplot as plt
-
-    plt.close(figure)
 
 
 def _show_once(figure: Figure) -> None:
@@ -46,23 +41,11 @@ def _show_once(figure: Figure) -> None:
     closed before.
     """
     import matplotlib as mpl
+    from matplotlib import pyplot as plt
 
     if "inline" in mpl.get_backend():
-        close(figure)
+        plt.close(figure)
     raise NotImplementedError  # IPython then asks for a picture
-
-
-def new_figure(size: tuple[float, float]) -> Figure:
-    """A figure that no window shows, width and height in inches.
-
-    Raises:
-        AcausalError: if matplotlib is not installed.
-    """
-    try:
-        from matplotlib.figure import Figure
-    except ModuleNotFoundError as error:
-        raise _missing(error) from None
-    return Figure(figsize=size, layout="constrained")
 
 
 def need_axes(given: Any, argument: str = "ax") -> Axes:
@@ -77,9 +60,3 @@ def need_axes(given: Any, argument: str = "ax") -> Axes:
         )
         raise DataError(f"{argument}={shown(given)} is not axes; give one of matplotlib's{file}.")
     return given
-
-
-def _missing(error: ModuleNotFoundError) -> Exception:
-    if (error.name or "").partition(".")[0] != "matplotlib":
-        return error
-    return AcausalError("Drawing needs matplotlib: pip install 'acausal[plot]'.")

@@ -9,8 +9,8 @@ import numpy as np
 from jax.extend.core import ClosedJaxpr
 from onnx import ModelProto, NodeProto, checker, helper, numpy_helper
 
-from acausal.export.graph.builder import Graph, Tensor, Value
-from acausal.export.graph.table import lower
+from acausal.export.onnx_text.builder import Graph, Tensor, Value
+from acausal.export.onnx_text.table import lower
 
 OPSET, IR = 18, 9
 """Versions of the operators and of the format: of 2023, so that older run times read the files."""

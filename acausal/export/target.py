@@ -1,7 +1,8 @@
-"""What is exported: a network or a right-hand side, as a function of named arrays."""
+"""What is exported to ONNX and StableHLO: a network or a right-hand side, as a function of named arrays."""
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,8 +13,10 @@ import numpy as np
 from jax import Array, export as jax_export
 from jax.extend.core import ClosedJaxpr
 
-from acausal.errors import DataError, nearest, shown
-from acausal.modeling import names_in
+from acausal._jax import need_known
+from acausal.errors import DataError, nearest, need_compiled, shown
+from acausal.export.needs import all_parameters, need_exportable
+from acausal.modeling import Component, ModuleCall, Reference, names_in
 from acausal.networks import EnergyLaw, law_of
 from acausal.system import System
 
@@ -41,7 +44,7 @@ class Port:
 
 
 @dataclass(frozen=True)
-class Subject:
+class Target:
     """A function with named arguments and results.
 
     Attributes:
@@ -58,9 +61,102 @@ class Subject:
         return jax.vmap(self.call, in_axes=tuple(0 if p.batched else None for p in self.inputs))
 
 
-def of_system(
+def target_of(
+    model: System | Callable[..., Any],
+    params: Mapping[str, Any] | None,
+    network: str | None,
+    inputs: Sequence[str] | None,
+    outputs: Sequence[str],
+    units: Mapping[str, str] | None,
+    parameters: bool,
+    function: str,
+) -> Target:
+    """A right-hand side, a network of a system, or a network; arguments as of ``export.onnx``.
+
+    Arguments:
+        function: that was called, for messages.
+
+    Raises:
+        DataError: for an unknown name, or arguments that do not fit.
+        ModelError: for a model that is not compiled.
+    """
+    need_known(f"export.{function}", model, params)
+    units = {} if units is None else units
+    if not isinstance(units, Mapping):
+        raise DataError(
+            f"export: units are texts by name, such as {{'s_rel': 'm'}}, not {shown(units)}"
+        )
+    if isinstance(model, System):
+        given = all_parameters(model, params)
+        if network is None:
+            need_exportable(model, function)
+            if inputs is not None:
+                raise DataError(
+                    "export: inputs=... names the arguments of a network; give network=..., too"
+                )
+            return _of_system(model, given, outputs, parameters)
+        law = _network_named(model, given, network)
+        found = _called_with(model, network)
+        names, output, known = found or (_arguments(law), "y", {})
+        return _network(
+            law, names if inputs is None else inputs, outputs, output, {**known, **units}
+        )
+    if isinstance(model, Component | type) or not callable(model):
+        need_compiled(model, f"export.{function}")
+        raise DataError(f"export.{function}: {shown(model, 40)} is no system and no network")
+    if network is not None or params is not None or parameters:
+        raise DataError(
+            "export: params, network and parameters are of a system; of a network only inputs and outputs can be named"
+        )
+    names = _arguments(model) if inputs is None else inputs
+    return _network(model, names, outputs, "y", units)
+
+
+def _network(
+    law: Callable[..., Any],
+    inputs: Sequence[str],
+    outputs: Sequence[str],
+    output: str,
+    units: Mapping[str, str],
+) -> Target:
+    results = names_in(outputs, "export: outputs")
+    if len(results) > 1:
+        raise DataError(f"export: a network has one result, not {len(results)}; give one name")
+    return _of_network(law, names_in(inputs, "export: inputs"), *(results or (output,)), units)
+
+
+def _arguments(network: Callable[..., Any]) -> tuple[str, ...]:
+    """``x``, or ``x1``, ``x2`` and so on: as many as the network takes."""
+    count = _count(network)
+    return ("x",) if count == 1 else tuple(f"x{i}" for i in range(1, count + 1))
+
+
+def _count(network: Any) -> int:
+    """How many arguments a network takes.
+
+    Raises:
+        DataError: where it does not say so.
+    """
+    inner = network
+    while inner is not None:
+        size = getattr(inner, "in_size", None)
+        if isinstance(size, int):
+            return size
+        inner = getattr(inner, "net", None)
+    try:
+        own = inspect.signature(law_of(network)).parameters.values()
+    except (TypeError, ValueError):
+        own = ()
+    if own and all(p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in own):
+        return len(own)
+    raise DataError(
+        f"export: {shown(network, 40)} does not say how many arguments it takes; name them: inputs=('s_rel',)"
+    )
+
+
+def _of_system(
     system: System, params: Mapping[str, Any], outputs: Sequence[str], parameters: bool
-) -> Subject:
+) -> Target:
     """The right-hand side: ``t``, ``x``, ``u``, ``d`` and parameters to ``der(x)`` and ``y``.
 
     Arguments:
@@ -103,12 +199,12 @@ def of_system(
     )
     if not results:
         raise DataError("export: the model has no states; name its outputs=[...].")
-    return Subject(type(system.model).__name__, _flat(call, results), tuple(ports), tuple(results))
+    return Target(type(system.model).__name__, _flat(call, results), tuple(ports), tuple(results))
 
 
-def of_network(
+def _of_network(
     network: Callable[..., Any], inputs: Sequence[str], output: str, units: Mapping[str, str]
-) -> Subject:
+) -> Target:
     """A law of named quantities; of an energy, its derivative, which is the law.
 
     Arguments:
@@ -130,10 +226,10 @@ def of_network(
     elements = (output,) if not shape else tuple(f"{output}[{i + 1}]" for i in range(shape[0]))
     result = Port(output, shape, elements, (units.get(output, ""),) * len(elements))
     kind = "energy's law" if isinstance(network, EnergyLaw) else "law"
-    return Subject(f"{kind} {network!r}"[:200], lambda *a: (law(*a),), ports, (result,))
+    return Target(f"{kind} {network!r}"[:200], lambda *a: (law(*a),), ports, (result,))
 
 
-def network_of(system: System, params: Mapping[str, Any], name: str) -> Any:
+def _network_named(system: System, params: Mapping[str, Any], name: str) -> Any:
     """A network by its name among the parameters.
 
     Raises:
@@ -145,7 +241,7 @@ def network_of(system: System, params: Mapping[str, Any], name: str) -> Any:
     return params[name]
 
 
-def arguments(subject: Subject, batch: str | None, function: str) -> list[jax.ShapeDtypeStruct]:
+def arguments(target: Target, batch: str | None, function: str) -> list[jax.ShapeDtypeStruct]:
     """Shapes of the arguments, with a symbolic leading one if there is a batch.
 
     Raises:
@@ -158,14 +254,14 @@ def arguments(subject: Subject, batch: str | None, function: str) -> list[jax.Sh
     leading: tuple[Any, ...] = () if batch is None else tuple(jax_export.symbolic_shape(batch))
     return [
         jax.ShapeDtypeStruct((*leading, *p.shape) if p.batched else p.shape, float)
-        for p in subject.inputs
+        for p in target.inputs
     ]
 
 
-def traced(subject: Subject, batch: str | None, function: str) -> ClosedJaxpr:
+def traced(target: Target, batch: str | None, function: str) -> ClosedJaxpr:
     """The jaxpr of what is exported, in double precision."""
-    call = subject.call if batch is None else subject.batch()
-    return jax.make_jaxpr(call)(*arguments(subject, batch, function))
+    call = target.call if batch is None else target.batch()
+    return jax.make_jaxpr(call)(*arguments(target, batch, function))
 
 
 def _vector(name: str, elements: tuple[str, ...], system: System) -> list[Port]:
@@ -219,3 +315,57 @@ def _key(path: Sequence[Any]) -> Iterator[str]:
                 yield f"[{key.idx + 1}]"
             case _:
                 yield str(key)
+
+
+# -- networks in equations ----------------------------------------------------------------------------
+
+
+def _called_with(
+    system: System, network: str
+) -> tuple[tuple[str, ...], str, dict[str, str]] | None:
+    """Names of the arguments and of the result of a network, and their units, from the first equation that calls it.
+
+    Arguments:
+        network: its name in the model, such as ``"spring_nn.net"``.
+
+    Returns:
+        ``(inputs, output, units)``; an argument that is an expression is ``x1``, ``x2``; a result within one is ``y``.
+        None where no equation of its own component calls it.
+    """
+    owner, _, name = network.rpartition(".")
+    layout = system.flat.layout
+    if owner not in layout.number:
+        return None
+    units: dict[str, str] = {}
+
+    def named(expression: Any, otherwise: str) -> str:
+        if not isinstance(expression, Reference):
+            return otherwise
+        prefix = expression.owner.path
+        full = f"{prefix}.{expression.path}" if prefix else expression.path
+        units[full] = expression.declaration.unit
+        return full
+
+    for equation in layout.components[layout.number[owner]].equations():
+        for left, right in (_sides(equation), _sides(equation)[::-1]):
+            for call in _calls(right, name):
+                arguments = call.args[2:]
+                if len(arguments) == 1:
+                    inputs = (named(arguments[0], "x"),)
+                else:
+                    inputs = tuple(named(a, f"x{i}") for i, a in enumerate(arguments, start=1))
+                output = named(left, "y") if call == right else "y"
+                return inputs, output, units
+    return None
+
+
+def _sides(equation: Any) -> tuple[Any, Any]:
+    return getattr(equation, "lhs", None), getattr(equation, "rhs", None)
+
+
+def _calls(expression: Any, name: str) -> list[Any]:
+    """Calls of a network, that without other operations around it first."""
+    if not hasattr(expression, "atoms"):
+        return []
+    calls = [c for c in expression.atoms(ModuleCall) if getattr(c.args[0], "path", "") == name]
+    return sorted(calls, key=lambda c: (c != expression, str(c)))

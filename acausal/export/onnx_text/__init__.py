@@ -4,4 +4,4 @@ In: closed jaxprs. Out: messages of `onnx`.
 It knows no model; the one list of operations is `table`.
 """
 
-from acausal.export.graph.message import model_of as model_of
+from acausal.export.onnx_text.message import model_of as model_of

@@ -10,7 +10,7 @@ from onnx import helper
 
 from acausal._jax import scan_of
 from acausal.errors import DataError
-from acausal.export.graph.builder import Graph, Rule, Site, Tensor, Value
+from acausal.export.onnx_text.builder import Graph, Rule, Site, Tensor, Value
 
 
 def _linear_solve(site: Site) -> list[Value]:

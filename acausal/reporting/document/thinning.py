@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float, Int
 
+from acausal.reporting.document.content import Curve
+
 
 def kept_rows(columns: Sequence[Float[np.ndarray, " n"]], most: int) -> Int[np.ndarray, " m"]:
     """The rows of some curves over one axis that are drawn, about ``most`` of them.
@@ -34,6 +36,12 @@ def kept_rows(columns: Sequence[Float[np.ndarray, " n"]], most: int) -> Int[np.n
             first + np.argmax(np.where(finite, cells, -np.inf), axis=1),
         ]
     return np.unique(np.minimum(np.concatenate(rows), n - 1))
+
+
+def thinned(curves: Sequence[Curve], most: int) -> tuple[Curve, ...]:
+    """Curves over common points with about so many of them; extremes stay."""
+    rows = kept_rows([c.y for c in curves], most)
+    return tuple(c if len(rows) == len(c.x) else c.at(rows) for c in curves)
 
 
 def broken_at_gaps(
