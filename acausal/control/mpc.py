@@ -16,13 +16,13 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Float
 
+from acausal import simulation
 from acausal._jax import is_number
 from acausal.control.goals import Goals, Limits, Weights
 from acausal.control.transcription import METHODS, Program, program
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
 from acausal.export import casadi
-from acausal.simulation import simulate
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -257,7 +257,9 @@ class MPC:
             plan = self.step(np.asarray(own), t, reference=reference, inputs=inputs)
             held = {**{n: _at(c, t) for n, c in given.items()}, **plan.first}
             span = t, t + self.dt
-            run = simulate(plant, span, saveat=span, x0=state, inputs=held, params=params)
+            run = simulation.simulate(
+                plant, span, saveat=span, x0=state, inputs=held, params=params
+            )
             found = {n: np.asarray(run[n]) for n in names}
             rows.append({**{n: float(found[n][0]) for n in names}, **held})
             state, own = (
@@ -269,9 +271,8 @@ class MPC:
 
     def _state(self, x: Mapping[str, float] | ArrayLike) -> np.ndarray:
         names = self.system.states
-        if isinstance(x, Mapping):
-            if lacking := [n for n in names if n not in x]:
-                raise DataError(f"MPC.step: x lacks {listing(lacking)}; give all states.")
+        if isinstance(x, Mapping) and (lacking := [n for n in names if n not in x]):
+            raise DataError(f"MPC.step: x lacks {listing(lacking)}; give all states.")
         values: Any = [x[n] for n in names] if isinstance(x, Mapping) else x
         state = np.asarray(values, float)
         if state.shape != (len(names),) or not np.isfinite(state).all():

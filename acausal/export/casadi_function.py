@@ -13,9 +13,8 @@ from jax import Array
 
 from acausal._jax import Equation, bind, name_of, need_double_precision, scan_of
 from acausal.errors import DataError
-from acausal.export.choice import chosen
-from acausal.export.packages import need_package
-from acausal.export.subject import traced
+from acausal.export.needs import need_package
+from acausal.export.target import target_of, traced
 from acausal.export.traced import SAME, walk
 from acausal.system import System
 
@@ -49,14 +48,17 @@ def casadi(
             loop), an unknown name, or if the package casadi is not installed.
     """
     need_double_precision()
-    ca = need_package("casadi", "casadi")
-    subject = chosen(model, params, network, inputs, outputs, None, False, "casadi")
-    closed = traced(subject, None, "casadi")
-    columns = [ca.SX.sym(_plain(p.name), int(np.prod(p.shape))) for p in subject.inputs]
-    given = [_elements(c, p.shape) for c, p in zip(columns, subject.inputs, strict=True)]
+    need_package("casadi", "casadi", "mpc")
+    import casadi
+
+    ca: Any = casadi
+    target = target_of(model, params, network, inputs, outputs, None, False, "casadi")
+    closed = traced(target, None, "casadi")
+    columns = [ca.SX.sym(_plain(p.name), int(np.prod(p.shape))) for p in target.inputs]
+    given = [_elements(c, p.shape) for c, p in zip(columns, target.inputs, strict=True)]
     found = _Walk(ca).results(closed, given)
     results = [ca.vertcat(*_objects(value).ravel().tolist()) for value in found]
-    names = [[_plain(p.name) for p in ports] for ports in (subject.inputs, subject.outputs)]
+    names = [[_plain(p.name) for p in ports] for ports in (target.inputs, target.outputs)]
     return ca.Function("model", columns, results, *names)
 
 
@@ -109,10 +111,10 @@ class _Walk:
             return [_symbols(rule(*map(_objects, arguments)))]
         if name in REDUCTIONS:
             combine = np.frompyfunc(self.rules[REDUCTIONS[name]]({}), 2, 1)
-            axes = tuple(equation.params["axes"])
-            return (
-                [_symbols(combine.reduce(_objects(arguments[0]), axis=axes))] if axes else arguments
-            )
+            (found,) = map(_objects, arguments)
+            for axis in sorted(equation.params["axes"], reverse=True):
+                found = combine.reduce(found, axis=axis)
+            return [_symbols(found)]
         if name == "dot_general":
             return [_product(equation.params["dimension_numbers"], *map(_objects, arguments))]
         if name == "scan":

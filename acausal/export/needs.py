@@ -41,8 +41,8 @@ def all_parameters(system: System, params: Mapping[str, Any] | None) -> dict[str
     return {**{name: own[name] for name in system.layout.names}, **params}
 
 
-def need_package(name: str, function: str) -> None:
-    """Refuse to go on without an optional package.
+def need_package(name: str, function: str, extra: str = "export") -> None:
+    """Refuse to go on without an optional package, which an extra of acausal installs.
 
     Raises:
         DataError: where it is not installed, with the command that installs it.
@@ -52,5 +52,5 @@ def need_package(name: str, function: str) -> None:
     except ImportError:
         raise DataError(
             f"export.{function} needs the package '{name.partition('.')[0]}'; "
-            "install it: pip install 'acausal[export]'"
+            f"install it: pip install 'acausal[{extra}]'"
         ) from None

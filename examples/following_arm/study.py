@@ -1,4 +1,4 @@
-"""Learn the friction from a record of the moving arm, then lead it along a course with what was learned, and without."""
+"""Learn the friction from a record of the moving arm, and lead it along a course with what was learned, and without."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def course(t: float) -> float:
     return 1.2 * float(np.sin(2 * np.pi * 0.25 * t))
 
 
-def measured(plant: ac.System, seconds: float = 15.0, seed: int = 0) -> ac.Data:
+def measured(plant: ac.System, seconds: float = 10.0, seed: int = 0) -> ac.Data:
     """A record of angle and speed with noise, while the motor swings the arm."""
-    t = np.linspace(0.0, seconds, round(100 * seconds) + 1)
+    t = np.linspace(0.0, seconds, round(50 * seconds) + 1)
     torque = 0.35 * np.sin(2 * np.pi * 0.55 * t) + 0.2 * np.sin(2 * np.pi * 0.21 * t + 1)
     run = ac.simulate(plant, (0.0, seconds), saveat=t, inputs={MOTOR: (t, torque)})
     noise = np.random.default_rng(seed)
@@ -73,7 +73,7 @@ def controller(system: ac.System, params: Mapping[str, Any]) -> ac.control.MPC:
     )
 
 
-def follow(plant: ac.System, fit: ac.Fit, seconds: float = 6.0) -> Outcome:
+def follow(plant: ac.System, fit: ac.Fit, seconds: float = 5.0) -> Outcome:
     """The closed loop of the plant with a controller that knows a fit."""
     record = controller(fit.system, fit.params).run(plant, seconds, reference={ANGLE: course})
     t = np.asarray(record.time)
