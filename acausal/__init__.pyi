@@ -1,4 +1,4 @@
-from . import export as export, networks as networks
+from . import control as control, export as export, networks as networks
 from ._jax import use_compilation_cache as use_compilation_cache
 from .analysis import (
     Distilled as Distilled,
@@ -21,7 +21,7 @@ from .data import (
     load_params as load_params,
     save_params as save_params,
 )
-from .drawing import Diagram as Diagram
+from .drawing import Diagram as Diagram, diagram as diagram
 from .errors import (
     AcausalError as AcausalError,
     ConnectionError as ConnectionError,
@@ -90,7 +90,6 @@ from .modeling import (
 from .netlist import NetlistError as NetlistError, find as find, save as save
 from .networks import MLP as MLP, OffsetCorrected as OffsetCorrected, remove_offset as remove_offset
 from .pages import page as page
-from .reporting import diagram as diagram
 from .simulation import (
     Solution as Solution,
     Sweep as Sweep,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting import Html, SmallCurve, View, small_plot
+from acausal.reporting import Curve, Html, View, small_plot
 
 SIZE = (420, 96)
 """Of a plot in a row, in pixels."""
@@ -51,4 +51,4 @@ def record_view(
 
 def _plot(time: Float[np.ndarray, " n"], values: Float[np.ndarray, " n"]) -> str:
     exist = ~np.isnan(values)
-    return small_plot([SmallCurve("", time[exist], values[exist])], size=SIZE)
+    return small_plot([Curve("", time[exist], values[exist])], size=SIZE)

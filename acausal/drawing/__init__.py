@@ -4,4 +4,8 @@ In: a component, with the icons and colours that its classes state. Out: SVG, an
 It knows neither plots nor results.
 """
 
-from acausal.drawing.diagram import Diagram as Diagram, Modelled as Modelled, draw as draw
+from acausal.drawing.diagram import (
+    Diagram as Diagram,
+    diagram as diagram,
+    diagram_svg as diagram_svg,
+)

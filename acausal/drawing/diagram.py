@@ -10,7 +10,7 @@ from acausal.drawing.layout import lay_out
 from acausal.drawing.placed import Placed
 from acausal.drawing.read import read
 from acausal.drawing.svg import write
-from acausal.errors import DataError, ModelError, need_whole
+from acausal.errors import AcausalError, DataError, ModelError, need_whole
 from acausal.files import need_path, write_files
 from acausal.modeling import Component
 
@@ -52,12 +52,44 @@ class Diagram:
         return path
 
 
-def draw(model: Any, depth: int = 1) -> Diagram:
-    """Draw a model: see `acausal.diagram`."""
-    if not isinstance(model, Component):
-        model = getattr(model, "model", model)  # of a system
-    if not isinstance(model, Component):
-        raise ModelError(f"diagram needs a Component, got {type(model).__name__}")
-    placed = lay_out(read(model, need_whole(depth, "diagram: depth", ModelError, 1)))
-    node = model._node
-    return Diagram(write(placed, f"Diagram of {node.path or type(model).__name__}"), placed)
+MOST_PARTS = 60
+"""Models of more parts are not drawn unasked: it takes long, and nobody can read it."""
+
+
+def diagram(model: Component | Modelled, *, depth: int = 1) -> Diagram:
+    """Draw a model as a schematic: the parts with the pictures of their classes, orthogonal wires, arrows on signals.
+
+    Lists of more than eight parts are one box with a count; a ground that several parts need is drawn at each. What
+    holds a network is tinted. A class states its picture as ``ICON``, an `acausal.Icon`.
+
+    Arguments:
+        model: the component, or system, whose parts are drawn.
+        depth: how many levels of parts are shown; with 2, parts that have parts are opened, and so on.
+
+    Returns:
+        The drawing, with its SVG as ``svg`` and a method ``save``; notebooks show it.
+
+    Raises:
+        ModelError: for what is not a component, or for a depth below 1.
+        AcausalError: if graphlay is not installed.
+    """
+    component: Any = model if isinstance(model, Component) else getattr(model, "model", model)
+    if not isinstance(component, Component):
+        raise ModelError(f"diagram needs a Component, got {type(component).__name__}")
+    placed = lay_out(read(component, need_whole(depth, "diagram: depth", ModelError, 1)))
+    title = f"Diagram of {component._node.path or type(component).__name__}"
+    return Diagram(write(placed, title), placed)
+
+
+def diagram_svg(component: Component, most: int = MOST_PARTS) -> str:
+    """The parts of a component and their connections as an ``<svg>`` element; of one without parts its icon.
+
+    Empty for one that has neither, for more than ``most`` parts, and where nothing is installed that draws.
+    """
+    parts = len(component._node.children)
+    if parts > most or (not parts and component.ICON is None):
+        return ""
+    try:
+        return diagram(component).svg
+    except AcausalError:
+        return ""

@@ -17,8 +17,8 @@ from acausal.export.c_text.reserved import RESERVED
 from acausal.export.c_text.source import source
 from acausal.export.c_text.steps import scheme_named
 from acausal.export.c_text.text import Text
-from acausal.export.given import need_exportable
 from acausal.export.names import Run, runs
+from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.vector import ParameterVector
 from acausal.files import need_path, new_file, write_files

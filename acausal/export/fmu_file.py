@@ -42,7 +42,7 @@ from acausal.export.fmu_text.dependencies import dependencies
 from acausal.export.fmu_text.description import KINDS, Description, build_description, documentation
 from acausal.export.fmu_text.header import model_header
 from acausal.export.fmu_text.variables import event_indicators, shown_by_others, variables
-from acausal.export.given import need_exportable
+from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.files import new_file, write_files
 from acausal.modeling import names_in

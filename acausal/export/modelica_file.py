@@ -11,7 +11,7 @@ import numpy as np
 
 from acausal._jax import need_double_precision, need_known
 from acausal.errors import ModelError, need_flag, shown
-from acausal.export.given import all_parameters
+from acausal.export.needs import all_parameters
 from acausal.files import new_file, write_files
 from acausal.modeling import Component, InitialParameter
 from acausal.system import System, compile
@@ -79,13 +79,15 @@ def modelica(
 
 def _with_values(system: System, given: Mapping[str, Any]) -> Component:
     """A copy of the model with the values of parameters that differ from its own."""
+    from acausal.export.modelica_text.declared import parts_of
+
     own = system.parameters()
     differing = [n for n in system.layout.names if float(given[n]) != float(own[n])]
     if not differing:
         return system.model
     model = copy.deepcopy(system.model)
     vectors: dict[tuple[str, str], np.ndarray] = {}
-    parts = {part._node.path: part for part in _all(model)}
+    parts = {part._node.path: part for part in parts_of(model)}
     for name in differing:
         owner = name
         while owner and owner not in parts:
@@ -108,10 +110,3 @@ def _with_values(system: System, given: Mapping[str, Any]) -> Component:
                 whole[place] = float(given.get(key, 0.0))
         part.modify(**{base: whole})
     return model
-
-
-def _all(model: Component) -> list[Component]:
-    parts = [model]
-    for part in parts:
-        parts += part._node.children.values()
-    return parts

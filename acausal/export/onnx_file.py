@@ -10,9 +10,8 @@ from typing import Any
 from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
-from acausal.export.choice import chosen
-from acausal.export.packages import need_package
-from acausal.export.subject import Subject, traced
+from acausal.export.needs import need_package
+from acausal.export.target import Target, target_of, traced
 from acausal.files import new_file, write_files
 from acausal.system import System
 
@@ -62,23 +61,23 @@ def onnx(
     """
     need_double_precision()
     real = precision(dtype)
-    target = new_file(path, "export.onnx", overwrite)
+    file = new_file(path, "export.onnx", overwrite)
     need_package("onnx", "onnx")
-    from acausal.export.graph import model_of
+    from acausal.export.onnx_text import model_of
 
-    subject = chosen(model, params, network, inputs, outputs, units, parameters, "onnx")
-    closed = traced(subject, batch, "onnx")
-    names = [p.name for p in subject.inputs], [p.name for p in subject.outputs]
-    defaults = {p.name: p.default for p in subject.inputs if p.default is not None}
-    message = model_of(closed, names, defaults, real, subject.title, notes(subject))
-    write_files({target: message.SerializeToString()})
-    return target
+    target = target_of(model, params, network, inputs, outputs, units, parameters, "onnx")
+    closed = traced(target, batch, "onnx")
+    names = [p.name for p in target.inputs], [p.name for p in target.outputs]
+    defaults = {p.name: p.default for p in target.inputs if p.default is not None}
+    message = model_of(closed, names, defaults, real, target.title, notes(target))
+    write_files({file: message.SerializeToString()})
+    return file
 
 
-def notes(subject: Subject) -> dict[str, str]:
+def notes(target: Target) -> dict[str, str]:
     """Names and units of the elements of each input and result, as JSON."""
     return {
         f"acausal.{p.name}": json.dumps({"names": p.elements, "units": p.units})
-        for p in (*subject.inputs, *subject.outputs)
+        for p in (*target.inputs, *target.outputs)
         if p.default is None
     }

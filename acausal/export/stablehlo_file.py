@@ -13,9 +13,8 @@ from jax.typing import DTypeLike
 
 from acausal._jax import need_double_precision, precision
 from acausal.errors import DataError, nearest, shown
-from acausal.export.choice import chosen
-from acausal.export.packages import need_package
-from acausal.export.subject import Subject, arguments
+from acausal.export.needs import need_package
+from acausal.export.target import Target, arguments, target_of
 from acausal.files import new_file, write_files
 from acausal.modeling import names_in
 from acausal.system import System
@@ -67,12 +66,12 @@ def stablehlo(
     """
     need_double_precision()
     real = precision(dtype)
-    target = new_file(path, "export.stablehlo", overwrite)
-    if target.suffix not in FORMS:
+    file = new_file(path, "export.stablehlo", overwrite)
+    if file.suffix not in FORMS:
         raise DataError(
-            f"export.stablehlo: the ending '{target.suffix}' is no form; end the path in {', '.join(FORMS)}"
+            f"export.stablehlo: the ending '{file.suffix}' is no form; end the path in {', '.join(FORMS)}"
         )
-    if target.suffix == ".jax":
+    if file.suffix == ".jax":
         need_package("flatbuffers", "stablehlo")
     if not (isinstance(derivatives, int) and derivatives >= 0):
         raise DataError(
@@ -84,36 +83,36 @@ def stablehlo(
             raise DataError(
                 f"export.stablehlo: there is no platform '{platform}'; {nearest(platform, PLATFORMS)}"
             )
-    subject = chosen(model, params, network, inputs, outputs, units, parameters, "stablehlo")
-    call = subject.call if batch is None else subject.batch()
-    shapes = [jax.ShapeDtypeStruct(s.shape, real) for s in arguments(subject, batch, "stablehlo")]
+    target = target_of(model, params, network, inputs, outputs, units, parameters, "stablehlo")
+    call = target.call if batch is None else target.batch()
+    shapes = [jax.ShapeDtypeStruct(s.shape, real) for s in arguments(target, batch, "stablehlo")]
 
     def in_precision(*arrays: jax.Array) -> tuple[jax.Array, ...]:
         return tuple(result.astype(real) for result in call(*arrays))
 
     try:
         exported = jax_export.export(jax.jit(in_precision), platforms=compiled_for)(*shapes)
-        write_files({target: _content(exported, target.suffix, subject, derivatives)})
+        write_files({file: _content(exported, file.suffix, target, derivatives)})
     except (ValueError, NotImplementedError, TypeError) as error:
         reason = str(error).splitlines()[0]
         raise DataError(
             f"export.stablehlo: JAX cannot export it ({reason}); "
             "write the network without host callbacks and foreign calls"
         ) from None
-    return target
+    return file
 
 
 def _content(
-    exported: jax_export.Exported, form: str, subject: Subject, derivatives: int
+    exported: jax_export.Exported, form: str, target: Target, derivatives: int
 ) -> str | bytes:
     if form == ".jax":
         return bytes(exported.serialize(vjp_order=derivatives))
     if form == ".mlirbc":
         return exported.mlir_module_serialized
-    ports = [("argument", subject.inputs), ("result", subject.outputs)]
+    ports = [("argument", target.inputs), ("result", target.outputs)]
     lines = [
         f"// {kind} {i}: {p.name}: {json.dumps(p.elements)} in {json.dumps(p.units)}"
         for kind, several in ports
         for i, p in enumerate(several)
     ]
-    return "\n".join([f"// {subject.title}", *lines, exported.mlir_module()])
+    return "\n".join([f"// {target.title}", *lines, exported.mlir_module()])

@@ -1,11 +1,9 @@
-"""A traced function as data: blocks of operations, with all calls written out.
-
-What JAX traces is read here once; the writers of C and of other languages see operations on arrays only.
-"""
+"""A traced function, read operation by operation; and as data: blocks of operations, with all calls written out."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -15,7 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax.extend.core import ClosedJaxpr, Literal
 
-from acausal._jax import BARRIER, CALLS, WRITTEN_OUT, bind, called, name_of
+from acausal._jax import BARRIER, CALLS, WRITTEN_OUT, Equation, bind, called, name_of, shapes
 
 FOLDED = 100_000
 """Most elements of a constant that is computed when a function is exported."""
@@ -24,6 +22,55 @@ SAME = frozenset({"stop_gradient", "copy", "copy_p", "reduce_precision", BARRIER
 """Operations whose results are their arguments."""
 
 LOOPS = frozenset({"while", "scan", "cond"})
+
+Apply: TypeAlias = Callable[[Equation, list[Any], str], Sequence[Any]]
+"""The results of an operation, from its arguments and the equation of the model from which it came (or "")."""
+
+
+def walk(
+    closed: ClosedJaxpr,
+    values: Sequence[Any],
+    apply: Apply,
+    *,
+    kept: Container[str] = LOOPS,
+    origin: str = "",
+) -> list[Any]:
+    """The results of a jaxpr; calls are written out, and what is known already is computed now.
+
+    Arguments:
+        values: its arguments: arrays that are known, or anything else that `apply` knows and gives.
+        kept: names of operations that are never computed now.
+    """
+    jaxpr = closed.jaxpr
+    found: dict[Any, Any] = dict(zip(jaxpr.invars, values, strict=True))
+    found |= {v: np.asarray(c) for v, c in zip(jaxpr.constvars, closed.consts, strict=True)}
+
+    def value(atom: Any) -> Any:
+        if not isinstance(atom, Literal):
+            return found[atom]
+        aval: Any = atom.aval
+        return np.asarray(atom.val, aval.dtype)
+
+    for equation in jaxpr.eqns:
+        name, arguments = name_of(equation), [value(atom) for atom in equation.invars]
+        where = str(equation.source_info.name_stack) or origin
+        if name in CALLS | WRITTEN_OUT:
+            results = walk(called(equation), arguments, apply, kept=kept, origin=where)
+        elif name not in kept and _is_known(equation, arguments):
+            with jax.ensure_compile_time_eval():
+                results = [np.asarray(r) for r in bind(equation, [*map(jnp.asarray, arguments)])]
+        else:
+            results = apply(equation, arguments, where)
+        found.update(zip(equation.outvars, results, strict=True))
+    return [value(atom) for atom in jaxpr.outvars]
+
+
+def _is_known(equation: Equation, arguments: Sequence[Any]) -> bool:
+    """Whether the results, of few elements, follow from arrays that are known."""
+    sizes = shapes(equation.outvars)
+    fixed = all(isinstance(n, int | np.integer) for shape in sizes for n in shape)
+    few = fixed and max((math.prod(map(int, shape)) for shape in sizes), default=0) <= FOLDED
+    return few and all(isinstance(a, np.ndarray) for a in arguments)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +138,16 @@ class Block:
     operations: tuple[Operation, ...]
     outputs: tuple[Atom, ...]
 
+    def part(self, outputs: Iterable[Atom]) -> Block:
+        """The same with these results, and without operations that reach none of them."""
+        results = tuple(outputs)
+        wanted, kept = set(results), list[Operation]()
+        for operation in reversed(self.operations):
+            if not wanted.isdisjoint(operation.outputs):
+                kept.append(operation)
+                wanted.update(operation.inputs)
+        return Block(self.inputs, tuple(reversed(kept)), results)
+
 
 def kind_of(dtype: Any) -> str:
     """The kind of a number type: "real", "int" or "bool".
@@ -112,61 +169,25 @@ def trace(function: Callable[..., Any], *arguments: Any) -> Block:
 
 def block_of(closed: ClosedJaxpr) -> Block:
     """The operations of a closed jaxpr."""
-    jaxpr = closed.jaxpr
-    inputs = tuple(_value(v) for v in jaxpr.invars)
     operations: list[Operation] = []
-    outputs = _inline(closed, inputs, operations, "")
-    return _without_unused(Block(inputs, tuple(operations), tuple(outputs)))
+    constants: dict[int, Constant] = {}
+
+    def atom(value: Any) -> Atom:
+        known = isinstance(value, np.ndarray)
+        return constants.setdefault(id(value), Constant(value)) if known else value
+
+    def apply(equation: Equation, arguments: list[Any], origin: str) -> Sequence[Any]:
+        name = name_of(equation)
+        if name in SAME:
+            return arguments
+        inputs, outputs = tuple(map(atom, arguments)), tuple(map(_value, equation.outvars))
+        operations.append(Operation(name, inputs, outputs, equation.params, origin))
+        return outputs
+
+    inputs = tuple(map(_value, closed.jaxpr.invars))
+    results = walk(closed, inputs, apply)
+    return Block(inputs, tuple(operations), ()).part(map(atom, results))
 
 
 def _value(variable: Any) -> Value:
     return Value(tuple(variable.aval.shape), kind_of(variable.aval.dtype))
-
-
-def _inline(
-    closed: ClosedJaxpr, inputs: Sequence[Atom], found: list[Operation], origin: str
-) -> list[Atom]:
-    """Append the operations of a jaxpr for these arguments; gives its results."""
-    jaxpr = closed.jaxpr
-    known: dict[Any, Atom] = dict(zip(jaxpr.invars, inputs, strict=True))
-    known |= {
-        v: Constant(np.asarray(c)) for v, c in zip(jaxpr.constvars, closed.consts, strict=True)
-    }
-
-    def atom(variable: Any) -> Atom:
-        return (
-            Constant(np.asarray(variable.val)) if isinstance(variable, Literal) else known[variable]
-        )
-
-    for equation in jaxpr.eqns:
-        name, arguments = name_of(equation), tuple(atom(v) for v in equation.invars)
-        where = str(equation.source_info.name_stack) or origin
-        if name in CALLS | WRITTEN_OUT:
-            results = _inline(called(equation), arguments, found, where)
-        elif name in SAME:
-            results = list(arguments)
-        elif name not in LOOPS and _is_known(arguments, equation):
-            with jax.ensure_compile_time_eval():
-                arrays = [jnp.asarray(a.array) for a in arguments if isinstance(a, Constant)]
-                results = [Constant(np.asarray(r)) for r in bind(equation, arrays)]
-        else:
-            outputs = tuple(_value(v) for v in equation.outvars)
-            found.append(Operation(name, arguments, outputs, equation.params, where))
-            results = list(outputs)
-        known |= dict(zip(equation.outvars, results, strict=True))
-    return [atom(v) for v in jaxpr.outvars]
-
-
-def _is_known(arguments: Sequence[Atom], equation: Any) -> bool:
-    sizes = [int(np.prod(v.aval.shape, dtype=np.int64)) for v in equation.outvars]
-    return all(isinstance(a, Constant) for a in arguments) and max(sizes, default=0) <= FOLDED
-
-
-def _without_unused(block: Block) -> Block:
-    wanted = {id(a) for a in block.outputs}
-    kept: list[Operation] = []
-    for operation in reversed(block.operations):
-        if any(id(o) in wanted for o in operation.outputs):
-            kept.append(operation)
-            wanted |= {id(a) for a in operation.inputs}
-    return Block(block.inputs, tuple(reversed(kept)), block.outputs)

@@ -5,8 +5,12 @@ It gathers what a page tells; `reporting` holds the record and renders it. A res
 method ``page_content``, as `Fit` does.
 """
 
-from acausal.pages.components import Known as Known, Law as Law, component_cards as component_cards
-from acausal.pages.drawn import schematic as schematic
+from acausal.pages.components import (
+    Known as Known,
+    Law as Law,
+    component_cards as component_cards,
+    schematic as schematic,
+)
 from acausal.pages.page import page as page, summary as summary, write_page as write_page
 from acausal.pages.parallel import parallel_law as parallel_law
-from acausal.pages.trajectories import labelled as labelled, thinned as thinned
+from acausal.pages.trajectories import labelled as labelled

@@ -11,9 +11,9 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.codegen import Packed, read_parameters
+from acausal.drawing import diagram_svg
 from acausal.flattening import HIDDEN
 from acausal.modeling import Component, Eq, Module
-from acausal.pages.drawn import schematic
 from acausal.pages.energy_of_components import energy_blocks, power_names
 from acausal.pages.own_law import own_equations
 from acausal.pages.promises import promises
@@ -33,6 +33,9 @@ from acausal.system import System
 
 MOST_CARDS = 120
 """So many components have a card: those on top, of lists their first elements, before what they consist of."""
+
+MOST_PARTS = 150
+"""Models with more parts at one level are not drawn on pages."""
 
 MOST_EQUATIONS, MOST_VARIABLES, MOST_STATES = 40, 8, 12
 """Of a card: equations, variables with a plot, and states whose explicit equations are shown."""
@@ -69,6 +72,11 @@ class Known:
     runs: Mapping[str, Solution] = field(default_factory=dict[str, Solution])
     over: str = ""
     laws: Sequence[Law] = ()
+
+
+def schematic(component: Component) -> str:
+    """The parts of a component as SVG, in which they can be clicked; empty where there are none, or too many."""
+    return diagram_svg(component, MOST_PARTS) if component._node.children else ""
 
 
 def component_cards(system: System, known: Known) -> tuple[Card, ...]:

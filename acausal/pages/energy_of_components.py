@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float
 
 from acausal.pages.energy import LOSSES, Power, energy, gradient, integrated, powers
-from acausal.pages.trajectories import labelled, thinned
-from acausal.reporting import Block, Curve, Plot, Text, table
+from acausal.pages.trajectories import labelled
+from acausal.reporting import Block, Curve, Plot, Text, table, thinned
 from acausal.system import System
 
 Numbers = Float[np.ndarray, " n"]

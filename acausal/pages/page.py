@@ -8,8 +8,7 @@ from typing import Protocol, runtime_checkable
 from acausal.errors import DataError, shown
 from acausal.files import need_path, write_files
 from acausal.modeling import Component
-from acausal.pages.components import MOST_CARDS, Known, component_cards
-from acausal.pages.drawn import schematic
+from acausal.pages.components import MOST_CARDS, Known, component_cards, schematic
 from acausal.pages.trajectories import plots_by_unit
 from acausal.reporting import PageContent, Section, Tab, render
 from acausal.simulation import Solution

@@ -2,30 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting import Curve, Plot, Role, kept_rows
+from acausal.reporting import Curve, Plot, Role, thinned
 
 CURVES_EACH = 6
 """Curves of one unit in one plot."""
 
 Numbers = Float[np.ndarray, " n"]
-
-
-def thinned(curves: Sequence[Curve], most: int) -> tuple[Curve, ...]:
-    """Curves over common points with about so many of them; extremes stay."""
-    rows = kept_rows([c.y for c in curves], most)
-    return tuple(
-        Curve(
-            c.label, c.x[rows], c.y[rows], c.role,
-            None if c.sigma is None else c.sigma[rows], c.dots, c.steps,
-            None if c.bounds is None else (c.bounds[0][rows], c.bounds[1][rows]),
-        )
-        for c in curves
-    )  # fmt: skip
 
 
 def plots_by_unit(

@@ -5,8 +5,26 @@ It does not know the classes of results, whose methods such as `Fit.report` call
 with the attributes of a small protocol.
 """
 
-from acausal.reporting.diagram import diagram as diagram
-from acausal.reporting.diagram_picture import diagram_svg as diagram_svg
+from acausal.reporting.document import (
+    Block as Block,
+    Card as Card,
+    Curve as Curve,
+    Equations as Equations,
+    PageContent as PageContent,
+    Plot as Plot,
+    Role as Role,
+    Section as Section,
+    Tab as Tab,
+    Table as Table,
+    Text as Text,
+    broken_at_gaps as broken_at_gaps,
+    kept_rows as kept_rows,
+    render as render,
+    small_plot as small_plot,
+    table as table,
+    thinned as thinned,
+    titled_sections as titled_sections,
+)
 from acausal.reporting.frequency import (
     plot_bode as plot_bode,
     plot_nyquist as plot_nyquist,
@@ -24,24 +42,6 @@ from acausal.reporting.model_view import (
 from acausal.reporting.over_time import (
     plot_over_time as plot_over_time,
     plot_predictions as plot_predictions,
-)
-from acausal.reporting.page import (
-    Block as Block,
-    Card as Card,
-    Curve as Curve,
-    Equations as Equations,
-    PageContent as PageContent,
-    Plot as Plot,
-    Role as Role,
-    Section as Section,
-    Tab as Tab,
-    Table as Table,
-    Text as Text,
-    broken_at_gaps as broken_at_gaps,
-    kept_rows as kept_rows,
-    render as render,
-    table as table,
-    titled_sections as titled_sections,
 )
 from acausal.reporting.plain_table import PlainTable as PlainTable
 from acausal.reporting.plot import (
@@ -61,7 +61,6 @@ from acausal.reporting.profiles import (
     plot_profile as plot_profile,
 )
 from acausal.reporting.short_names import Short as Short, shorten as shorten
-from acausal.reporting.svg_plot import SmallCurve as SmallCurve, small_plot as small_plot
 from acausal.reporting.variants import plot_variants as plot_variants
 from acausal.reporting.view import (
     Html as Html,

@@ -10,7 +10,7 @@ from jaxtyping import Complex, Float
 from numpy.typing import ArrayLike
 
 from acausal.errors import DataError
-from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.axes import need_axes, new_axes
 from acausal.reporting.plot import GUIDE, LEARNED
 
 if TYPE_CHECKING:

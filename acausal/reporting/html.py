@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 
 from acausal.files import need_path, write_files
-from acausal.reporting.mathml import mathml, names_in
+from acausal.reporting.mathml import mathml, named, names_in
 from acausal.reporting.short_names import Short, shorten
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Page:
         """Equations as MathML in short names; ``names`` chooses some of them, such as ``{"body.m": "m_b"}``."""
         chosen = {name: Short.of(other) for name, other in (names or {}).items()}
         short = {**shorten(n for n in names_in(equations) if n not in chosen), **chosen}
-        written = "".join(mathml(e, short) for e in equations)
+        written = "".join(mathml(e.lhs, e.rhs, named(short)) for e in equations)
         self._body.append(f'<div class="equations">{written}</div>')
 
     def figure(self, figure: Figure, caption: str, save: Path | None = None) -> None:

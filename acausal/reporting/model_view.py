@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
+from acausal.drawing import diagram_svg
 from acausal.errors import cut_short
 from acausal.modeling import Component, sections, unit_and_doc, value_text
-from acausal.reporting.diagram_picture import diagram_svg
-from acausal.reporting.mathml import latex, mathml, name_as_mathml, names_in
+from acausal.reporting.mathml import latex, mathml, name_as_mathml, named, names_in
 from acausal.reporting.short_names import Short, shorten
 from acausal.reporting.view import Html, View, html_table
 
@@ -76,10 +76,10 @@ class Formulas(tuple[sp.Equality, ...]):
         return "\n".join(cut_short(self, MOST_EQUATIONS, lambda e: f"{_left(e.lhs)} = {e.rhs}"))
 
     def _repr_html_(self) -> str:
-        names = shorten(names_in(self))
+        naming = named(shorten(names_in(self)))
         view = View(f"Equations ({len(self)})")
         for equation in self[:MOST_EQUATIONS]:
-            view.html(mathml(equation, names))
+            view.html(mathml(equation.lhs, equation.rhs, naming))
         return str(view)
 
 
@@ -104,15 +104,15 @@ def component_view(component: Component) -> str:
 
 def equations_as_latex(equations: Sequence[sp.Equality]) -> str:
     """The equations in one block of LaTeX, with short names."""
-    names = shorten(names_in(equations))
-    rows = [f"{latex(e.lhs, names)} &= {latex(e.rhs, names)}" for e in equations]
+    naming = named(shorten(names_in(equations)))
+    rows = [f"{latex(e.lhs, naming)} &= {latex(e.rhs, naming)}" for e in equations]
     return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
 
 
 def _equation(equation: Any, names: Mapping[str, Short]) -> str:
     operations = int(sp.count_ops(equation.rhs))
     if operations <= MOST_OPERATIONS or not isinstance(equation.lhs, sp.Derivative):
-        return mathml(equation, names)
+        return mathml(equation.lhs, equation.rhs, named(names))
     text = f" = ... ({operations} operations; see system.equations)"
     state: Any = equation.lhs.expr
     left = name_as_mathml(names[state.name].differentiated())

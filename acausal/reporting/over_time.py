@@ -9,7 +9,7 @@ from jaxtyping import Float
 from numpy import isnan, ndarray
 
 from acausal.errors import DataError, listing
-from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.axes import need_axes, new_axes
 from acausal.reporting.plot import TRUTH, UncertainCurve, plot_band
 
 if TYPE_CHECKING:

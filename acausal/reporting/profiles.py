@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.axes import need_axes, new_axes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -3,39 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations, pairwise
+
+_LETTERS = """alpha beta gamma delta epsilon zeta eta theta kappa lambda lamda mu nu xi rho sigma tau phi chi psi omega
+pi Gamma Delta Theta Lambda Sigma Phi Psi Omega"""
 
 GREEK = {
-    name: chr(code)
-    for name, code in (
-        *(
-            ("alpha", 0x3B1),
-            ("beta", 0x3B2),
-            ("gamma", 0x3B3),
-            ("delta", 0x3B4),
-            ("epsilon", 0x3B5),
-        ),
-        *(("zeta", 0x3B6), ("eta", 0x3B7), ("theta", 0x3B8), ("kappa", 0x3BA), ("lamda", 0x3BB)),
-        *(("lambda", 0x3BB), ("mu", 0x3BC), ("nu", 0x3BD), ("xi", 0x3BE), ("rho", 0x3C1)),
-        *(("sigma", 0x3C3), ("tau", 0x3C4), ("phi", 0x3C6), ("chi", 0x3C7), ("psi", 0x3C8)),
-        *(
-            ("omega", 0x3C9),
-            ("Gamma", 0x393),
-            ("Delta", 0x394),
-            ("Theta", 0x398),
-            ("Lambda", 0x39B),
-        ),
-        *(("Sigma", 0x3A3), ("Phi", 0x3A6), ("Psi", 0x3A8), ("Omega", 0x3A9), ("pi", 0x3C0)),
+    name: unicodedata.lookup(
+        f"GREEK {'SMALL' if name.islower() else 'CAPITAL'} LETTER {name.replace('mb', 'm')}"
     )
+    for name in _LETTERS.split()
 }
 """Greek letters by the names that variables have."""
 
 _LAST = re.compile(r"(?P<word>.*?)(?P<places>(?:\[[^\[\]]*\])*)(?P<primes>(?:'\d*)*)", re.DOTALL)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, order=True)
 class Short:
     """A name as a formula shows it.
 
@@ -102,6 +89,31 @@ def shorten(names: Iterable[str]) -> dict[str, Short]:
         chosen = next(alone, Short(name))
         taken[chosen] = name
     return {name: short for short, name in taken.items()}
+
+
+def with_owners(paths: Iterable[str]) -> Callable[[str], Short]:
+    """How names are written that always say whose they are: ``heatPort.T`` is T with the index heatPort.
+
+    Arguments:
+        paths: names that are written together; what would look like others, beside ``T_heatPort``, is spelled out.
+    """
+    looks = sorted((_with_owner(path), path) for path in paths)
+    alike = {p for (a, one), (b, other) in pairwise(looks) if a == b for p in (one, other)}
+    spelled = {path for path in alike if "." in path}
+    return lambda path: Short(path) if path in spelled else _with_owner(path)
+
+
+def _with_owner(path: str) -> Short:
+    """A name's letter, its last part up to the first underscore, and its index: the rest, and whose it is."""
+    if path.startswith("der(") and path.endswith(")"):
+        return _with_owner(path[4:-1]).differentiated()
+    *owners, last = ("t" if path == "time" else path).split(".")
+    word, prime, rest = last.partition("'")
+    base, _, index = word.partition("_")
+    if not base or not (index or owners):
+        base, index = word, ""
+    below = ", ".join(filter(None, (index, ".".join(owners))))
+    return Short(GREEK.get(base, base), below, primes=prime + rest)
 
 
 def _candidates(name: str) -> Iterator[Short]:

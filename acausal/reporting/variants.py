@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 from jaxtyping import Float
 from numpy import ndarray
 
-from acausal.reporting.drawing import need_axes, new_axes
+from acausal.reporting.axes import need_axes, new_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -132,16 +132,16 @@ class Moved:
 
     def picture(self, values: Mapping[str, float]) -> str:
         """The plot as HTML; where a run fails, the sentence that says why."""
-        from acausal.reporting import SmallCurve, small_plot
+        from acausal.reporting import Curve, small_plot
 
         try:
             run = self.run(values)
         except AcausalError as error:
             return f"<p>{html.escape(str(error))}</p>"
         names = names_in(self.show, "show") or self.system.states
-        groups: dict[str, list[SmallCurve]] = {}
+        groups: dict[str, list[Curve]] = {}
         for name in names:
-            curve = SmallCurve(
+            curve = Curve(
                 name, np.asarray(run.t), np.asarray(run[name]), steps=self.system.is_discrete(name)
             )
             groups.setdefault(self.system.unit(name), []).append(curve)

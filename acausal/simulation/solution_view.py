@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting import SmallCurve, View, small_plot
+from acausal.reporting import Curve, View, small_plot
 
 MOST_PLOTS, MOST_CURVES = 4, 6
 """Small plots of a view, one for each unit, and curves in each."""
@@ -34,7 +34,7 @@ def solution_view(
     for name in curves:
         groups.setdefault(units[name], []).append(name)
     for unit, names in list(groups.items())[:MOST_PLOTS]:
-        lines = [SmallCurve(n, time, curves[n], steps=n in steps) for n in names[:MOST_CURVES]]
+        lines = [Curve(n, time, curves[n], steps=n in steps) for n in names[:MOST_CURVES]]
         view.html(small_plot(lines, across="time in s", upwards=unit or "1"))
     rows = [
         (name, y[0], y[-1], np.nanmin(y), np.nanmax(y), units[name])

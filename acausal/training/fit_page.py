@@ -13,7 +13,6 @@ from acausal.pages import (
     labelled,
     schematic,
     summary,
-    thinned,
 )
 from acausal.reporting import (
     Block,
@@ -25,6 +24,7 @@ from acausal.reporting import (
     Table,
     Text,
     table,
+    thinned,
     titled_sections,
 )
 from acausal.training.history import History

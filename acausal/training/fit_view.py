@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting import SmallCurve, View, small_plot
+from acausal.reporting import Curve, View, small_plot
 from acausal.training.history import History
 from acausal.training.record_fit import RecordFit
 
@@ -52,18 +52,18 @@ def _followed(record: RecordFit, target: int, unit: str) -> str:
     measured: Float[np.ndarray, " n"] = record.measured[:, target]
     exist = ~np.isnan(measured)
     curves = [
-        SmallCurve("measured", record.time[exist], measured[exist]),
-        SmallCurve("simulated", record.time, record.predicted[:, target]),
+        Curve("measured", record.time[exist], measured[exist]),
+        Curve("simulated", record.time, record.predicted[:, target]),
     ]
     return small_plot(curves, across="time in s", upwards=unit or "1")
 
 
 def _losses(history: History) -> str:
-    curves = [SmallCurve("of the batch", np.arange(history.epochs), history.loss)]
+    curves = [Curve("of the batch", np.arange(history.epochs), history.loss)]
     for label, rows in (
         ("whole record", history.full_loss),
         ("held out", history.validation_loss),
     ):
         if len(rows):
-            curves.append(SmallCurve(label, rows[:, 0], rows[:, 1]))
+            curves.append(Curve(label, rows[:, 0], rows[:, 1]))
     return small_plot(curves, across="update", upwards="loss", logarithmic=True)

@@ -14,7 +14,7 @@ import pytest
 
 import acausal as ac
 from acausal.components import rotational as rot
-from acausal.export.c_text import event_lines
+from acausal.export.c_text import events
 from tests.simulation.steps.test_chattering import Level
 from tests.support.exported_c import ExportedC
 from tests.support.fmus import Unpacked, need_fmpy
@@ -322,8 +322,8 @@ def test_examples_as_fmus(name: str, tmp_path: Path) -> None:
 
 def test_limits_are_those_of_simulate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     system = ac.compile(Ball())
-    monkeypatch.setattr(event_lines, "BAND", 1.25e-7)
-    monkeypatch.setattr(event_lines, "PASSES", 77)
+    monkeypatch.setattr(events, "BAND", 1.25e-7)
+    monkeypatch.setattr(events, "PASSES", 77)
     text = ac.export.c(system, tmp_path)[1].read_text()
     assert "#define BAND R(1.25e-07)" in text
     assert "PASSES = 77" in text

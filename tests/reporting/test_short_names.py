@@ -1,10 +1,8 @@
 """Names in formulas are short, and no two of them look alike."""
 
 import pytest
-import sympy as sp
 
 from acausal.reporting import Short, shorten
-from acausal.reporting.mathml import latex, mathml
 
 
 def written(*names: str) -> list[str]:
@@ -49,23 +47,6 @@ def test_names_of_the_model_itself_stay_apart_from_those_of_its_parts() -> None:
 def test_many_names_are_all_different() -> None:
     names = [f"cell[{i}].{v}" for i in range(30) for v in ("soc", "v_rc", "T", "der(T)")]
     assert len(set(written(*names))) == len(names)
-
-
-def test_an_equation_as_mathml_and_latex() -> None:
-    s, v, m, t = sp.symbols("body.s damper.v_rel body.m time")
-    force = sp.Function("damper.net'")(v)
-    equation = sp.Eq(sp.Derivative(s, t), -force / m, evaluate=False)
-    names = shorten(["body.s", "damper.v_rel", "body.m", "wheel.m", "damper.net'"])
-    text = mathml(equation, names)
-    assert '<mover><mi>s</mi><mtext mathsize="70%">•</mtext></mover>' in text
-    assert "<msub><mi>v</mi><mtext>rel</mtext></msub>" in text
-    assert "<msub><mi>m</mi><mtext>body</mtext></msub>" in text
-    assert "<msup><mi>net</mi><mo>′</mo></msup>" in text
-    assert "<mo>-</mo>" not in text
-    assert "−" in text
-    assert latex(equation.lhs, names) == r"\dot{s}"
-    assert latex(equation.rhs, names).count(r"v_{\mathrm{rel}}") == 1
-    assert Short.of("T_amb").latex == r"T_{\mathrm{amb}}"
 
 
 @pytest.mark.parametrize(

@@ -55,19 +55,9 @@ def split(block: Block, parameters: Collection[Value]) -> tuple[Block, Block]:
     known = tuple(crossing)
     inputs = tuple(i for i in block.inputs if i in set(parameters))
     return (
-        Block(inputs, tuple(_needed(early, known)), known),
+        Block(inputs, tuple(early), ()).part(known),
         Block((*block.inputs, *known), rest, block.outputs),
     )
-
-
-def _needed(operations: list[Operation], wanted: Collection[Atom]) -> list[Operation]:
-    found: list[Operation] = []
-    needed = set(wanted)
-    for operation in reversed(operations):
-        if any(o in needed for o in operation.outputs):
-            found.append(operation)
-            needed.update(operation.inputs)
-    return found[::-1]
 
 
 def _turned(operation: Operation, fixed: Collection[Atom]) -> list[Operation]:

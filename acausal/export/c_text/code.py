@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 
 from acausal.codegen import INSTRUCTION, Events, Values, described
 from acausal.errors import ExportError, shortened
 from acausal.export.c_text.calibration import split
-from acausal.export.c_text.event_functions import (
+from acausal.export.c_text.events import (
     ARGUMENTS as OF_EVENTS,
-    event_buffers,
+    argument_sizes,
     event_functions,
 )
 from acausal.export.c_text.functions import Argument, Function, write_function
 from acausal.export.c_text.lowering import Memory
-from acausal.export.c_text.outside import FUNCTION as EXCESS
 from acausal.export.c_text.statements import Buffer
 from acausal.export.ranges import Watch
 from acausal.export.traced import Block, Value, trace
@@ -63,6 +61,9 @@ class Code:
 MOST_FOR_STARTS = 10_000
 """Most numbers of working memory that start values may take."""
 
+EXCESS = "excess"
+"""The function that tells by how far an argument of a network lies outside of its range: positive where one does."""
+
 ARGUMENTS = ("t", "x", "u", "p", "d")
 """What a model's functions read: time, states, inputs, parameters, discrete variables."""
 
@@ -83,100 +84,85 @@ def write_code(
         column: whether derivatives of the rates along states are written, for implicit steps.
         watch: the ranges of networks' arguments, for the function that tells whether one is left.
     """
-    system = vector.system
+    system, events = vector.system, vector.system.events
     n_discrete = len(system.flat.discrete)
-    shapes = {"t": (), "x": (len(system.states),), "u": (len(system.inputs),), "p": (vector.size,),
-              "d": (n_discrete,)}  # fmt: skip
-    zeros = [jnp.zeros(shapes[a]) for a in ARGUMENTS]
-
-    def evaluate(t: Any, x: Any, u: Any, p: Any, d: Any) -> Any:
-        values = Values(t, x, u, vector.packed(p), d if n_discrete else None)
-        return system.rates_and_read(tuple(outputs), values)
-
+    sizes = {
+        "t": None,
+        "x": len(system.states),
+        "u": len(system.inputs),
+        "p": vector.size,
+        "d": n_discrete,
+    }
+    common = [_argument(a, sizes[a]) for a in ARGUMENTS]
     file = Memory(describe=partial(_origin, system))
     known = _Known()
     functions: dict[str, Function] = {}
-    whole = known.split(trace(evaluate, *zeros))
-    results = [Buffer("dx", "real", None), Buffer("y", "real", None)]
-    for name, wanted in (("rates", (0,)), ("outputs", (1,))):
-        block = _part(whole, wanted)
-        into = [
-            (Buffer(results[k].name, "real", block.outputs[i].shape[0]), 0)
-            for i, k in enumerate(wanted)
-        ]
-        functions[name] = write_function(
-            block, known.arguments(block, _arguments(shapes)), into, file
-        )
+
+    def values(t: Any, x: Any, u: Any, p: Any, d: Any) -> Values:
+        return Values(t, x, u, vector.packed(p), d if n_discrete else None)
+
+    def block_of(function: Callable[..., Any], own: Sequence[Argument] = ()) -> Block:
+        return known.split(trace(function, *(jnp.zeros(a.shape) for a in (*common, *own))))
+
+    def add(name: str, block: Block, results: Sequence[str], own: Sequence[Argument] = ()) -> None:
+        pairs = zip(results, block.outputs, strict=True)
+        into = [(Buffer(result, "real", o.shape[0]), 0) for result, o in pairs]
+        functions[name] = write_function(block, known.arguments(block, [*common, *own]), into, file)
+
+    def evaluate(t: Any, x: Any, u: Any, p: Any, d: Any) -> Any:
+        return system.rates_and_read(tuple(outputs), values(t, x, u, p, d))
+
+    whole = block_of(evaluate)
+    for name, result, which in (("rates", "dx", 0), ("outputs", "y", 1)):
+        add(name, whole.part([whole.outputs[which]]), [result])
     if derivatives:
 
         def tangent(t: Any, x: Any, u: Any, p: Any, d: Any, *seeds: Any) -> Any:
             return jax.jvp(lambda t, x, u, p: evaluate(t, x, u, p, d), (t, x, u, p), seeds)[1]
 
-        block = known.split(trace(tangent, *zeros, *zeros[:4]))
-        seeds = [
-            Argument(Buffer(f"seed_{a}", "real", _length(shapes[a])), shapes[a]) for a in "txup"
-        ]
-        into = [
-            (Buffer(f"d{b.name}", "real", o.shape[0]), 0)
-            for b, o in zip(results, block.outputs, strict=True)
-        ]
-        arguments = known.arguments(block, [*_arguments(shapes), *seeds])
-        functions["tangent"] = write_function(block, arguments, into, file)
+        seeds = [_argument(f"seed_{a}", sizes[a]) for a in "txup"]
+        add("tangent", block_of(tangent, seeds), ["ddx", "dy"], seeds)
     if column:
 
         def along_state(t: Any, x: Any, u: Any, p: Any, d: Any, seed: Any) -> Any:
-            values = Values(t, x, u, vector.packed(p), d if n_discrete else None)
-            return jax.jvp(lambda x: system.rates(values._replace(x=x)), (x,), (seed,))[1:]
+            now = values(t, x, u, p, d)
+            return jax.jvp(lambda x: system.rates(now._replace(x=x)), (x,), (seed,))[1:]
 
-        block = known.split(trace(along_state, *zeros, zeros[1]))
-        seed = Argument(Buffer("seed_x", "real", _length(shapes["x"])), shapes["x"])
-        into = [(Buffer("ddx", "real", len(system.states)), 0)]
-        functions["column"] = write_function(
-            block, known.arguments(block, [*_arguments(shapes), seed]), into, file
-        )
+        seeds = [_argument("seed_x", sizes["x"])]
+        add("column", block_of(along_state, seeds), ["ddx"], seeds)
     if watch is not None:
-
-        def excess(t: Any, x: Any, u: Any, p: Any, d: Any) -> Any:
-            values = Values(t, x, u, vector.packed(p), d if n_discrete else None)
-            return jnp.reshape(watch.excess(values), (1,))
-
-        block = known.split(trace(excess, *zeros))
-        arguments = known.arguments(block, _arguments(shapes))
-        functions[EXCESS] = write_function(block, arguments, [(Buffer(EXCESS, "real", 1), 0)], file)
+        excess = block_of(lambda *given: jnp.reshape(watch.excess(values(*given)), (1,)))
+        add(EXCESS, excess, [EXCESS])
     if system.edges:
 
         def ahead(t: Any, x: Any, u: Any, p: Any, d: Any, apart: Any) -> Any:
             found = system.edges.ahead(vector.packed(p), t, apart, d if n_discrete else None)
             return jnp.stack([found.jump, found.bend])
 
-        block = known.split(trace(ahead, *zeros, zeros[0]))
-        own = [*_arguments(shapes), Argument(Buffer("apart", "real", None), ())]
-        into = [(Buffer("edge", "real", 2), 0)]
-        functions["ahead"] = write_function(block, known.arguments(block, own), into, file)
-    if (events := system.events) is not None:
-        buffers = event_buffers(events, len(system.states), len(system.inputs))
+        apart = [_argument("apart", None)]
+        add("ahead", block_of(ahead, apart), ["edge"], apart)
+    if events is not None:
+        read = argument_sizes(events, len(system.states), len(system.inputs))
         for name, function in event_functions(events, vector).items():
-            own, result = OF_EVENTS[name]
-            shaped = [Argument(b := buffers[a], () if b.size is None else (b.size,)) for a in own]
-            block = known.split(trace(function, *zeros, *(jnp.zeros(a.shape) for a in shaped)))
-            arguments = known.arguments(block, [*_arguments(shapes), *shaped])
-            functions[name] = write_function(block, arguments, [(buffers[result], 0)], file)
-    functions["recalibrate"] = known.function(
-        Argument(Buffer("p", "real", vector.size), shapes["p"]), file
+            names, result = OF_EVENTS[name]
+            own = [_argument(a, read[a]) for a in names]
+            add(name, block_of(function, own), [result], own)
+    functions["recalibrate"] = known.function(common[ARGUMENTS.index("p")], file)
+    starts = (
+        _starts(vector, [_argument(a, sizes[a]) for a in "tup"], file) if events is None else None
     )
-    starts = _starts(vector, shapes, file) if events is None else None
     if starts is not None:
         functions["starts"] = starts
-    sizes = Sizes(
+    lengths = Sizes(
         len(system.states), len(system.inputs), len(outputs), vector.size, n_discrete,
         events.n_guards if events is not None else 0, known.size,
         max(f.real for f in functions.values()), max(f.whole for f in functions.values()),
     )  # fmt: skip
-    return Code(functions, file, sizes, events)
+    return Code(functions, file, lengths, events)
 
 
 def _starts(
-    vector: ParameterVector, shapes: dict[str, tuple[int, ...]], file: Memory
+    vector: ParameterVector, arguments: Sequence[Argument], file: Memory
 ) -> Function | None:
     """The states at the start, from time, inputs and parameters; None if they depend on none of these, or have no C."""
     system = vector.system
@@ -184,8 +170,7 @@ def _starts(
     def evaluate(t: Any, u: Any, p: Any) -> Any:
         return (system.initializer.start_or_nan(vector.packed(p), u, t),)
 
-    block = trace(evaluate, *(jnp.zeros(shapes[a]) for a in "tup"))
-    arguments = [Argument(Buffer(a, "real", _length(shapes[a])), shapes[a]) for a in "tup"]
+    block = trace(evaluate, *(jnp.zeros(a.shape) for a in arguments))
     try:
         found = write_function(
             block, arguments, [(Buffer("x", "real", len(system.states)), 0)], file
@@ -207,23 +192,9 @@ def _origin(system: System, stack: str) -> str:
     )
 
 
-def _length(shape: tuple[int, ...]) -> int | None:
-    return int(np.prod(shape)) if shape else None
-
-
-def _arguments(shapes: dict[str, tuple[int, ...]]) -> list[Argument]:
-    return [Argument(Buffer(a, "real", _length(shapes[a])), shapes[a]) for a in ARGUMENTS]
-
-
-def _part(block: Block, wanted: Sequence[int]) -> Block:
-    """A block that gives some of the results only."""
-    needed = {block.outputs[i] for i in wanted}
-    kept = []
-    for operation in reversed(block.operations):
-        if any(o in needed for o in operation.outputs):
-            kept.append(operation)
-            needed.update(operation.inputs)
-    return Block(block.inputs, tuple(reversed(kept)), tuple(block.outputs[i] for i in wanted))
+def _argument(name: str, size: int | None) -> Argument:
+    """An array of so many real numbers, or a single one."""
+    return Argument(Buffer(name, "real", size), () if size is None else (size,))
 
 
 class _Known:

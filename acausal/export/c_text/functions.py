@@ -36,11 +36,10 @@ class Function:
     """A function that is written.
 
     Attributes:
-        lines: those of its body. memory: what it needs. real, whole: numbers of working memory, by kind.
+        lines: those of its body. real, whole: numbers of working memory, by kind.
     """
 
     lines: tuple[str, ...]
-    memory: Memory
     real: int
     whole: int
 
@@ -69,7 +68,7 @@ def write_function(
     statements = without_unused(statements, {buffer.name for buffer, _ in results})
     offsets, real, whole = _places(work.work, statements)
     lines = [*_pointers(work.work, offsets), *written(statements)]
-    return Function(tuple(lines), work, real, whole)
+    return Function(tuple(lines), real, whole)
 
 
 def _pointers(buffers: Sequence[Buffer], offsets: dict[str, int]) -> Iterator[str]:

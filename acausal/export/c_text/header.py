@@ -5,14 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
 
-from acausal.export.c_text.event_lines import (
-    event_struct,
-)
-from acausal.export.c_text.outside import (
-    outside_head,
-    outside_help,
-)
-from acausal.export.c_text.text import Text, least
+from acausal.export.c_text.text import Text, c_file, least
 from acausal.export.names import Run
 
 _EVENT_HELP = """   NAME_begin(&m);                before the first step: what holds at the start, at m.time
@@ -27,6 +20,16 @@ NAME_status NAME_conditions(NAME *m);
 NAME_real NAME_next_event(NAME *m);
 void NAME_completed(NAME *m);
 NAME_status NAME_event(NAME *m);"""
+
+_OUTSIDE_HELP = (
+    "   NAME_outside(&m);            1 where a network's argument is outside of its range in training, "
+    "else 0"
+)
+
+_DIRECTIONAL = (
+    "NAME_status NAME_directional(NAME *m, const NAME_real along_time, const NAME_real *along_x, "
+    "const NAME_real *along_u,\n    const NAME_real *along_p, NAME_real *of_dx, NAME_real *of_y);"
+)
 
 
 def header(text: Text) -> str:
@@ -46,7 +49,7 @@ def header(text: Text) -> str:
         f"   {name}_outputs(&m);            m.y from the same",
         f"   {name}_step(&m, h, NULL);      one step of '{text.scheme.name}' with inputs held",
         f"   {name}_directional(&m, ...);   directional derivatives of m.dx and m.y",
-        *([outside_help(name)] if text.watches else []),
+        *([_OUTSIDE_HELP.replace("NAME", name)] if text.watches else []),
         *(_EVENT_HELP.replace("NAME", name).splitlines() if text.has_events else []),
         "",
         f"   Functions give {upper}_OK or why they failed. Models in several threads do not disturb each other. */",
@@ -79,7 +82,7 @@ def header(text: Text) -> str:
         f"    {upper}_CROWDED = 5          /* events follow each other without end */",
         f"}} {name}_status;",
         "",
-        *(event_struct(name) if text.has_events else []),
+        *(c_file("events.h", name) if text.has_events else []),
         "typedef struct {",
         f"    {name}_real time;{' ' * max(1, 20 - len(name))}/* s */",
         *_field(text, "x", text.states, sizes.states, "states"),
@@ -132,8 +135,8 @@ def header(text: Text) -> str:
         f"{name}_status {name}_derivatives({name} *m);",
         f"{name}_status {name}_outputs({name} *m);",
         f"{name}_status {name}_step({name} *m, {name}_real h, const {name}_real *u_end);",
-        *([text.directional_head() + ";"] if text.has_tangent else []),
-        *([outside_head(name) + ";"] if text.watches else []),
+        *([_DIRECTIONAL.replace("NAME", name)] if text.has_tangent else []),
+        *([f"int {name}_outside({name} *m);"] if text.watches else []),
         *(
             [
                 f"{name}_real {name}_next_event({name} *m); /* the next time at which the rates jump or bend */"

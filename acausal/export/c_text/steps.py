@@ -68,62 +68,54 @@ def scheme_named(name: str) -> Scheme:
     return Scheme(name, a, np.asarray(diagonal), b, c)
 
 
-def step_lines(scheme: Scheme, inputs: bool) -> Iterator[str]:
+def step_lines(scheme: Scheme, name: str) -> Iterator[str]:
     """The body of a step: ``m->x`` and ``m->time`` move on by ``h``; inputs run from ``m->u`` to ``u_end``.
 
     Arguments:
-        inputs: whether the model has any.
+        name: of the model.
     """
     yield "    const real t = m->time;"
-    if inputs:
-        yield "    const real *const begin = m->u;"
-        yield "    const real *const end = u_end ? u_end : m->u;"
-    else:
-        yield "    (void)u_end;"
-    yield from _stages(scheme, inputs)
+    yield "    const real *const begin = m->u;"
+    yield "    const real *const end = u_end ? u_end : m->u;"
+    yield from _stages(scheme, name)
     yield f"    for (int i = 0; i < STATES; i++) m->x[i] += {_combination(scheme.b)[3:]};"
-    if inputs:
-        yield "    for (int i = 0; i < INPUTS; i++) m->u[i] = end[i];"
+    yield "    for (int i = 0; i < INPUTS; i++) m->u[i] = end[i];"
     yield "    m->time = t + h;"
-    yield "    return all_finite(m->x, STATES) ? STATUS_OK : STATUS_NOT_FINITE;"
+    yield f"    return all_finite(m->x, STATES) ? {name.upper()}_OK : {name.upper()}_NOT_FINITE;"
 
 
-def attempt_lines(scheme: Scheme, inputs: bool) -> Iterator[str]:
+def attempt_lines(scheme: Scheme, name: str) -> Iterator[str]:
     """The body of a step that may be made again: from ``m->x`` to ``m->e.x_end``, with the rates at both ends.
 
+    Inputs run from ``m->e.u_from`` to ``m->e.u_to``.
+
     Arguments:
-        inputs: whether the model has any; they run from ``m->e.u_from`` to ``m->e.u_to``.
+        name: of the model.
     """
-    begin, end = "m->u", "m->u"
-    if inputs:
-        begin, end = "m->e.u_from", "m->e.u_to"
-        yield f"    const real *const begin = {begin};"
-        yield f"    const real *const end = {end};"
-    yield from _stages(scheme, inputs)
+    yield "    const real *const begin = m->e.u_from;"
+    yield "    const real *const end = m->e.u_to;"
+    yield from _stages(scheme, name)
     yield f"    for (int i = 0; i < STATES; i++) m->e.x_end[i] = m->x[i]{_combination(scheme.b)};"
-    yield f"    rates(m, SIDED(t), m->x, {begin}, m->e.dx_begin);"
-    yield f"    rates(m, SIDED(t + h), m->e.x_end, {end}, m->e.dx_end);"
-    yield "    return all_finite(m->e.x_end, STATES) ? STATUS_OK : STATUS_NOT_FINITE;"
+    yield "    rates(m, SIDED(t), m->x, begin, m->e.dx_begin);"
+    yield "    rates(m, SIDED(t + h), m->e.x_end, end, m->e.dx_end);"
+    yield f"    return all_finite(m->e.x_end, STATES) ? {name.upper()}_OK : {name.upper()}_NOT_FINITE;"
 
 
-def _stages(scheme: Scheme, inputs: bool) -> Iterator[str]:
+def _stages(scheme: Scheme, name: str) -> Iterator[str]:
     """The rates at the stages, from ``t`` on by ``h``; inputs run from ``begin`` to ``end``."""
+    upper = name.upper()
     for s in range(scheme.stages):
         yield f"    real *const k{s} = m->stages + {s} * STATES;"
     if scheme.implicit or any(row.any() for row in scheme.a):
         yield "    real *const x = m->stage;"
-    if inputs:
-        yield "    real u[INPUTS];"
-    else:
-        yield "    const real *const u = m->u;"
+    yield "    real u[INPUTS + 1] = {0};"
     if scheme.implicit:
         part = literal(float(scheme.diagonal[-1]), "real")
-        at = "SIDED(t), m->x, begin" if inputs else "SIDED(t), m->x, u"
-        yield f"    if (!factor(m, {at}, h * {part})) return STATUS_SINGULAR;"
+        yield f"    if (!factor(m, SIDED(t), m->x, begin, h * {part})) return {upper}_SINGULAR;"
     for s in range(scheme.stages):
-        time = "t" if scheme.c[s] == 0 else f"t + {literal(float(scheme.c[s]), 'real')} * h"
-        if inputs and (s == 0 or scheme.c[s] != scheme.c[s - 1]):
-            part = literal(float(scheme.c[s]), "real")
+        part = literal(float(scheme.c[s]), "real")
+        time = "t" if scheme.c[s] == 0 else f"t + {part} * h"
+        if s == 0 or scheme.c[s] != scheme.c[s - 1]:
             yield f"    for (int i = 0; i < INPUTS; i++) u[i] = begin[i] + {part} * (end[i] - begin[i]);"
         moved = _combination(scheme.a[s]) if s < len(scheme.a) else ""
         if scheme.diagonal[s]:
@@ -131,7 +123,8 @@ def _stages(scheme: Scheme, inputs: bool) -> Iterator[str]:
             guess = f"k{s - 1}[i]" if s else "0"
             yield f"    for (int i = 0; i < STATES; i++) k{s}[i] = {guess};"
             gamma = literal(float(scheme.diagonal[s]), "real")
-            yield f"    if (!solve_stage(m, {time}, u, {gamma} * h, m->from, k{s}, x)) return STATUS_NO_CONVERGENCE;"
+            solved = f"solve_stage(m, {time}, u, {gamma} * h, m->from, k{s}, x)"
+            yield f"    if (!{solved}) return {upper}_NO_CONVERGENCE;"
         elif moved:
             yield f"    for (int i = 0; i < STATES; i++) x[i] = m->x[i]{moved};"
             yield f"    rates(m, SIDED({time}), x, u, k{s});"

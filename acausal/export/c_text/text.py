@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib.resources import files
 
 import numpy as np
 
-from acausal.export.c_text.code import Code
-from acausal.export.c_text.outside import (
-    FUNCTION as EXCESS,
-)
+from acausal.export.c_text.code import EXCESS, Code
 from acausal.export.c_text.steps import Scheme
 from acausal.export.names import Run
 from acausal.export.vector import ParameterVector
@@ -76,14 +75,6 @@ class Text:
         """Whether there are directional derivatives."""
         return "tangent" in self.code.functions
 
-    def directional_head(self) -> str:
-        """The head of the function of directional derivatives."""
-        n, real = self.name, f"const {self.name}_real"
-        return (
-            f"{n}_status {n}_directional({n} *m, {real} along_time, {real} *along_x, {real} *along_u,\n"
-            f"    {real} *along_p, {n}_real *of_dx, {n}_real *of_y)"
-        )
-
     def tables(self) -> list[tuple[str, Sequence[tuple[Run, str]]]]:
         """Names and units in groups, by kind."""
         return [
@@ -99,6 +90,15 @@ def least(size: int) -> int:
     return max(size, 1)
 
 
-def written(file: str) -> list[str]:
-    """The lines of a file of C in this folder."""
-    return files("acausal.export.c_text").joinpath(file).read_text("utf-8").splitlines()
+def c_file(file: str, name: str) -> list[str]:
+    """The lines of a file of C in this folder, with the names of a model in the place of ``model_`` and others."""
+    words = {"model_": f"{name}_", "MODEL_": f"{name.upper()}_", "STATUS_": f"{name.upper()}_"}
+    text = files("acausal.export.c_text").joinpath(file).read_text("utf-8")
+    return re.sub(rf"\b({'|'.join(words)})", lambda word: words[word[0]], text).splitlines()
+
+
+@cache
+def prelude() -> dict[str, str]:
+    """Helper functions of C by name; ``real`` is the model's type of number."""
+    functions = "\n".join(c_file("prelude.c", "")).split("\n\n")
+    return {re.findall(r"static .*?(\w+)\(", function)[0]: function for function in functions}

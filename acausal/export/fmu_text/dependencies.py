@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from acausal.export.c_text.outside import FUNCTION as EXCESS
+from acausal.export.c_text.code import EXCESS
 from acausal.export.c_text.source import mentions
 from acausal.export.c_text.text import Text
 from acausal.export.fmu_text.variables import (

@@ -71,12 +71,15 @@ def names_in_class(node: Any) -> tuple[dict[str, str], dict[str, str], set[str]]
 
 def names_in_tree(model: Component) -> set[str]:
     """All names of elements of the classes of a model; none may be that of a class, which it would hide."""
-    found: set[str] = set()
-    nodes = [model._node]
-    for node in nodes:
-        found |= names_in_class(node)[2]
-        nodes += [child._node for child in node.children.values()]
-    return found
+    return {name for part in parts_of(model) for name in names_in_class(part._node)[2]}
+
+
+def parts_of(model: Component) -> list[Component]:
+    """A model, its parts, and theirs."""
+    parts = [model]
+    for part in parts:
+        parts += part._node.children.values()
+    return parts
 
 
 def connector_class(name: str, kind: type[Connector]) -> str:

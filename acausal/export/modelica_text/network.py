@@ -12,12 +12,13 @@ import jax.numpy as jnp
 import numpy as np
 from jax.extend.core import ClosedJaxpr, Literal
 
-from acausal._jax import CALLS, bind, called, name_of
+from acausal._jax import CALLS, Equation, called, name_of
 from acausal.errors import DataError, shown
 from acausal.export.modelica_text.elementwise import refuse
 from acausal.export.modelica_text.lines import Block, Term, bare, known, named, sizes
 from acausal.export.modelica_text.operations import RULES
 from acausal.export.modelica_text.spelling import array, class_name, comment
+from acausal.export.traced import walk
 
 Value = Term | np.ndarray
 
@@ -80,36 +81,27 @@ def write(block: Block, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Va
     Raises:
         DataError: for an operation that has no counterpart in Modelica.
     """
-    jaxpr = closed.jaxpr
-    found: dict[Any, Value] = dict(zip(jaxpr.invars, values, strict=True))
-    found |= {v: np.asarray(c) for v, c in zip(jaxpr.constvars, closed.consts, strict=True)}
-    uses = Counter(
-        atom for equation in jaxpr.eqns for atom in equation.invars if not isinstance(atom, Literal)
-    )
+    read_often = _read_often(closed)
 
-    def value(atom: Any) -> Value:
-        if not isinstance(atom, Literal):
-            return found[atom]
-        aval: Any = atom.aval
-        return np.asarray(atom.val, aval.dtype)
-
-    for equation in jaxpr.eqns:
-        arguments = [value(atom) for atom in equation.invars]
-        results: Sequence[Value]
-        if name_of(equation) in CALLS:
-            results = write(block, called(equation), arguments)
-        elif all(isinstance(a, np.ndarray) for a in arguments):
-            results = [np.asarray(r) for r in bind(equation, [jnp.asarray(a) for a in arguments])]
-        elif name_of(equation) in RULES:
-            terms = [known(block, a) if isinstance(a, np.ndarray) else a for a in arguments]
-            results = RULES[name_of(equation)](block, equation, terms)
-        else:
+    def apply(equation: Equation, arguments: list[Value], _: str) -> Sequence[Term]:
+        rule = RULES.get(name_of(equation))
+        if rule is None:
             raise refuse(equation)
+        terms = [known(block, a) if isinstance(a, np.ndarray) else a for a in arguments]
+        results = rule(block, equation, terms)
         for var, result in zip(equation.outvars, results, strict=True):
-            if isinstance(result, Term) and uses[var] > 1 and not (result.is_plain or result.truth):
+            if var in read_often and not (result.is_plain or result.truth):
                 result.name()
-            found[var] = result
-    return [value(atom) for atom in jaxpr.outvars]
+        return results
+
+    return walk(closed, values, apply, kept=())
+
+
+def _read_often(closed: ClosedJaxpr) -> set[Any]:
+    """The results of operations, also of those that are called, that others read more than once."""
+    counts = Counter(v for e in closed.jaxpr.eqns for v in e.invars if not isinstance(v, Literal))
+    found = {v for v, count in counts.items() if count > 1}
+    return found.union(*(_read_often(called(e)) for e in closed.jaxpr.eqns if name_of(e) in CALLS))
 
 
 def description(network: Any) -> str:

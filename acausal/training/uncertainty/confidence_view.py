@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from acausal.reporting import Html, SmallCurve, UncertainCurve, View, small_plot
+from acausal.reporting import Curve, Html, UncertainCurve, View, small_plot
 
 SIZE = (420, 150)
 """Of a band in a row, in pixels."""
@@ -35,4 +35,4 @@ def confidence_view(
 
 
 def _drawn(band: UncertainCurve) -> str:
-    return small_plot([SmallCurve("", band.x, band.law, band.bounds)], size=SIZE)
+    return small_plot([Curve("", band.x, band.law, bounds=band.bounds)], size=SIZE)

@@ -1,0 +1,316 @@
+"""Model predictive control: the inputs that bring a model nearest to its goals, within limits, over a horizon.
+
+A model with trained networks is handed to IPOPT (A. Wächter, L. Biegler, 2006) by CasADi, with exact first and second
+derivatives.
+"""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from jax.typing import ArrayLike
+from jaxtyping import Float
+
+from acausal import simulation
+from acausal._jax import is_number
+from acausal.control.goals import Goals, Limits, Weights
+from acausal.control.transcription import METHODS, Program, program
+from acausal.data import Data
+from acausal.errors import DataError, listing, nearest, need_compiled, need_whole, shown, user_level
+from acausal.export import casadi
+
+if TYPE_CHECKING:
+    from acausal.system import System
+
+Course = float | Sequence[float] | Float[np.ndarray, " n"] | Callable[[float], float]
+"""A number, one for each sample of the horizon, or a function of time."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Plan:
+    """What a controller intends.
+
+    Attributes:
+        t: the samples' times, shape (steps + 1,).
+        inputs: by name, from sample to sample, shape (steps,) each.
+        states: by name, at the samples, shape (steps + 1,) each.
+        variables: those with goals or limits, from the first sample after the start on, shape (steps,) each.
+        cost: what was minimised.
+        solved: whether IPOPT found an optimum; if not, the plan is the best that it came to.
+        status: in its words. seconds: that it took.
+    """
+
+    t: Float[np.ndarray, " n"]
+    inputs: dict[str, Float[np.ndarray, " steps"]]
+    states: dict[str, Float[np.ndarray, " n"]]
+    variables: dict[str, Float[np.ndarray, " steps"]]
+    cost: float
+    solved: bool
+    status: str
+    seconds: float
+
+    @property
+    def first(self) -> dict[str, float]:
+        """The inputs to give now."""
+        return {name: float(values[0]) for name, values in self.inputs.items()}
+
+    def __repr__(self) -> str:
+        now = ", ".join(f"{n} = {v:.4g}" for n, v in self.first.items())
+        span = f"{self.t[0]:g} to {self.t[-1]:g} s"
+        return f"Plan for {span}: {now}; cost {self.cost:.4g}, {self.status}"
+
+
+def mpc(
+    system: System,
+    *,
+    dt: float,
+    steps: int,
+    track: Weights,
+    effort: Weights,
+    change: Weights | None = None,
+    limits: Limits | None = None,
+    terminal: float = 1.0,
+    params: Mapping[str, Any] | None = None,
+    method: str = "collocation",
+    max_iterations: int = 200,
+) -> MPC:
+    """A controller that optimises the inputs of a model over a horizon, at each sample anew.
+
+    It minimises, over the samples of the horizon, the weighted squares of what variables are off their references, of
+    inputs, and of what inputs change from sample to sample. Inputs are held between samples.
+
+    Arguments:
+        system: a compiled model without events and without nonlinear algebraic loops.
+        dt: sample time [s]. steps: samples of the horizon.
+        track: variables with references, and their weights [1/unit**2].
+        effort: the inputs that the controller decides, and their weights, which may be 0. Other inputs are given.
+        change: weights of changes of these inputs; 0 for others.
+        limits: lowest and highest values of inputs, which hold, and of variables, which hold where they can.
+        terminal: how many times the last sample's errors count.
+        params: of the model, such as those of a fit; by default its own.
+        method: ``"collocation"`` (Radau, for stiff models, too), or ``"rk4"``, one step from sample to sample.
+        max_iterations: of IPOPT for each plan.
+
+    Raises:
+        DataError: for names, weights, limits or numbers that do not fit, a model that CasADi cannot express, or if the
+            package casadi is not installed.
+    """
+    need_compiled(system, "control.mpc")
+    steps = need_whole(steps, "control.mpc: steps", DataError, 1)
+    max_iterations = need_whole(max_iterations, "control.mpc: max_iterations", DataError, 1)
+    if not is_number(dt) or not 0 < float(dt) < np.inf:
+        raise DataError(f"control.mpc: dt={shown(dt)} is not a sample time; give seconds.")
+    if method not in METHODS:
+        raise DataError(
+            f"control.mpc: there is no method {shown(method)}; {nearest(str(method), METHODS)}"
+        )
+    goals = Goals(dict(track), dict(effort), dict(change or {}), dict(limits or {}), terminal)
+    goals.check(system)
+    if not system.states:
+        raise DataError("control.mpc: the model has no states; there is nothing to plan.")
+    given = tuple(n for n in system.inputs if n not in effort)
+    order = [(*goals.decided, *given).index(name) for name in system.inputs]
+    model = casadi(system, params, outputs=goals.observed)
+    solver = program(model, goals, order, system.nominal, float(dt), steps, method, max_iterations)
+    return MPC(system, float(dt), steps, goals, given, solver)
+
+
+class MPC:
+    """A model predictive controller; made by `mpc`.
+
+    It remembers its last plan, from which the next one starts: `reset` forgets it.
+
+    Attributes:
+        system, dt, steps, goals: of the model and the horizon.
+        given: names of the inputs that it does not decide.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        dt: float,
+        steps: int,
+        goals: Goals,
+        given: tuple[str, ...],
+        solver: Program,
+    ) -> None:
+        self.system, self.dt, self.steps, self.goals, self.given = system, dt, steps, goals, given
+        self._program = solver
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget the last plan: the next one starts where the state stays as it is."""
+        self._last: Float[np.ndarray, " n"] | None = None
+        self._sent = np.zeros(len(self.goals.decided))
+
+    def step(
+        self,
+        x: Mapping[str, float] | ArrayLike,
+        t: float = 0.0,
+        *,
+        reference: Mapping[str, Course] | None = None,
+        inputs: Mapping[str, Course] | None = None,
+        before: Mapping[str, float] | None = None,
+    ) -> Plan:
+        """The plan from a state on; its ``first`` inputs are to be given until the next sample.
+
+        Arguments:
+            x: all states, by name or as an array.
+            t: the time [s].
+            reference: of tracked variables, at the samples after ``t``; 0 for others.
+            inputs: those that the controller does not decide; all of them.
+            before: the decided inputs until now, for the weights ``change``; by default those of the last plan, or 0.
+
+        Raises:
+            DataError: for a name, number or length that does not fit.
+
+        Warns:
+            UserWarning: if IPOPT found no optimum.
+        """
+        goals, state = self.goals, self._state(x)
+        times = t + self.dt * np.arange(self.steps + 1)
+        goal = self._courses("reference", reference, tuple(goals.track), times[1:], 0.0)
+        others = self._courses("inputs", inputs, self.given, times[:-1], None)
+        sent = self._sent
+        if before is not None:
+            sent = self._courses("before", before, goals.decided, times[:1], 0.0)[:, 0]
+        given = np.concatenate([state, [t], sent, goal.ravel("F"), others.ravel("F")])
+        problem, last = self._program, self._last
+        start = problem.start(state) if last is None else problem.shifted(last)
+        began = time.perf_counter()
+        found = problem.solve(x0=start, p=given, **problem.bounds)
+        seconds = time.perf_counter() - began
+        stats = problem.solve.stats()
+        solved, status = bool(stats["success"]), str(stats["return_status"]).replace("_", " ")
+        best = np.asarray(found["x"]).ravel()
+        best = best if np.isfinite(best).all() else start
+        u, ends, seen = (np.asarray(part) for part in problem.read(best, given))
+        self._last, self._sent = best if solved else None, u[:, 0]
+        if not solved:
+            warnings.warn(
+                f"The controller found no optimum at t = {t:g} s ({status}): check limits and weights, or take a "
+                "shorter horizon.",
+                stacklevel=user_level(),
+            )
+        return Plan(
+            times,
+            dict(zip(goals.decided, u, strict=True)),
+            dict(zip(self.system.states, ends, strict=True)),
+            dict(zip(goals.observed, seen, strict=True)),
+            float(found["f"]),
+            solved,
+            status,
+            seconds,
+        )
+
+    def run(
+        self,
+        plant: System,
+        until: float,
+        *,
+        x0: Mapping[str, float] | ArrayLike | None = None,
+        reference: Mapping[str, Course] | None = None,
+        inputs: Mapping[str, Course] | None = None,
+        params: Mapping[str, Any] | None = None,
+        observe: Sequence[str] = (),
+    ) -> Data:
+        """The closed loop with a plant, which may be another model: a record at the samples, with the last inputs held.
+
+        Arguments:
+            plant: a compiled model with the states and decided inputs of this one, by their names.
+            until: the end [s]; the loop starts at 0.
+            x0: the plant's states at the start; by default its own.
+            reference, inputs: as in `step`, numbers or functions of time.
+            params: of the plant.
+            observe: further variables of the plant for the record.
+
+        Raises:
+            DataError: if the plant lacks a state or an input, or its events remember something.
+            SimulationError: as `acausal.simulate`.
+        """
+        need_compiled(plant, "MPC.run")
+        self.reset()
+        lacking = [n for n in self.system.states if n not in plant.variables]
+        lacking += [n for n in self.system.inputs if n not in plant.inputs]
+        if lacking:
+            raise DataError(f"MPC.run: the plant has no {listing(lacking)}.")
+        if plant.remembered:
+            raise DataError(
+                f"MPC.run: the plant remembers {listing(plant.remembered)} between samples, which a new simulation "
+                "would forget: make the loop with an exported FMU."
+            )
+        given = {} if inputs is None else inputs
+        wanted = [*plant.states, *self.system.states, *self.goals.observed, *observe]
+        names = [n for n in dict.fromkeys(wanted) if n in plant.variables]
+        held = dict.fromkeys(self.goals.decided, 0.0) | {n: _at(c, 0.0) for n, c in given.items()}
+        state = np.asarray(plant.initial_state(params, x0, inputs=held))
+        u = plant.inputs_at(0.0, held)
+        own = plant.observe(self.system.states, 0.0, state, u, params or plant.parameters())
+        rows: list[dict[str, float]] = []
+        for k in range(round(until / self.dt) + 1):
+            t = k * self.dt
+            plan = self.step(np.asarray(own), t, reference=reference, inputs=inputs)
+            held = {**{n: _at(c, t) for n, c in given.items()}, **plan.first}
+            span = t, t + self.dt
+            run = simulation.simulate(
+                plant, span, saveat=span, x0=state, inputs=held, params=params
+            )
+            found = {n: np.asarray(run[n]) for n in names}
+            rows.append({**{n: float(found[n][0]) for n in names}, **held})
+            state, own = (
+                np.array([found[n][-1] for n in each])
+                for each in (plant.states, self.system.states)
+            )
+        columns = {n: np.array([row[n] for row in rows]) for n in rows[0]}
+        return Data(self.dt * np.arange(len(rows)), columns)
+
+    def _state(self, x: Mapping[str, float] | ArrayLike) -> np.ndarray:
+        names = self.system.states
+        if isinstance(x, Mapping) and (lacking := [n for n in names if n not in x]):
+            raise DataError(f"MPC.step: x lacks {listing(lacking)}; give all states.")
+        values: Any = [x[n] for n in names] if isinstance(x, Mapping) else x
+        state = np.asarray(values, float)
+        if state.shape != (len(names),) or not np.isfinite(state).all():
+            raise DataError(
+                f"MPC.step: x={shown(x)} are not the {len(names)} states ({', '.join(names)})."
+            )
+        return state
+
+    def _courses(
+        self, argument: str, given: Mapping[str, Course] | None, names: Sequence[str],
+        times: Float[np.ndarray, " n"], default: float | None,
+    ) -> Float[np.ndarray, "n_names n"]:  # fmt: skip
+        given = given or {}
+        for name in given:
+            if name not in names:
+                raise DataError(
+                    f"MPC.step: {argument}: '{name}' is none of them; {nearest(name, names)}"
+                )
+        if default is None and (lacking := [n for n in names if n not in given]):
+            raise DataError(
+                f"MPC.step: {argument} lacks {listing(lacking)}, which nothing decides."
+            )
+
+        def course(name: str) -> Float[np.ndarray, " n"]:
+            value = given.get(name, default)
+            if callable(value):
+                value = [value(float(t)) for t in times]
+            column = np.asarray(value, float)
+            if column.shape not in ((), times.shape) or not np.isfinite(column).all():
+                raise DataError(
+                    f"MPC.step: {argument} of '{name}' is {shown(value)}; give a number, one for each of the "
+                    f"{len(times)} samples, or a function of time."
+                )
+            return np.broadcast_to(column, times.shape)
+
+        return np.array([course(n) for n in names]).reshape(len(names), len(times))
+
+
+def _at(course: Course, t: float) -> float:
+    """A course at a time; of one with a number for each sample, the first."""
+    return float(course(t)) if callable(course) else float(np.ravel(np.asarray(course))[0])

@@ -1,0 +1,90 @@
+"""Events in C: what holds there, traced, and what `events.c` needs to know of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from acausal.codegen import Events, Values, guards, jumped, updated
+from acausal.export.vector import ParameterVector
+from acausal.initialization import COINCIDE, DECREED, ONE_BY_ONE, PASSES, ROUNDS
+from acausal.simulation import BAND, CLOSE, CROWD, DEADER, NEAR, TRIES
+
+ARGUMENTS: Mapping[str, tuple[tuple[str, ...], str]] = {
+    "conditions": (("x_before", "d_before"), "number"),
+    "condition_rates": (("along_x", "along_u"), "rate"),
+    "updated": (("x_before", "d_before", "holds", "initial"), "next_d"),
+    "jumped": (("x_before", "d_before"), "next_x"),
+}
+"""By function, what it reads besides time, states, inputs, parameters and discrete variables; and what it gives."""
+
+
+def event_functions(events: Events, vector: ParameterVector) -> dict[str, Callable[..., Any]]:
+    """The functions of `ARGUMENTS`.
+
+    Each takes time, states, inputs, parameters, discrete variables, and its own arguments.
+    """
+
+    def sides(
+        t: Any, x: Any, u: Any, p: Any, d: Any, x_before: Any, d_before: Any
+    ) -> tuple[Values, Values]:
+        """What holds now, and what held before the event."""
+        now = Values(t, x, u, vector.packed(p), d)
+        return now, now._replace(x=x_before, d=d_before)
+
+    def condition_rates(t: Any, x: Any, u: Any, p: Any, d: Any, along_x: Any, along_u: Any) -> Any:
+        def number(t: Any, x: Any, u: Any) -> Any:
+            return guards(events, Values(t, x, u, vector.packed(p), d))
+
+        return jax.jvp(number, (t, x, u), (jnp.ones_like(t), along_x, along_u))[1]
+
+    return {
+        "conditions": lambda *given: guards(events, *sides(*given)),
+        "condition_rates": condition_rates,
+        "updated": lambda *given: updated(events, *sides(*given[:-2]), *given[-2:]),
+        "jumped": lambda *given: jumped(events, *sides(*given)),
+    }
+
+
+def argument_sizes(events: Events, states: int, inputs: int) -> dict[str, int | None]:
+    """The lengths of the arrays that the functions of `ARGUMENTS` read; None for a number."""
+    return {
+        "x_before": states,
+        "d_before": len(events.exact),
+        "along_x": states,
+        "along_u": inputs,
+        "holds": events.n_guards,
+        "initial": None,
+    }
+
+
+def constants() -> Iterator[str]:
+    """The limits of event iteration and search, those of `acausal.simulate`."""
+    reals = {"CLOSE": CLOSE, "BAND": BAND, "NEAR": NEAR, "DEADER": DEADER, "COINCIDE": COINCIDE}
+    counts = {
+        "TRIES": TRIES,
+        "CROWD": CROWD,
+        "ROUNDS": ROUNDS,
+        "PASSES": PASSES,
+        "DECREED": DECREED,
+        "ONE_BY_ONE": ONE_BY_ONE,
+    }
+    yield from (f"#define {name} R({value!r})" for name, value in reals.items())
+    yield f"enum {{ {', '.join(f'{name} = {count}' for name, count in counts.items())} }};"
+
+
+def tables(events: Events) -> Iterator[str]:
+    """What is known of the conditions."""
+    yield f"enum {{ GUARDS = {events.n_guards}, DISCRETE = {len(events.exact)}, POINTS = 5 }};"
+    yield f"enum {{ ANY_TIMED = {int(events.timed.any())} }};"
+    for name in ("strict", "timed", "resets", "ticks"):
+        flags: np.ndarray = getattr(events, name)
+        written = [str(int(flag)) for flag in flags.tolist()] or ["0"]
+        rows = [", ".join(written[i : i + 30]) for i in range(0, len(written), 30)]
+        yield f"static const unsigned char {name}[] = {{"
+        yield from (f"    {row}," for row in rows)
+        yield "};"

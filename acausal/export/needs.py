@@ -1,0 +1,56 @@
+"""What an export needs: a model that can be written, its parameters, and packages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any
+
+from acausal.errors import DataError, ExportError, need_compiled, shown
+from acausal.system import System
+
+
+def need_exportable(system: System, function: str) -> None:
+    """Refuse what is no compiled model, and a model that calls code of others.
+
+    Raises:
+        ModelError: for a model that is not compiled. ExportError: for one with an FMU in it.
+    """
+    need_compiled(system, f"export.{function}")
+    if fixed := system.layout.fixed_modules:
+        path = system.layout.model.layout.module(next(iter(fixed))).rpartition(".")[0]
+        raise ExportError(
+            f"export.{function}: '{path or system.flat.name}' is an FMU, whose equations nobody knows; export the rest "
+            "of the model, with inputs and outputs in its place, and connect both in a tool that imports FMUs."
+        )
+
+
+def all_parameters(system: System, params: Mapping[str, Any] | None) -> dict[str, Any]:
+    """What is given, and the model's own numbers for the rest; without anything given, the model's own.
+
+    Raises:
+        DataError: for an unknown name, a value that does not fit, or a missing network.
+    """
+    own = system.parameters()
+    if params is None:
+        return own
+    if not isinstance(params, Mapping):
+        raise DataError(f"params are numbers and networks by name, not {shown(params)}")
+    system.pack(params)
+    system.layout.need_modules(params)
+    return {**{name: own[name] for name in system.layout.names}, **params}
+
+
+def need_package(name: str, function: str, extra: str = "export") -> None:
+    """Refuse to go on without an optional package, which an extra of acausal installs.
+
+    Raises:
+        DataError: where it is not installed, with the command that installs it.
+    """
+    try:
+        import_module(name)
+    except ImportError:
+        raise DataError(
+            f"export.{function} needs the package '{name.partition('.')[0]}'; "
+            f"install it: pip install 'acausal[{extra}]'"
+        ) from None

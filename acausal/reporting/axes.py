@@ -1,0 +1,62 @@
+"""matplotlib, which is installed on request: results are made and compared without it."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from acausal.errors import AcausalError, DataError, shown
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def new_axes(size: tuple[float, float], rows: int = 1) -> list[Axes]:
+    """Axes one below another, with one time axis, in a figure that notebooks and windows show, once.
+
+    Arguments:
+        size: width and height of the figure, in inches.
+
+    Raises:
+        AcausalError: if matplotlib is not installed.
+    """
+    try:
+        from matplotlib import pyplot as plt
+    except ModuleNotFoundError as error:
+        if (error.name or "").partition(".")[0] != "matplotlib":
+            raise
+        raise AcausalError("Drawing needs matplotlib: pip install 'acausal[plot]'.") from None
+    figure, grid = plt.subplots(
+        rows, 1, sharex=True, squeeze=False, figsize=size, layout="constrained"
+    )
+    figure._ipython_display_ = partial(_show_once, figure)  # pyright: ignore[reportAttributeAccessIssue]
+    return list(grid[:, 0])
+
+
+def _show_once(figure: Figure) -> None:
+    """What a notebook asks first of a figure that it shows.
+
+    A figure that is a cell's result is shown as such; notebooks show open figures at the end of a cell, too, so it is
+    closed before.
+    """
+    import matplotlib as mpl
+    from matplotlib import pyplot as plt
+
+    if "inline" in mpl.get_backend():
+        plt.close(figure)
+    raise NotImplementedError  # IPython then asks for a picture
+
+
+def need_axes(given: Any, argument: str = "ax") -> Axes:
+    """The axes; what nothing can be drawn on is refused.
+
+    Raises:
+        DataError: for it; it names the argument.
+    """
+    if isinstance(given, type) or not hasattr(given, "plot"):
+        file = (
+            " (to write a file: .save(path) of what is returned)" if isinstance(given, str) else ""
+        )
+        raise DataError(f"{argument}={shown(given)} is not axes; give one of matplotlib's{file}.")
+    return given

@@ -1,0 +1,1 @@
+"""A motor leads an arm along a course: a friction that was learned, in a model predictive controller."""

@@ -1,0 +1,130 @@
+"""Model predictive control: the regulator of Riccati where there are no limits, and limits where there are."""
+
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.linalg import solve_discrete_are
+from scipy.signal import cont2discrete
+
+import acausal as ac
+from acausal.components import translational as tl
+from examples.following_arm import study
+from examples.following_arm.model import ANGLE, LIMIT, MOTOR, Arm, Rubbing
+
+
+class Cart(ac.Component):
+    """A mass on a damper, pushed by two forces."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.mass, self.wall, self.damper = tl.Mass(m=2.0), tl.Fixed(), tl.Damper(d=1.0)
+        self.push, self.wind = tl.Force(), tl.Force()
+        self.connect(self.wall.flange, self.damper.flange_a)
+        self.connect(self.damper.flange_b, self.mass.flange_a)
+        self.connect(self.mass.flange_b, self.push.flange, self.wind.flange)
+
+
+DT = 0.1
+
+
+@cache
+def cart() -> ac.System:
+    return ac.compile(Cart())
+
+
+@pytest.mark.parametrize("method", ["collocation", "rk4"])
+def test_without_limits_it_is_the_regulator_of_riccati(method: str) -> None:
+    A, B = np.array([[0.0, 1.0], [0.0, -0.5]]), np.array([[0.0], [0.5]])
+    Ad, Bd, *_ = cont2discrete((A, B, np.eye(2), np.zeros((2, 1))), DT)
+    Q, R = np.diag([3.0, 0.1]), np.array([[0.05]])
+    P = solve_discrete_are(Ad, Bd, Q, R)
+    K = np.linalg.solve(R + Bd.T @ P @ Bd, Bd.T @ P @ Ad)
+    controller = ac.control.mpc(
+        cart(), dt=DT, steps=60, track={"mass.s": 3.0, "mass.v": 0.1}, effort={"push.f": 0.05}, method=method
+    )  # fmt: skip
+    x = {"mass.s": 0.7, "mass.v": -0.2}
+    plan = controller.step(x, inputs={"wind.f": 0.0})
+    assert plan.solved
+    assert plan.first["push.f"] == pytest.approx(-float((K @ [0.7, -0.2])[0]), rel=1e-4)
+    again = controller.step(x, inputs={"wind.f": 0.0})
+    assert again.first["push.f"] == pytest.approx(plan.first["push.f"], rel=1e-5)
+
+
+def test_limits_hold_and_a_wind_that_is_known_is_met() -> None:
+    controller = ac.control.mpc(
+        cart(),
+        dt=DT,
+        steps=25,
+        track={"mass.s": 1.0},
+        effort={"push.f": 0.0},
+        change={"push.f": 1e-4},
+        limits={"push.f": (-4.0, 4.0), "mass.v": (-0.6, 0.6)},
+    )
+    wind = {"wind.f": lambda t: 1.5 if t > 1 else 0.0}
+    record = controller.run(cart(), 5.0, x0={"mass.s": 1.0, "mass.v": 0.0}, inputs=wind)
+    force, v, s = (np.asarray(record[n]) for n in ("push.f", "mass.v", "mass.s"))
+    assert np.abs(force).max() <= 4.0 + 1e-6
+    assert v.min() == pytest.approx(-0.6, abs=2e-3)  # as fast as it may
+    assert abs(s[-1]) < 1e-3
+    assert force[-1] == pytest.approx(-1.5, abs=2e-2)
+    late = controller.step(
+        {"mass.s": 0.0, "mass.v": 3.0}, inputs={"wind.f": np.zeros(25)}, before={"push.f": 0.0}
+    )
+    assert late.solved  # a limit that is left already
+    assert late.first["push.f"] == pytest.approx(-4.0, abs=1e-5)
+
+
+def test_a_stiff_model_needs_collocation() -> None:
+    class Stiff(ac.Component):
+        x, u = ac.Variable(start=1.0), ac.Input()
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), -1000 * (self.x - self.u))
+
+    system = ac.compile(Stiff())
+    goals = {"track": {"x": 1.0}, "effort": {"u": 1e-3}}
+    plan = ac.control.mpc(system, dt=DT, steps=5, **goals).step([1.0], reference={"x": 2.0})
+    np.testing.assert_allclose(plan.states["x"][1:], 2.0 / (1 + 1e-3), rtol=1e-4)
+
+
+@pytest.mark.slow
+def test_a_learned_friction_leads_the_arm_better_than_a_viscous_one() -> None:
+    found = study.compared()
+    assert found["learned"].rms < 0.004
+    assert found["viscous"].rms > 4 * found["learned"].rms
+    assert np.abs(found["learned"].record[MOTOR]).max() <= LIMIT + 1e-6
+
+
+def test_what_does_not_fit_is_named() -> None:
+    system = cart()
+    good = {"dt": 0.1, "steps": 5, "track": {"mass.s": 1.0}, "effort": {"push.f": 0.0}}
+    for wrong, *words in (
+        ({"dt": 0}, "dt=0 is not a sample time"),
+        ({"steps": 0}, "steps"),
+        ({"track": {}}, "name what should follow a reference"),
+        ({"track": {"mass.x": 1.0}}, "the model has no 'mass.x'"),
+        ({"track": {"mass.s": -1.0}}, "-1.0 of 'mass.s' is not a weight"),
+        ({"effort": {"mass.s": 1.0}}, "'mass.s' is no input that is decided"),
+        ({"change": {"wind.f": 1.0}}, "'wind.f' is no input that is decided"),
+        ({"limits": {"wind.f": (0, 1)}}, "'wind.f' is given, not decided"),
+        ({"limits": {"push.f": (1, 0)}}, "(lowest, highest)"),
+        ({"method": "heun"}, "there is no method 'heun'"),
+    ):
+        with pytest.raises(ac.AcausalError, match=re.escape(*words)):
+            ac.control.mpc(system, **{**good, **wrong})
+    controller = ac.control.mpc(system, **good)
+    wind = {"wind.f": 0.0}
+    for arguments, *words in (
+        ({"x": [1.0]}, "are not the 2 states (mass.s, mass.v)"),
+        ({"x": {"mass.s": 1.0}}, "x lacks 'mass.v'"),
+        ({"x": [0, 0], "inputs": {}}, "inputs lacks 'wind.f'"),
+        ({"x": [0, 0], "reference": {"mass.v": 1.0}}, "reference: 'mass.v' is none of them"),
+        ({"x": [0, 0], "reference": {"mass.s": [1.0, 2.0]}}, "one for each of the 5 samples"),
+    ):
+        with pytest.raises(ac.DataError, match=re.escape(*words)):
+            controller.step(**{"inputs": wind, **arguments})
+    with pytest.raises(ac.DataError, match="the plant has no"):
+        controller.run(ac.compile(Arm(Rubbing())), 1.0, inputs=wind)
+    assert ANGLE not in system.variables
