@@ -49,6 +49,7 @@ from acausal.networks.scaled import (
     EnergyLaw as EnergyLaw,
     Scaled as Scaled,
     inputs_of as inputs_of,
+    law_at as law_at,
     law_of as law_of,
     rise_of as rise_of,
 )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
@@ -84,6 +85,17 @@ def _check_scales(network: Scaled | EnergyLaw, inputs: Sequence[ArrayLike]) -> N
 def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
     """The law of a network: itself, or the derivative of an energy."""
     return network.law if isinstance(network, EnergyLaw) else network
+
+
+def law_at(
+    network: Callable[..., Array],
+    points: Float[Array | np.ndarray, " points"],
+    rest: Float[Array | np.ndarray, " n"],
+) -> Float[Array, " points"]:
+    """The law of a network over its first input, the first of several; the other inputs are held at ``rest``."""
+    law: Callable[..., Array] = getattr(network, "law", network)
+    found = jax.vmap(lambda x: law(x, *rest))(jnp.asarray(points))
+    return found if found.ndim == 1 else found[:, 0]
 
 
 def inputs_of(network: Callable[..., Array]) -> int:

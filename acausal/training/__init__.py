@@ -32,6 +32,7 @@ from acausal.training.options import FitOptions as FitOptions
 from acausal.training.prediction import Prediction as Prediction, Predictions as Predictions
 from acausal.training.profile import Profile as Profile
 from acausal.training.record_fit import RecordFit as RecordFit
-from acausal.training.result import Fit as Fit, Seen as Seen
+from acausal.training.result import Fit as Fit
 from acausal.training.starts import Minimum as Minimum, Starts as Starts
+from acausal.training.trained_model import Seen as Seen
 from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

@@ -14,10 +14,11 @@ from acausal.files import need_path
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table
 from acausal.training.ensemble import Ensemble
-from acausal.training.page_of_several import several_content
-from acausal.training.page_records import record_blocks
-from acausal.training.record_fit import RecordFit, out_of_range, rms_of
+from acausal.training.presentation.page_of_several import several_content
+from acausal.training.presentation.page_records import record_blocks
+from acausal.training.record_fit import RecordFit, rms_of
 from acausal.training.result import Fit
+from acausal.training.trained_model import out_of_range
 
 
 class Spread(NamedTuple):

@@ -22,9 +22,9 @@ from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
-from acausal.training.page_subject import Trained
 from acausal.training.prediction import Prediction, Predictions
-from acausal.training.record_fit import RecordFit, of_records, out_of_range
+from acausal.training.record_fit import RecordFit, of_records
+from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.bumps import BUMPS, bumped_law
 from acausal.training.uncertainty.confidence import Band, Confidence
 from acausal.training.uncertainty.conformal import Conformal
@@ -63,7 +63,7 @@ class Own:
 
 
 def predict(
-    fit: Trained,
+    fit: TrainedModel,
     data: RecordsLike,
     x0: InitialState,
     params: OwnParameters | None,
@@ -101,7 +101,7 @@ def predict(
 
 
 def _own(
-    fit: Trained, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
+    fit: TrainedModel, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
 ) -> Own:
     """What the records have for themselves, before their targets have told of it."""
     problem = over(fit.problem, records, x0, measured=False)
@@ -128,7 +128,7 @@ def _own(
 
 
 def _given(
-    fit: Trained,
+    fit: TrainedModel,
     own: Float[np.ndarray, "R n_own"],
     records: Mapping[str, Data],
     params: OwnParameters | None,
@@ -208,7 +208,7 @@ def _deviations(
     own: Own,
     values: Float[np.ndarray, "R m"],
     certainty: Float[np.ndarray, "N n_targets"],
-    fit: Trained,
+    fit: TrainedModel,
     confidence: Confidence,
 ) -> Float[np.ndarray, "N n_targets"]:
     """The standard deviation of every target at every row.

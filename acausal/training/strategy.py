@@ -7,9 +7,11 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import NamedTuple
 
+import numpy as np
 import optax
 
 from acausal.errors import TrainingError
+from acausal.training.history import History
 from acausal.training.objective.equation_error import EquationError, equation_error
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import changes_of
@@ -156,3 +158,37 @@ def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> L
 def default_optimizer(epochs: int) -> optax.GradientTransformation:
     """Adam, its rate falling from 0.01 to 0.0001 as a cosine over the epochs."""
     return optax.adam(optax.cosine_decay_schedule(1e-2, epochs, 1e-2))
+
+
+class StageResult(NamedTuple):
+    """What a stage reached.
+
+    Attributes:
+        title: what it did.
+        loss: the lowest over the whole record among its evaluations.
+        updates: that it made.
+    """
+
+    title: str
+    loss: float
+    updates: int
+
+
+def stage_results(
+    history: History, legs: Sequence[Leg], linear: float | None
+) -> tuple[StageResult, ...]:
+    """The stages that a training has gone through.
+
+    Arguments:
+        history, legs: of the training.
+        linear: the loss of the linear laws that it started from, if there are any.
+    """
+    found = [] if linear is None else [StageResult("linear law", linear, 0)]
+    epochs, losses = history.full_loss.T
+    for i, leg in enumerate(legs):
+        own = np.flatnonzero(history.part == i)
+        if len(own):
+            inside = (epochs > own[0]) & (epochs <= own[-1] + 1)
+            loss = float(np.min(losses[inside], initial=np.inf))
+            found.append(StageResult(leg.stage.title, loss, len(own)))
+    return tuple(found)

@@ -27,7 +27,6 @@ from acausal.modeling import names_in
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic
-from acausal.training.auto.verdict import stage_results
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
@@ -47,7 +46,7 @@ from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
 from acausal.training.starts import spread_starts, starts_of
-from acausal.training.strategy import Leg, legs, stages
+from acausal.training.strategy import Leg, legs, stage_results, stages
 
 if TYPE_CHECKING:
     from acausal.system import System

@@ -24,9 +24,9 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
-from acausal.networks import bounds_of, kept_promises, law_of, output_scale
+from acausal.networks import bounds_of, kept_promises, law_at, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
-from acausal.training.objective.prior import LawPrior, Prior, law_at
+from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable, changes_of
@@ -466,14 +466,13 @@ def _band(
 ) -> Band:
     x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), BAND_POINTS)
     rest = seen[:, 1:].mean(axis=0)
-    law = jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x))
     shapes = np.asarray(jax.vmap(bumped.bumps)(jnp.asarray(x)))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
-    law, kept = np.asarray(law), kept_promises(network)
+    kept = kept_promises(network)
     sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
     return Band(
         x,
-        law if law.ndim == 1 else law[:, 0],
+        np.asarray(law_at(network, x, rest)),
         np.sqrt(np.maximum(variance, 0.0)),
         1.0 if "positive" in kept else sign,
         bounds_of(network),
