@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Float, Int
 
 from acausal.errors import DataError, listing
 from acausal.training.happened import EventChange
 from acausal.training.objective.records import Places
+from acausal.training.optimizers.trainer import Entry
 
 
 @dataclass(frozen=True)
@@ -140,50 +141,6 @@ class Rows(NamedTuple):
 EVALUATIONS = "evaluations"
 
 
-class LogEntry(Protocol):
-    """The report of some updates, with a leading axis: see `acausal.training.optimizers.trainer.Entry`."""
-
-    @property
-    def loss(self) -> Float[Array, " n"]:
-        """Of the batch."""
-        ...
-
-    @property
-    def diverged(self) -> Int[Array, " n"]:
-        """How many sequences were left out."""
-        ...
-
-    @property
-    def exploded(self) -> Int[Array, " n"]:
-        """How many of them only because their gradient exploded."""
-        ...
-
-    @property
-    def first(self) -> Int[Array, " n"]:
-        """Where the first of them starts: a sample's index."""
-        ...
-
-    @property
-    def rejected(self) -> Bool[Array, " n"]:
-        """Whether the update was rejected."""
-        ...
-
-    @property
-    def turned_down(self) -> Bool[Array, " n"]:
-        """Whether it was a trial that its optimizer turned down."""
-        ...
-
-    @property
-    def penalties(self) -> Mapping[str, Float[Array, " n"]]:
-        """By regularizer."""
-        ...
-
-    @property
-    def logged(self) -> Mapping[str, Float[Array, " n"]]:
-        """By parameter, its change."""
-        ...
-
-
 class Log:
     """Collects a `History` while training runs.
 
@@ -210,7 +167,7 @@ class Log:
         self.epochs = 0
 
     def add(
-        self, entry: LogEntry, count: int, started: float, ended: float, part: int = 0
+        self, entry: Entry, count: int, started: float, ended: float, part: int = 0
     ) -> list[Divergence]:
         """Add the first ``count`` rows of a chunk's log, of a part of the strategy; returns its divergences."""
         reported = {

@@ -22,7 +22,7 @@ from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
-from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.objective.trainable import Trainable
 from acausal.training.predict import OwnParameters, predict
 from acausal.training.prediction import Predictions
 from acausal.training.presentation.export_with_card import export_with_card
@@ -279,7 +279,7 @@ def result(
         best_epoch=best.epoch,
         records=of_records(problem, best.trainable, best.simulated),
         held_out={} if held is None else _of_held_out(held.problem, best.trainable),
-        modifiers={n: float(value) for n, value in changes_of(problem, best.trainable).items()},
+        modifiers={n: float(value) for n, value in problem.changes(best.trainable).items()},
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},
         history=history,

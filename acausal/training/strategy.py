@@ -12,9 +12,8 @@ import optax
 
 from acausal.errors import TrainingError
 from acausal.training.history import History
-from acausal.training.objective.equation_error import EquationError, equation_error
+from acausal.training.objective.equation_error import equation_error
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import changes_of
 from acausal.training.objective.whole_record import (
     gauss_newton,
     over_whole_record,
@@ -72,7 +71,7 @@ class Leg(NamedTuple):
     """
 
     stage: Stage
-    objective: Problem | EquationError
+    objective: Problem
     trainer: Trainer
     epochs: int
     evaluate_every: int
@@ -97,7 +96,7 @@ class _Kind(NamedTuple):
         evaluate: computes the derivatives that the optimizer needs.
     """
 
-    objective: Callable[[Problem], Problem | EquationError]
+    objective: Callable[[Problem], Problem]
     optimizer: Callable[[], optax.GradientTransformation] | None
     evaluate: Evaluate = with_gradient
 
@@ -128,7 +127,7 @@ def legs(
     return tuple(_leg(problem, stage, options, limit) for stage in planned)
 
 
-def _objective(stage: Stage, problem: Problem) -> Problem | EquationError:
+def _objective(stage: Stage, problem: Problem) -> Problem:
     if stage.rows is None:
         return KINDS[stage.kind].objective(problem)
     return over_windows(problem, stage.rows)
@@ -147,7 +146,7 @@ def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> L
                 "L-BFGS compares losses of the same data, and every batch holds others: take the whole "
                 "record (sequence_length=None), or strategy=('sequences', 'whole_record') with another optimizer."
             )
-    trainer = Trainer(optax.with_extra_args_support(chosen), limit, changes_of, kind.evaluate)
+    trainer = Trainer(optax.with_extra_args_support(chosen), limit, Problem.changes, kind.evaluate)
     every = options.evaluate_every
     if every is None:
         every = max(1, epochs // EVALUATIONS)

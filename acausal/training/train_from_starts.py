@@ -31,7 +31,7 @@ from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
 from acausal.training.happened import grazing
-from acausal.training.log_progress import log_progress
+from acausal.training.logs import log_progress
 from acausal.training.loop import train
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
@@ -40,7 +40,7 @@ from acausal.training.objective.losses import nrmse
 from acausal.training.objective.noise import noise_loss
 from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
 from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
@@ -287,7 +287,7 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
         yield (
             f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
         )
-    changes = changes_of(problem, trained.best.trainable)
+    changes = problem.changes(trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.unit).values()
 
 

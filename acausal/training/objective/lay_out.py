@@ -23,7 +23,7 @@ from acausal.simulation import (
     inner_fractions,
     polynomials_over_steps,
 )
-from acausal.training.objective.input_delays import delayed_inputs
+from acausal.training.objective.input_delays import delayed_inputs, end_to_end
 from acausal.training.objective.records import Records
 from acausal.training.objective.timing import Timing
 
@@ -87,7 +87,7 @@ def lay_out(
     steps = Steps(
         array(np.concatenate([g.t for g in grids])),
         array(np.concatenate(lengths) if even is None else even),
-        _joined([r.inputs for r in rows]),
+        end_to_end([r.inputs for r in rows]),
     )
     missing = np.isnan(y)
     empty = [n for n, column in zip(targets, missing.T, strict=True) if column.all()]
@@ -164,31 +164,10 @@ def _with_last(
 ) -> Samples:
     """The inputs with one more step at the end, over which they stay as they are there; those that are held jump."""
     jump = np.array([isinstance(f, Signal) and f.jumps for f in functions], bool)
-    sides = np.asarray(inner.start), np.asarray(inner.end)
-    last = sides[1][-1:]
+    last = np.asarray(inner.end)[-1:]
     if jump.any():
         last = np.where(jump, np.asarray(evaluate_all(functions, array(until))), last)
-    start, end = (array(np.concatenate([side, last])) for side in sides)
-    if inner.coefficients is None:
-        return Samples(start, end)
-    curved = np.asarray(inner.coefficients)
-    return Samples(start, end, (), array(np.concatenate([curved, np.zeros_like(curved[:1])])))
-
-
-def _joined(parts: list[Samples]) -> Samples:
-    """The inputs of all records end to end."""
-    if len(parts) == 1:
-        return parts[0]
-    sides = zip(*((p.start, p.end) for p in parts), strict=True)
-    start, end = (array(np.concatenate(side)) for side in sides)
-    curved = next((p.coefficients for p in parts if p.coefficients is not None), None)
-    if curved is None:
-        return Samples(start, end)
-    filled = [
-        np.zeros((len(p.start), *curved.shape[1:])) if p.coefficients is None else p.coefficients
-        for p in parts
-    ]
-    return Samples(start, end, (), array(np.concatenate(filled)))
+    return end_to_end([inner, Samples(array(last), array(last))])
 
 
 def _grid(samples: Float[np.ndarray, " n"], longest: float | None) -> Grid:

@@ -132,7 +132,7 @@ def advance(
     until: Int[Array, ""],
     *,
     active: Bool[Array, " trainings"] | None = None,
-    side_by_side: bool = False,
+    side_by_side: bool | None = None,
 ) -> tuple[State, Entry]:
     """Do updates until ``until`` of them are done, at most `UPDATES_PER_CALL`, or until the optimizer has converged.
 
@@ -142,13 +142,16 @@ def advance(
         state: of one training, or of several with a leading axis.
         until: updates, the same for all of them.
         active: of several trainings, those that go on; by default all. Those that have converged stay as they are.
-        side_by_side: whether to map over several trainings, which is faster on an accelerator. A CPU is faster with
-            one after the other, because networks with different weights are many small matrix products.
+        side_by_side: whether to map over several trainings, which is faster on an accelerator and done there by
+            default. A CPU is faster with one after the other, because networks with different weights are many small
+            matrix products.
 
     Returns:
         The new state, and a log with room for `UPDATES_PER_CALL` entries of which the first are filled; where there
         are several trainings, their axis is the second one.
     """
+    if side_by_side is None:
+        side_by_side = jax.default_backend() != "cpu"
 
     def alone(state: State) -> tuple[State, Entry]:
         return _update(objective, trainer, state)

@@ -29,7 +29,7 @@ from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
-from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
 from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
@@ -352,7 +352,7 @@ def _about(
     taken: Bool[np.ndarray, " n_parameters"],
 ) -> tuple[str, ...]:
     """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
-    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.unit)
+    at_limit = problem.modifiers.at_limit(problem.changes(trainable), problem.unit)
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
