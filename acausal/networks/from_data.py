@@ -12,9 +12,9 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from acausal.data import like_saved
-from acausal.networks.beside_linear import BesideLinear, BesideQuadratic
+from acausal.networks.energy_parts import BesideQuadratic, WithMinCurvature
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
-from acausal.networks.min_slope import WithMinCurvature, WithMinSlope, start_at
+from acausal.networks.law_parts import BesideLinear, WithMinSlope, start_at
 from acausal.networks.mlp import MLP
 from acausal.networks.monotone import Monotone
 from acausal.networks.promises import kept_promises

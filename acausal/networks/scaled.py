@@ -12,7 +12,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal.networks.arity import check_inputs
-from acausal.networks.dry_friction_factor import WithFactor
+from acausal.networks.law_parts import WithFactor
 from acausal.networks.mlp import Scale, scaled
 
 REACH = 1e6
