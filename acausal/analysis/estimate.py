@@ -17,7 +17,7 @@ from acausal._jax import as_key, need_double_precision, traced
 from acausal.analysis.estimation import Estimation
 from acausal.analysis.filtering import (
     Belief,
-    Ensemble,
+    EnsembleFilter,
     Filter,
     Filtered,
     Linearized,
@@ -136,7 +136,7 @@ def estimate(
     walk = jnp.concatenate([size / jnp.sqrt(path.t[-1] - path.t[0]), jnp.zeros(len(drift))])
 
     def filtered(q: Array, r: Array, how: Filter = EKF) -> Filtered:
-        begin = _with_members(start, members, key) if isinstance(how, Ensemble) else start
+        begin = _with_members(start, members, key) if isinstance(how, EnsembleFilter) else start
         return _filtered(how, path, begin, measured._replace(sigma=r), q, key)
 
     if isinstance(noise, Mapping):
@@ -174,7 +174,7 @@ def filter_named(method: str) -> Filter:
         )
     if method not in METHODS:
         raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
-    return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": Ensemble()}[method]
+    return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter()}[method]
 
 
 def _sensors(system: System, data: Data, given: Any) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import as_key, check_time, is_number, need_double_precision
 from acausal.analysis.estimate import belief_at, filter_named
-from acausal.analysis.filtering import Belief, Ensemble, Filter, Measured
+from acausal.analysis.filtering import Belief, EnsembleFilter, Filter, Measured
 from acausal.analysis.tracking import Model, check_model, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, need_compiled, shown
@@ -174,7 +174,7 @@ def observer(
     need_double_precision()
     check_model(system, "observer")
     how = filter_named(method)
-    if isinstance(how, Ensemble):
+    if isinstance(how, EnsembleFilter):
         raise DataError("observer: method='enkf' draws random numbers; take 'ekf' or 'ukf'.")
     if not (is_number(sample_time) and sample_time > 0):
         raise DataError(

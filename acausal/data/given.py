@@ -5,21 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import need_known
-from acausal.data.readers import Table, is_data_frame, seconds
+from acausal.data.readers import Table, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
 from acausal.modeling import names_in
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 Missing = Literal["refuse", "nan"]
 """What a NaN among samples is: a mistake, or a missing sample."""
@@ -99,20 +96,14 @@ def _by_name(signals: object) -> Mapping[str, Any]:
         DataError: for what has no names, and for a name that is not text, or that occurs twice.
     """
     if is_data_frame(signals):
-        return _frame_columns(signals)
+        need_unique(signals, "The data frame")
+        return {n: signals[n].to_numpy() for n in names_in(signals.columns, "signals")}
     if not isinstance(signals, Mapping):
         raise DataError(
             "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
             f"not {_described(signals)}."
         )
     return {name: signals[name] for name in names_in(signals, "signals")}
-
-
-def _frame_columns(frame: DataFrame) -> Mapping[str, Any]:
-    if not frame.columns.is_unique:
-        doubled = frame.columns[frame.columns.duplicated()][0]
-        raise DataError(f"The data frame has two columns '{doubled}'.")
-    return {name: frame[name].to_numpy() for name in names_in(frame.columns, "signals")}
 
 
 def _times(given: ArrayLike, what: str, unit: str) -> Float[np.ndarray, " n"]:

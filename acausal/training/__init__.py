@@ -5,8 +5,11 @@ further questions. It may import every room below; none of them imports it. Insi
 minimise, `optimizers` how, and `uncertainty` computes how certain the result is; only `objective` lays records out.
 """
 
-from acausal.training.cross_validate import cross_validate as cross_validate
-from acausal.training.cross_validation import CrossValidation as CrossValidation, Fold as Fold
+from acausal.training.cross_validation import (
+    CrossValidation as CrossValidation,
+    Fold as Fold,
+    cross_validate as cross_validate,
+)
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
 from acausal.training.history import Divergence as Divergence, History as History

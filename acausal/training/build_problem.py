@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array, Float
 
 from acausal._jax import precision
 from acausal.data import Data, check_resolution
@@ -24,7 +25,6 @@ from acausal.simulation import (
     for_fixed_steps,
     solver_named,
 )
-from acausal.training.objective.context import context, states_before_training
 from acausal.training.objective.initial_state import by_record, first_states
 from acausal.training.objective.lay_out import check_step, lay_out
 from acausal.training.objective.losses import named
@@ -35,7 +35,7 @@ from acausal.training.objective.per_record import per_record
 from acausal.training.objective.prior import prior_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
-from acausal.training.objective.regularizers import Context, Regularizer, label
+from acausal.training.objective.regularizers import Context, Regularizer, Trajectory, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
 from acausal.training.objective.start_prior import start_prior
@@ -49,6 +49,10 @@ if TYPE_CHECKING:
 
 VARIES = 1e-12
 """A target that varies by less than this, relative to its size, counts as constant."""
+
+
+PASSED = 1000
+"""The most samples of the records in the context of regularizers; they are evenly spread."""
 
 
 def build_problem(
@@ -94,16 +98,7 @@ def build_problem(
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
     solver = _solver(options, dtype)
-    records, substeps = lay_out(
-        data,
-        system.inputs,
-        targets,
-        system.states,
-        options.dt,
-        solver=solver,
-        timing=times,
-        held=system.held_inputs,
-    )
+    records, substeps = lay_out(system, data, targets, options.dt, solver, times)
     for record in data.values():
         announce_derivatives(system.inputs, record)
     loss = named(options.loss, targets)
@@ -149,7 +144,7 @@ def build_problem(
     problem = with_sizes(problem)
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
-    return replace(problem, context=context(problem)) if options.penalties else problem
+    return replace(problem, context=_context(problem)) if options.penalties else problem
 
 
 def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
@@ -250,7 +245,7 @@ def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
     records = problem.records
     sequences = problem.sequences
     untrained = replace(problem, first_states=problem.first_states.from_model())
-    passed = np.array(states_before_training(untrained))
+    passed = np.array(_states_before_training(untrained))
     for i, name in enumerate(problem.system.states):
         for k, record in enumerate(data.values()):
             if name in record.signals:
@@ -259,3 +254,33 @@ def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
                 passed[rows, i] = np.where(np.isnan(measured), passed[rows, i], measured)
     rows = records.first if sequences.whole else sequences.starts
     return shooting_states(passed, np.asarray(rows), np.asarray(records.of))
+
+
+def _context(problem: Problem) -> Context:
+    """The arguments of regularizers besides the parameters.
+
+    Raises:
+        TrainingError: if states are not measured, and the model diverges.
+    """
+    rows = np.unique(np.linspace(0, len(problem.records) - 1, PASSED).astype(int))
+    x = _states_before_training(problem)
+    t = problem.records.steps.t
+    passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows])
+    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)), passed)
+
+
+def _states_before_training(problem: Problem) -> Float[Array, "N n_states"]:
+    """The states at every row: as measured, else as the model has them before training.
+
+    Raises:
+        TrainingError: if the model diverges.
+    """
+    measured = problem.records.x
+    if measured is not None and not bool(jnp.isnan(measured).any()):
+        return measured
+    x = problem.simulate(problem.start()).x
+    if not bool(jnp.isfinite(x).all()):
+        raise TrainingError(
+            "The model diverges over its records before training; start from better parameters."
+        )
+    return x

@@ -30,6 +30,9 @@ from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer
 from acausal.training.options import FitOptions
 
+DIVERGED = 1e3
+"""A sequence whose normalised error is larger has diverged."""
+
 EVALUATIONS = 10
 """Evaluations over the whole record in each leg, by default."""
 
@@ -116,15 +119,13 @@ def stages(options: FitOptions) -> tuple[Stage, ...]:
     return tuple(Stage(name, count, name.replace("_", " ")) for name, count in parts)
 
 
-def legs(
-    problem: Problem, planned: Sequence[Stage], options: FitOptions, limit: float
-) -> tuple[Leg, ...]:
-    """The legs of a training; a sequence with a loss above the limit has diverged.
+def legs(problem: Problem, planned: Sequence[Stage], options: FitOptions) -> tuple[Leg, ...]:
+    """The legs of a training.
 
     Raises:
         TrainingError: for an optimizer or a problem that a leg cannot have.
     """
-    return tuple(_leg(problem, stage, options, limit) for stage in planned)
+    return tuple(_leg(problem, stage, options) for stage in planned)
 
 
 def _objective(stage: Stage, problem: Problem) -> Problem:
@@ -133,7 +134,7 @@ def _objective(stage: Stage, problem: Problem) -> Problem:
     return over_windows(problem, stage.rows)
 
 
-def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> Leg:
+def _leg(problem: Problem, stage: Stage, options: FitOptions) -> Leg:
     epochs, kind = stage.epochs, KINDS[stage.kind]
     if stage.descent:
         chosen = lbfgs()
@@ -146,6 +147,7 @@ def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> L
                 "L-BFGS compares losses of the same data, and every batch holds others: take the whole "
                 "record (sequence_length=None), or strategy=('sequences', 'whole_record') with another optimizer."
             )
+    limit = DIVERGED if options.loss == "nrmse" else math.inf  # of a user's loss nothing is known
     trainer = Trainer(optax.with_extra_args_support(chosen), limit, Problem.changes, kind.evaluate)
     every = options.evaluate_every
     if every is None:

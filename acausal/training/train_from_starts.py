@@ -36,8 +36,7 @@ from acausal.training.loop import train
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
-from acausal.training.objective.losses import nrmse
-from acausal.training.objective.noise import noise_loss
+from acausal.training.objective.losses import noise_loss, nrmse
 from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
@@ -52,9 +51,6 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 LOGGER = logging.getLogger(__name__)
-
-DIVERGED = 1e3
-"""A sequence whose normalised error is larger has diverged."""
 
 EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
@@ -132,7 +128,7 @@ def prepare(
     problem = build_problem(system, kept.training, names, dict(starts[0]), options)
     held = hold_out(problem, kept, options.x0)
     planned = stages(options) if chosen is None else chosen.stages
-    plan = legs(problem, planned, options, _limit_of(options))
+    plan = legs(problem, planned, options)
     return Training(problem, kept.training, held, plan, options, seeds, starts, chosen)
 
 
@@ -206,11 +202,6 @@ def _trained_numbers(options: FitOptions) -> tuple[str, ...]:
     own = options.modifiers
     named = () if own is None or isinstance(own, Iterator) else tuple(own)
     return (*named, *(options.per_record or ()))
-
-
-def _limit_of(options: FitOptions) -> float:
-    """The loss above which a sequence has diverged; of a user's loss nothing is known."""
-    return DIVERGED if options.loss == "nrmse" else np.inf
 
 
 def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:

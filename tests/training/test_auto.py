@@ -20,7 +20,7 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
-from acausal.training.objective.noise import noise_of
+from acausal.training.objective.losses import noise_of
 from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow
 from tests.training.test_checkpoint import stop

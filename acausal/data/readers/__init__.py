@@ -8,6 +8,7 @@ from acausal.data.readers.data_frame import (
     data_frame as data_frame,
     frame_units as frame_units,
     is_data_frame as is_data_frame,
+    need_unique as need_unique,
     read_parquet as read_parquet,
     read_runs as read_runs,
 )

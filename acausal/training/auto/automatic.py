@@ -16,7 +16,7 @@ from acausal.networks import Affine, Scales, Shape, lacks_scales, linear_shape, 
 from acausal.training.auto.linear_start import LinearStart, linear_module, linear_start
 from acausal.training.auto.steps import Step, chosen_steps, tried_steps
 from acausal.training.build_problem import build_problem, trained_networks
-from acausal.training.objective.noise import noise_loss
+from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions

@@ -10,8 +10,7 @@ import numpy as np
 
 from acausal.simulation import EXPLICIT
 from acausal.training.auto.steps import LEAST, SHARE, difference
-from acausal.training.objective.losses import LOSSES
-from acausal.training.objective.noise import noise_loss
+from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.trained_model import TrainedModel

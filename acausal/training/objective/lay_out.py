@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -27,6 +27,9 @@ from acausal.training.objective.input_delays import delayed_inputs, end_to_end
 from acausal.training.objective.records import Records
 from acausal.training.objective.timing import Timing
 
+if TYPE_CHECKING:
+    from acausal.system import System
+
 ALIKE = 1e-6
 """Sample times that differ by less than this part count as equal."""
 
@@ -44,15 +47,14 @@ class Grid(NamedTuple):
 
 
 def lay_out(
+    system: System,
     data: Mapping[str, Data],
-    inputs: tuple[str, ...],
     targets: tuple[str, ...],
-    states: tuple[str, ...] | None,
-    longest: float | None = None,
+    longest: float | None,
+    solver: Scheme | Adaptive,
+    timing: Timing,
     *,
-    solver: Scheme | Adaptive | None = None,
-    timing: Timing | None = None,
-    held: Set[str] = frozenset(),
+    states: bool = True,
     measured: bool = True,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
@@ -60,12 +62,12 @@ def lay_out(
     Rows are samples where these are evenly spaced; otherwise rows are added until no step is too long.
 
     Arguments:
+        system: the model, whose states may be missing in some records.
         data: by name.
-        inputs, targets, states: names of signals; states may be missing in some records.
-        longest: step in seconds; by default steps go from sample to sample.
-        solver: of the steps, and
-        timing: the delays, where inputs are delayed.
-        held: inputs that keep each sample until the next, unless a record says otherwise.
+        targets: names of signals.
+        longest: step in seconds; ``None`` for steps from sample to sample.
+        solver: of the steps; ``timing``: the delays of inputs.
+        states: whether measured states are laid out, too.
         measured: whether the data need samples of every target.
 
     Raises:
@@ -76,7 +78,7 @@ def lay_out(
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     rows = [
-        _rows(d, g, inputs, targets, states, held, measured)
+        _rows(system, d, g, targets, states, measured)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -107,15 +109,9 @@ def lay_out(
         sampled=array(np.concatenate([g.sampled for g in grids]), bool),
         names=tuple(data),
     )
-    if timing is not None and solver is not None:
-        late = delayed_inputs(
-            inputs,
-            [r.functions for r in rows],
-            timing,
-            inner_fractions(solver, substeps),
-        )
-        records = replace(records, delayed=late)
-    return records, substeps
+    functions = [r.functions for r in rows]
+    late = delayed_inputs(system.inputs, functions, timing, inner_fractions(solver, substeps))
+    return replace(records, delayed=late), substeps
 
 
 class _Rows(NamedTuple):
@@ -128,12 +124,11 @@ class _Rows(NamedTuple):
 
 
 def _rows(
+    system: System,
     data: Data,
     grid: Grid,
-    inputs: tuple[str, ...],
     targets: tuple[str, ...],
-    states: tuple[str, ...] | None,
-    held: Set[str],
+    states: bool,
     measured: bool,
 ) -> _Rows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
@@ -142,9 +137,9 @@ def _rows(
         return rows
 
     span = float(grid.t[0]), float(grid.t[-1])
-    functions = functions_of_time(inputs, data, span, held=held)
+    functions = functions_of_time(system.inputs, data, span, held=system.held_inputs)
     inner = polynomials_over_steps(functions, grid.t)
-    names = states or ()
+    names = system.states if states else ()
     nothing = np.full(len(data), np.nan)
     x = [data.signals.get(n, nothing) for n in names] or [nothing]
     if measured:
