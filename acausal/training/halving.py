@@ -48,10 +48,6 @@ class Halving(NamedTuple):
         return min((r.at - done for r in self.rungs if r.at > done), default=math.inf)
 
 
-ALL = Halving()
-"""All trainings go on."""
-
-
 def halving(starts: int, updates: int) -> Halving:
     """The plan for some starts and updates; for one start there is nothing to choose."""
     rungs: list[Rung] = []

@@ -25,7 +25,7 @@ from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.prediction import Prediction, Predictions
 from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.trained_model import TrainedModel, out_of_range
-from acausal.training.uncertainty.bumps import BUMPS, bumped_law
+from acausal.training.uncertainty.bumps import bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
 from acausal.training.uncertainty.conformal import Conformal
 
@@ -225,15 +225,7 @@ def _deviations(
     @eqx.filter_jit
     def run(problem: Problem) -> tuple[Array, Array]:
         def predicted(w: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-            moves = root @ w[: len(root)]
-            nets = {
-                n: replace(law, heights=moves[k * BUMPS : (k + 1) * BUMPS])
-                for k, (n, law) in enumerate(bumped.items())
-            }
-            changes = moves[len(nets) * BUMPS :]
-            moved = problem.modifiers.changed(
-                {**params, **nets}, dict(zip(prior.names, changes, strict=True))
-            )
+            moved = with_changes(problem, params, bumped, root @ w[: len(root)])
             return problem.predict(own.moved(values + w[len(root) :] * scale), moved)
 
         return value_and_jacobian(predicted, jnp.zeros(len(root) + m), axis=-1)

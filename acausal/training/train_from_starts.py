@@ -32,7 +32,7 @@ from acausal.training.fingerprint import fingerprint
 from acausal.training.halving import halving
 from acausal.training.happened import grazing
 from acausal.training.logs import log_progress
-from acausal.training.loop import train
+from acausal.training.loop import Run
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
@@ -166,8 +166,9 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
         observers = (show, log_progress, *options.all_observers)
-        chosen = halving(options.starts, epochs)
-        trained = train(problem, starts, plan, keys, observers, keep, stored, held, chosen)
+        ends = halving(options.starts, epochs)
+        training_run = Run(problem, plan, keys, observers, keep, held, ends)
+        trained = training_run.train(starts, stored)
     for one in trained:
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch

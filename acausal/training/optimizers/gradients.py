@@ -9,7 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax.flatten_util import ravel_pytree
-from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
+from jaxtyping import Array, Bool, Float, PRNGKeyArray, PyTree
 
 from acausal._jax import value_and_jacobian
 
@@ -20,34 +20,11 @@ about one."""
 Scalar = Float[Array, ""]
 
 
-class WeightedBatch(Protocol):
-    """Sequences of a record."""
-
-    @property
-    def nudge(self) -> Float[Array, "batch n_states"] | None:
-        """Zeros that are added to the state at each sequence's start, if there is one."""
-        ...
-
-    def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> WeightedBatch:
-        """The batch with other starts."""
-        ...
-
-    @property
-    def start(self) -> Int[Array, " batch"]:
-        """Index of each sequence's first sample."""
-        ...
-
-    @property
-    def weight(self) -> Float[Array, " batch"]:
-        """Weight of each sequence."""
-        ...
-
-
 class Objective(Protocol):
     """What an optimizer can minimise: a pytree with pure functions. A trainable is a pytree of its own."""
 
     def draw(self, key: PRNGKeyArray) -> PyTree:
-        """A batch."""
+        """Some sequences with weights and starts, such as `acausal.training.objective.sequences.Batch`."""
         ...
 
     def losses(self, trainable: PyTree, batch: PyTree) -> Float[Array, " batch"]:
@@ -106,7 +83,7 @@ Evaluate = Callable[..., Evaluated]
 
 
 def total(
-    objective: Objective, trainable: PyTree, batch: WeightedBatch
+    objective: Objective, trainable: PyTree, batch: PyTree
 ) -> tuple[Scalar, tuple[Float[Array, " batch"], dict[str, Scalar]]]:
     """The total to minimise; and the losses and penalties in it."""
     losses = objective.losses(trainable, batch)
@@ -115,7 +92,7 @@ def total(
     return loss + _sum(penalties), (losses, penalties)
 
 
-def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch) -> Evaluated:
+def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> Evaluated:
     """The gradient alone, in reverse mode."""
     evaluate = jax.value_and_grad(
         lambda moved: total(objective, moved[0], batch.nudged(moved[1])), has_aux=True
@@ -129,7 +106,7 @@ def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch)
 
 
 def with_gauss_newton_hessian(
-    objective: LeastSquares, trainable: PyTree, batch: WeightedBatch
+    objective: LeastSquares, trainable: PyTree, batch: PyTree
 ) -> Evaluated:
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -11,6 +13,7 @@ from jax.scipy.special import erf
 from jaxtyping import Array, Float
 
 from acausal.networks import EnergyLaw, kept_promises, law_of, rise_of
+from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Network
 
 BUMPS, SIGMAS = 12, 3.0
@@ -92,3 +95,18 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
     mirrored = -1 if "odd" in kept else 1 if "even" in kept else 0
     hole = jnp.minimum(width, rise_of(network)) if "zero" in kept and mirrored >= 0 else None
     return Bumped(network, jnp.zeros(BUMPS), jnp.asarray(centres), width, hole, mirrored)
+
+
+def with_changes(
+    problem: Problem,
+    params: Mapping[str, Any],
+    bumped: Mapping[str, Bumped],
+    changes: Float[Array, " n"],
+) -> dict[str, Any]:
+    """Parameters after changes: heights of the bumps of all laws, then the changes of trained parameters."""
+    laws = {
+        name: replace(law, heights=changes[k * BUMPS : (k + 1) * BUMPS])
+        for k, (name, law) in enumerate(bumped.items())
+    }
+    moved = dict(zip(problem.modifiers.names, changes[BUMPS * len(laws) :], strict=True))
+    return problem.modifiers.changed({**params, **laws}, moved)

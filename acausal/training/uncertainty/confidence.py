@@ -30,7 +30,7 @@ from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
+from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law, with_changes
 from acausal.training.uncertainty.confidence_view import confidence_view
 from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
@@ -217,18 +217,14 @@ def confidence(
     bounds = np.cumsum([0, *(n for n, _ in ways)]).tolist()
 
     def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
-        bumps, changes, own, along = jnp.split(scale * z, ends)
+        changes, own, along = jnp.split(scale * z, ends[1:])
         nets = {
-            n: replace(
-                bumped[n],
-                net=params[n] if move is None else move(along[a:b]),
-                heights=bumps[k * BUMPS : (k + 1) * BUMPS],
-            )
-            for k, (n, (_, move), (a, b)) in enumerate(
-                zip(laws, ways, itertools.pairwise(bounds), strict=True)
+            n: law if move is None else replace(law, net=move(along[a:b]))
+            for (n, law), (_, move), (a, b) in zip(
+                bumped.items(), ways, itertools.pairwise(bounds), strict=True
             )
         }
-        new = problem.modifiers.changed({**params, **nets}, dict(zip(names, changes, strict=True)))
+        new = with_changes(problem, params, nets, changes)
         return _moved(problem, trainable, own), new
 
     scale = jnp.asarray(np.concatenate([deviations, own, np.ones(bounds[-1])]))
