@@ -10,7 +10,6 @@ It knows no model.
 
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
 from acausal.networks.arity import check_inputs as check_inputs
-from acausal.networks.convex import Convex as Convex
 from acausal.networks.energy_parts import (
     BesideQuadratic as BesideQuadratic,
     Bowl as Bowl,
@@ -47,7 +46,7 @@ from acausal.networks.law_parts import (
 )
 from acausal.networks.law_spec import Law as Law
 from acausal.networks.mlp import MLP as MLP
-from acausal.networks.monotone import Monotone as Monotone
+from acausal.networks.monotone_and_convex import Convex as Convex, Monotone as Monotone
 from acausal.networks.promises import (
     bounds_of as bounds_of,
     kept_promises as kept_promises,

@@ -16,10 +16,9 @@ from acausal.networks.energy_parts import BesideQuadratic, WithMinCurvature
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
 from acausal.networks.law_parts import BesideLinear, WithMinSlope, start_at
 from acausal.networks.mlp import MLP
-from acausal.networks.monotone import Monotone
+from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.promises import kept_promises
 from acausal.networks.scaled import EnergyLaw, Scaled
-from acausal.networks.secondary import number_of
 
 SCALES = ("input_scale", "output_scale")
 
@@ -180,7 +179,7 @@ def _smooth(net: Any) -> Any:
         if isinstance(net, MLP):
             like: Any = MLP(net.in_size, width, depth, "tanh", key=0)
         else:
-            like = Monotone(number_of(net.secondary), width, depth, "tanh", key=0)
+            like = Monotone(net.in_size - 1, width, depth, "tanh", key=0)
         return _filled(like, net)
     return replace(net, net=_smooth(net.net)) if hasattr(net, "net") else net
 

@@ -19,7 +19,7 @@ from acausal.networks.law_parts import (
     start_at,
 )
 from acausal.networks.mlp import MLP, Key
-from acausal.networks.monotone import Monotone
+from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.scaled import Scaled
 from acausal.networks.spec import Layers, Net, NetworkSpec, ZeroCrossing
 

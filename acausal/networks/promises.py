@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from acausal.networks.convex import Convex
 from acausal.networks.energy_parts import (
     BesideQuadratic,
     Bowl,
@@ -28,7 +27,7 @@ from acausal.networks.law_parts import (
     ThroughZero,
     WithMinSlope,
 )
-from acausal.networks.monotone import Monotone
+from acausal.networks.monotone_and_convex import Convex, Monotone
 from acausal.networks.scaled import EnergyLaw, Scaled
 
 Promises = frozenset[str]

@@ -14,7 +14,6 @@ import numpy as np
 from jaxtyping import Array, Bool, PRNGKeyArray
 
 from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
-from acausal.training.halving import Halving
 from acausal.training.history import Divergence
 from acausal.training.member import Best, Member, Trained, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
@@ -33,6 +32,7 @@ from acausal.training.optimizers.trainer import (
 )
 from acausal.training.progress import Observer, Progress
 from acausal.training.rejections import check_rejections
+from acausal.training.starts import Halving
 from acausal.training.strategy import Leg
 
 REPORT_EVERY = 0.5

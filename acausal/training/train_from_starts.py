@@ -29,7 +29,6 @@ from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
-from acausal.training.halving import halving
 from acausal.training.happened import grazing
 from acausal.training.logs import log_progress
 from acausal.training.loop import Run
@@ -44,7 +43,7 @@ from acausal.training.options import FitOptions
 from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
-from acausal.training.starts import spread_starts, starts_of
+from acausal.training.starts import halving, spread_starts, starts_of
 from acausal.training.strategy import Leg, legs, stage_results, stages
 
 if TYPE_CHECKING:

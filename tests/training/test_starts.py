@@ -16,11 +16,10 @@ import pytest
 import acausal as ac
 from acausal.components import translational as tl
 from acausal.training.build_problem import build_problem
-from acausal.training.halving import Halving, Rung, halving
 from acausal.training.objective.problem import Problem
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.options import FitOptions
-from acausal.training.starts import Starts, spread_starts
+from acausal.training.starts import Halving, Rung, Starts, halving, spread_starts
 from tests.support import oscillator
 from tests.training.test_checkpoint import stop
 

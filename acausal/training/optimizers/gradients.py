@@ -21,7 +21,10 @@ Scalar = Float[Array, ""]
 
 
 class Objective(Protocol):
-    """What an optimizer can minimise: a pytree with pure functions. A trainable is a pytree of its own."""
+    """What an optimizer can minimise: a pytree with pure functions. A trainable is a pytree of its own.
+
+    `predictions`, `compare` and `curvature` are of whole records, and give the Gauss-Newton Hessian.
+    """
 
     def draw(self, key: PRNGKeyArray) -> PyTree:
         """Some sequences with weights and starts, such as `acausal.training.objective.sequences.Batch`."""
@@ -38,10 +41,6 @@ class Objective(Protocol):
     def penalties(self, trainable: PyTree) -> dict[str, Scalar]:
         """Terms that are added, by name."""
         ...
-
-
-class LeastSquares(Objective, Protocol):
-    """An objective that compares predictions of a whole record, so that it has a Gauss-Newton Hessian."""
 
     def predictions(self, trainable: PyTree) -> Float[Array, "n_models n_samples n_targets"]:
         """The predictions of every model that counts."""
@@ -105,9 +104,7 @@ def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> Eva
     return Evaluated(losses, penalties, value, gradient, exploded)
 
 
-def with_gauss_newton_hessian(
-    objective: LeastSquares, trainable: PyTree, batch: PyTree
-) -> Evaluated:
+def with_gauss_newton_hessian(objective: Objective, trainable: PyTree, batch: PyTree) -> Evaluated:
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 
     This is the Hessian of Gauss and Newton. A loss ℓ counts as ½ℓ², over ℓ. For root mean squares this is a sum of
@@ -159,7 +156,7 @@ def _weighed(
 
 
 def _of_loss(
-    objective: LeastSquares,
+    objective: Objective,
     predicted: Float[Array, "n_samples n_targets"],
     jacobian: Float[Array, "P n_samples n_targets"],
 ) -> tuple[Scalar, Float[Array, " P"], Float[Array, "P P"]]:
