@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 from acausal._jax import as_key, check_time, is_number, need_double_precision
 from acausal.analysis.estimate import belief_at, filter_named
 from acausal.analysis.filtering import Belief, EnsembleFilter, Filter, Measured
-from acausal.analysis.tracking import Model, check_model, make_model, numbers_by_name
+from acausal.analysis.tracking import TrackedModel, check_model, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, need_compiled, shown
 from acausal.modeling import ByName
@@ -38,7 +38,7 @@ class Observer(ByName):
 
     def __init__(
         self,
-        model: Model,
+        model: TrackedModel,
         how: Filter,
         start: Belief,
         sigma: Float[Array, " p"],
@@ -204,7 +204,11 @@ def observer(
 
 
 def _correct(
-    model: Model, how: Filter, sigma: Float[Array, " p"], belief: Belief, row: Float[Array, " n"]
+    model: TrackedModel,
+    how: Filter,
+    sigma: Float[Array, " p"],
+    belief: Belief,
+    row: Float[Array, " n"],
 ) -> Belief:
     """The belief after measurements; the row has time, inputs and measurements, NaN where there are none."""
     t, u, y = jnp.split(row, [1, 1 + len(model.system.inputs)])
@@ -214,7 +218,7 @@ def _correct(
 
 
 def _step(
-    model: Model,
+    model: TrackedModel,
     how: Filter,
     sigma: Float[Array, " p"],
     walk: Float[Array, " m"],
@@ -231,6 +235,6 @@ def _step(
 
 @eqx.filter_jit
 def _read(
-    model: Model, names: tuple[str, ...], t: ArrayLike, z: Array, u: ArrayLike
+    model: TrackedModel, names: tuple[str, ...], t: ArrayLike, z: Array, u: ArrayLike
 ) -> Float[Array, " n_names"]:
     return model.system.read(names, model.values(jnp.asarray(t, float), z, jnp.asarray(u, float)))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypedDict, Unpack
 
 from acausal.data import readers
 from acausal.data.by_signal import Choices
-from acausal.data.given import Missing
+from acausal.data.given_columns import Missing
 from acausal.data.readers import Selection, Table
 from acausal.errors import DataError, nearest
 

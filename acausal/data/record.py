@@ -21,7 +21,7 @@ from acausal.data.by_signal import (
     kept,
 )
 from acausal.data.formats import Formats
-from acausal.data.given import Missing, check_table, columns_of
+from acausal.data.given_columns import Missing, check_table, columns_of
 from acausal.data.readers import Table, frame_units, is_data_frame
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal

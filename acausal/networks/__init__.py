@@ -31,6 +31,11 @@ from acausal.networks.from_data import (
     linear_shape as linear_shape,
     with_scales as with_scales,
 )
+from acausal.networks.in_params import (
+    networks as networks,
+    output_scale as output_scale,
+    remove_offset as remove_offset,
+)
 from acausal.networks.law_parts import (
     BesideLinear as BesideLinear,
     Between as Between,
@@ -59,9 +64,4 @@ from acausal.networks.scaled import (
     law_at as law_at,
     law_of as law_of,
     rise_of as rise_of,
-)
-from acausal.networks.trainable import (
-    networks as networks,
-    output_scale as output_scale,
-    remove_offset as remove_offset,
 )

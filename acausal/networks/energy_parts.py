@@ -8,10 +8,10 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.networks.law_parts import START, Part, least_and_more
+from acausal.networks.law_parts import START, Wrapper, least_and_more
 
 
-class Bowl(Part):
+class Bowl(Wrapper):
     """``½ |x|² softplus(F(x, T))``: positive except at zero, for any network ``F``."""
 
     inputs: int = eqx.field(static=True, default=1)
@@ -22,7 +22,7 @@ class Bowl(Part):
         return 0.5 * squares * jax.nn.softplus(self.net(*inputs) + START)
 
 
-class FromRest(Part):
+class FromRest(Wrapper):
     """``W(x, T) − W(0, T)``: an energy less its value at rest."""
 
     inputs: int = eqx.field(static=True, default=1)
@@ -33,7 +33,7 @@ class FromRest(Part):
         return self.net(*inputs) - self.net(*rest, *inputs[self.inputs :])
 
 
-class Levelled(Part):
+class Levelled(Wrapper):
     """``W(x, T) − W(0, T) − ∂W(0, T)/∂x · x``: no energy and no force at rest.
 
     A convex ``W`` lies above its tangents, so that the rest is nowhere negative.
@@ -50,7 +50,7 @@ class Levelled(Part):
         return self.net(*inputs) - value - change
 
 
-class BesideQuadratic(Part):
+class BesideQuadratic(Wrapper):
     """``W(x) + Σ ½ slope_i x_i² + offset x_1``: an energy beside that of a linear law; attributes as there."""
 
     slope: Float[Array, " n"]
@@ -65,7 +65,7 @@ class BesideQuadratic(Part):
         return self.net(*inputs) + squares + ahead
 
 
-class WithMinCurvature(Part):
+class WithMinCurvature(Wrapper):
     """``W(x, T) + ½ (least + softplus(more)) |x|²``: a convex energy whose curvature is at least ``least``.
 
     Attributes:

@@ -13,7 +13,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError, shown
-from acausal.networks.law_parts import Part
+from acausal.networks.law_parts import Wrapper
 
 Extrapolation = Literal["saturating", "linear", "cubic"]
 """Constant beyond the limit, along the tangent there, or along a cubic."""
@@ -21,7 +21,7 @@ Extrapolation = Literal["saturating", "linear", "cubic"]
 ScalarFunction = Callable[[Array], Array]
 
 
-class _Extrapolated(Part):
+class _Extrapolated(Wrapper):
     low: float = eqx.field(static=True)
     high: float = eqx.field(static=True)
     extrapolation: Extrapolation = eqx.field(static=True, default="linear")

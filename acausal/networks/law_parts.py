@@ -17,7 +17,7 @@ START = -2.0
 """Added to a network inside a softplus, so that a law starts small: softplus(-2) = 0.13."""
 
 
-class Part(eqx.Module):
+class Wrapper(eqx.Module):
     """A network around another one.
 
     Attributes:
@@ -27,7 +27,7 @@ class Part(eqx.Module):
     net: Callable[..., Array]
 
 
-class Odd(Part):
+class Odd(Wrapper):
     """``½ (F(x, T) − F(−x, T))``: odd in the first input, and as monotone as ``F`` is."""
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
@@ -36,7 +36,7 @@ class Odd(Part):
         return 0.5 * (self.net(x, *others) - self.net(-jnp.asarray(x), *others))
 
 
-class Even(Part):
+class Even(Wrapper):
     """``½ (F(x, T) + F(−x, T))``: even if all first inputs change sign, and as convex as ``F`` is.
 
     Attributes:
@@ -51,7 +51,7 @@ class Even(Part):
         return 0.5 * (self.net(*inputs) + self.net(*mirrored, *inputs[self.inputs :]))
 
 
-class OffsetCorrected(Part):
+class OffsetCorrected(Wrapper):
     """A network less its value at zero: ``F̃(x) = F(x) − F(0)``, the paper's (5).
 
     With secondary inputs only the first is set to zero: ``F̃(x, T) = F(x, T) − F(0, T)``.
@@ -81,7 +81,7 @@ class DryFrictionFactor(eqx.Module):
         return jnp.exp(jnp.clip(self.steepness, -STEEPEST, STEEPEST))
 
 
-class WithFactor(Part):
+class WithFactor(Wrapper):
     """Base of laws that are a product of a `DryFrictionFactor` of the first input and a network."""
 
     factor: DryFrictionFactor = eqx.field(default_factory=DryFrictionFactor)
@@ -103,7 +103,7 @@ class Passive(WithFactor):
         return self.factor(inputs[0]) * jax.nn.softplus(self.net(*inputs) + START)
 
 
-class SameSign(Part):
+class SameSign(Wrapper):
     """A law that has the sign of its first input apart from rounding; here it has the sign exactly.
 
     Where the signs differ, the value is subtracted from itself: that leaves zero, and the derivatives as they are.
@@ -116,7 +116,7 @@ class SameSign(Part):
         return value - jax.lax.stop_gradient(jnp.where(differ, value, jnp.zeros_like(value)))
 
 
-class Positive(Part):
+class Positive(Wrapper):
     """``least + softplus(F)``, never below ``least``."""
 
     least: float = eqx.field(static=True, default=0.0)
@@ -126,7 +126,7 @@ class Positive(Part):
         return self.least + jax.nn.softplus(self.net(*inputs))
 
 
-class Between(Part):
+class Between(Wrapper):
     """``low + (high − low) σ(F + start)`` with the logistic function σ: between two bounds.
 
     Attributes:
@@ -143,7 +143,7 @@ class Between(Part):
         return self.low + (self.high - self.low) * share
 
 
-class BesideLinear(Part):
+class BesideLinear(Wrapper):
     """``F(x) + Σ slope_i x_i + offset``: a law beside a linear one.
 
     Where the network saturates, the law goes on along the linear one.
@@ -162,7 +162,7 @@ class BesideLinear(Part):
         return self.net(*inputs) + linear + (0.0 if self.offset is None else self.offset)
 
 
-class WithMinSlope(Part):
+class WithMinSlope(Wrapper):
     """``F(x, T) + (least + softplus(more)) x``: a monotone law whose derivative is at least ``least``.
 
     Attributes:

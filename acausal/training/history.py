@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 from acausal.errors import DataError, listing
 from acausal.training.happened import EventChange
 from acausal.training.objective.records import Places
-from acausal.training.optimizers.trainer import Entry
+from acausal.training.optimizers.trainer import UpdateLog
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,8 @@ class Evaluation(NamedTuple):
     events: tuple[int, ...] = ()
 
 
-class Rows(NamedTuple):
-    """The content of a `Log` at some moment.
+class LogContent(NamedTuple):
+    """The content of a `TrainingLog` at some moment.
 
     Attributes:
         chunks: columns of some updates each, by name.
@@ -141,7 +141,7 @@ class Rows(NamedTuple):
 EVALUATIONS = "evaluations"
 
 
-class Log:
+class TrainingLog:
     """Collects a `History` while training runs.
 
     Arguments:
@@ -167,7 +167,7 @@ class Log:
         self.epochs = 0
 
     def add(
-        self, entry: Entry, count: int, started: float, ended: float, part: int = 0
+        self, entry: UpdateLog, count: int, started: float, ended: float, part: int = 0
     ) -> list[Divergence]:
         """Add the first ``count`` rows of a chunk's log, of a part of the strategy; returns its divergences."""
         reported = {
@@ -215,9 +215,9 @@ class Log:
         """The loss of the last update that was not turned down."""
         return self._loss
 
-    def rows(self) -> Rows:
+    def rows(self) -> LogContent:
         """What was collected up to now."""
-        return Rows(tuple(self._chunks), tuple(self.evaluations))
+        return LogContent(tuple(self._chunks), tuple(self.evaluations))
 
     def go_on(self, columns: Mapping[str, np.ndarray]) -> None:
         """Fill this empty log with the content of another one: its ``rows().columns()``.
@@ -226,6 +226,12 @@ class Log:
             DataError: if they are not the columns of such a log.
         """
         chunk = {n: column for n, column in columns.items() if n != EVALUATIONS}
+        if (
+            "diverged" in chunk
+        ):  # logs of earlier versions tell neither exploded gradients nor trials
+            chunk.setdefault("exploded", np.zeros_like(chunk["diverged"]))
+            chunk.setdefault("turned_down", np.zeros(len(chunk["diverged"]), bool))
+            chunk.setdefault("part", np.zeros(len(chunk["diverged"]), int))
         if EVALUATIONS not in columns or chunk.keys() != self._chunks[0].keys():
             raise DataError(f"The log of the training has other columns: {listing(columns)}.")
         self._append(chunk)

@@ -158,7 +158,7 @@ def _crossing(
 
 
 @dataclass(frozen=True)
-class _Held(Shift):
+class _HeldShift(Shift):
     """A parameter that stays where it is put, because all derivatives by it are zero."""
 
     def change(self, value: Float[Array, ""], delta: Float[Array, ""]) -> Float[Array, ""]:
@@ -256,7 +256,7 @@ def _starts(
     moved = problem.modifiers
     i = moved.names.index(name)
     centre, scale = float(params[name]), float(np.ptp(values))
-    kinds = (*moved.kinds[:i], _Held(scale), *moved.kinds[i + 1 :])
+    kinds = (*moved.kinds[:i], _HeldShift(scale), *moved.kinds[i + 1 :])
     start = (*moved.values[:i], jnp.asarray(centre), *moved.values[i + 1 :])
     free = replace(
         problem,

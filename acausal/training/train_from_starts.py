@@ -31,7 +31,6 @@ from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.happened import grazing
 from acausal.training.logs import log_progress
-from acausal.training.loop import Run
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
@@ -45,6 +44,7 @@ from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
 from acausal.training.starts import halving, spread_starts, starts_of
 from acausal.training.strategy import Leg, legs, stage_results, stages
+from acausal.training.training_run import TrainingRun
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -166,7 +166,7 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     ):
         observers = (show, log_progress, *options.all_observers)
         ends = halving(options.starts, epochs)
-        training_run = Run(problem, plan, keys, observers, keep, held, ends)
+        training_run = TrainingRun(problem, plan, keys, observers, keep, held, ends)
         trained = training_run.train(starts, stored)
     for one in trained:
         LOGGER.info(

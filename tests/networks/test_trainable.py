@@ -10,7 +10,7 @@ import acausal as ac
 from acausal.analysis import arguments, calls, labels
 from acausal.codegen import Values
 from acausal.components import neural, translational as tl
-from acausal.networks.trainable import networks
+from acausal.networks.in_params import networks
 from tests.support.oscillator import learned
 
 

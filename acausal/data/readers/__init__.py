@@ -12,7 +12,7 @@ from acausal.data.readers.data_frame import (
     read_parquet as read_parquet,
     read_runs as read_runs,
 )
-from acausal.data.readers.files import files as files
+from acausal.data.readers.many_files import files as files
 from acausal.data.readers.mat_file import read_mat as read_mat
 from acausal.data.readers.mdf_file import read_mdf as read_mdf
 from acausal.data.readers.table import (

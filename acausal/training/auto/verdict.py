@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.simulation import EXPLICIT
-from acausal.training.auto.steps import LEAST, SHARE, difference
+from acausal.training.auto.step_choice import LEAST, SHARE, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable

@@ -114,7 +114,7 @@ def lay_out(
     return replace(records, delayed=late), substeps
 
 
-class _Rows(NamedTuple):
+class _RecordRows(NamedTuple):
     """The rows of one record; NaN where nothing is measured."""
 
     y: Float[np.ndarray, "n n_targets"]
@@ -130,7 +130,7 @@ def _rows(
     targets: tuple[str, ...],
     states: bool,
     measured: bool,
-) -> _Rows:
+) -> _RecordRows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
         rows[grid.sampled] = columns
@@ -146,7 +146,7 @@ def _rows(
         y = data.columns(targets, "a target of the training")
     else:
         y = np.stack([data.signals.get(n, nothing) for n in targets], axis=1)
-    return _Rows(
+    return _RecordRows(
         at_rows(y),
         at_rows(np.stack(x, axis=1)),
         _with_last(inner, functions, grid.t[-1:]),

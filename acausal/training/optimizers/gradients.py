@@ -57,7 +57,7 @@ class Objective(Protocol):
         ...
 
 
-class Evaluated(eqx.Module):
+class LossDerivatives(eqx.Module):
     """Losses of a batch, and the derivatives of their mean by what is trained.
 
     Attributes:
@@ -77,7 +77,7 @@ class Evaluated(eqx.Module):
     hessian: Float[Array, "P P"] | None = None
 
 
-Evaluate = Callable[..., Evaluated]
+Evaluate = Callable[..., LossDerivatives]
 """(objective, trainable, batch) -> losses and derivatives."""
 
 
@@ -91,7 +91,7 @@ def total(
     return loss + _sum(penalties), (losses, penalties)
 
 
-def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> Evaluated:
+def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> LossDerivatives:
     """The gradient alone, in reverse mode."""
     evaluate = jax.value_and_grad(
         lambda moved: total(objective, moved[0], batch.nudged(moved[1])), has_aux=True
@@ -101,10 +101,12 @@ def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> Eva
     exploded = jnp.zeros(losses.shape, bool)
     if by_start is not None:
         exploded = ~jnp.isfinite(by_start).all(axis=1)
-    return Evaluated(losses, penalties, value, gradient, exploded)
+    return LossDerivatives(losses, penalties, value, gradient, exploded)
 
 
-def with_gauss_newton_hessian(objective: Objective, trainable: PyTree, batch: PyTree) -> Evaluated:
+def with_gauss_newton_hessian(
+    objective: Objective, trainable: PyTree, batch: PyTree
+) -> LossDerivatives:
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 
     This is the Hessian of Gauss and Newton. A loss ℓ counts as ½ℓ², over ℓ. For root mean squares this is a sum of
@@ -134,7 +136,7 @@ def with_gauss_newton_hessian(objective: Objective, trainable: PyTree, batch: Py
     value = loss + _sum(penalties)
     exploded = ~(jnp.max(jnp.abs(gradient)) < EXPLODED * jnp.maximum(value, 1.0))
     gradient = jnp.where(exploded, jnp.nan, gradient)
-    return Evaluated(mean[None], penalties, value, unravel(gradient), exploded[None], hessian)
+    return LossDerivatives(mean[None], penalties, value, unravel(gradient), exploded[None], hessian)
 
 
 def _weighed(

@@ -32,7 +32,7 @@ from acausal.training.objective.records import Records
 from acausal.training.objective.trainable import Trainable
 from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law, with_changes
 from acausal.training.uncertainty.confidence_view import confidence_view
-from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
+from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
 from acausal.training.uncertainty.step_error import largest_move, step_error
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
@@ -242,7 +242,7 @@ def confidence(
     weighted = sensitivity[..., :count]
     along = sensitivity[..., count + alone :].reshape(left.size, bounds[-1])
     blocks = [
-        Blocks(*(s.reshape(w.shape[0] * w.shape[1], s.shape[-1]) for s in (w, o)))
+        RecordJacobian(*(s.reshape(w.shape[0] * w.shape[1], s.shape[-1]) for s in (w, o)))
         for w, o in zip(
             *(
                 np.split(s, np.asarray(problem.records.first)[1:])
@@ -305,14 +305,14 @@ def _earlier(
     problem: Problem,
     changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
     count: int,
-    like: Blocks,
-) -> list[Blocks]:
+    like: RecordJacobian,
+) -> list[RecordJacobian]:
     """What the training knew before, as one more record; none if that is nothing."""
     if (prior := problem.prior) is None:
         return []
     jacobian = jax.jit(jax.jacfwd(lambda z: prior.misfit(changed(z)[1])))(jnp.zeros(count))
     rows = np.asarray(jacobian)[:, : like.common.shape[1]]
-    return [Blocks(rows, np.zeros((len(rows), like.own.shape[1])))]
+    return [RecordJacobian(rows, np.zeros((len(rows), like.own.shape[1])))]
 
 
 def _as_prior(

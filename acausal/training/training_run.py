@@ -22,8 +22,8 @@ from acausal.training.objective.sharding import of_first_process, on_default_dev
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.trainer import (
     UPDATES_PER_CALL,
-    Entry,
     State,
+    UpdateLog,
     advance,
     begin,
     candidates,
@@ -39,7 +39,7 @@ REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
 
 
-class Run:
+class TrainingRun:
     """Trainings of one problem that run in one program: leg by leg, each from the best state of the one before.
 
     Arguments:
@@ -240,7 +240,7 @@ class Run:
         return jnp.zeros(len(self.members), bool).at[np.asarray(self.going)].set(True)
 
     def _log(
-        self, before: State, state: State, entries: Entry, started: float, ended: float
+        self, before: State, state: State, entries: UpdateLog, started: float, ended: float
     ) -> list[Divergence]:
         """Log some updates; returns what diverged."""
         size, new = len(self.members), []

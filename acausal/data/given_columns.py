@@ -25,7 +25,7 @@ Columns: TypeAlias = dict[str, Float[np.ndarray, " n"]]
 
 
 @dataclass(frozen=True)
-class Measured:
+class GivenSignal:
     """A signal as measured: samples at times of its own, or (``times`` is None) at those of the record."""
 
     times: Float[np.ndarray, " n"] | None
@@ -131,11 +131,11 @@ def _copied(made: np.ndarray, *given: np.ndarray) -> np.ndarray:
     return np.array(made) if any(np.may_share_memory(made, a) for a in given) else made
 
 
-def _measured(name: str, given: Any, unit: str) -> Measured:
+def _measured(name: str, given: Any, unit: str) -> GivenSignal:
     """Samples, or a pair (times, samples), as arrays where they can be."""
     if not (isinstance(given, tuple) and len(given) == 2 and all(map(_is_vector, given))):
-        return Measured(None, _array(given))
-    return Measured(_times(given[0], f"'{name}'", unit), _array(given[1]))
+        return GivenSignal(None, _array(given))
+    return GivenSignal(_times(given[0], f"'{name}'", unit), _array(given[1]))
 
 
 def _is_vector(given: Any) -> bool:
@@ -152,7 +152,7 @@ def _array(given: Any) -> Any:
         return given
 
 
-def _check_times(ts: object, measured: Mapping[str, Measured]) -> None:
+def _check_times(ts: object, measured: Mapping[str, GivenSignal]) -> None:
     """Refuse signals without times, and times without signals."""
     without = [name for name, given in measured.items() if given.times is None]
     if ts is None and (without or not measured):
@@ -164,7 +164,7 @@ def _check_times(ts: object, measured: Mapping[str, Measured]) -> None:
         raise DataError("All signals have times of their own; leave out those of the record.")
 
 
-def _masks(given: object, measured: Mapping[str, Measured]) -> Mapping[str, np.ndarray]:
+def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, np.ndarray]:
     """Which samples count, by the name of a signal.
 
     Raises:
