@@ -115,10 +115,7 @@ def estimate(
         DataError: if the record lacks inputs or measurements, or an argument does not fit.
         ModelError: for a model that is not compiled, or that has events or no states.
     """
-    need_compiled(system, "estimate")
-    need_double_precision()
-    check_model(system, "estimate")
-    how = filter_named(method)
+    how = filter_for(system, method, "estimate")
     members = need_whole(members, "members", DataError, 2)
     data = Data.of(record).for_system(system)
     if len(data) < 2:
@@ -160,12 +157,16 @@ def estimate(
 EKF = Linearized(by_derivatives)
 
 
-def filter_named(method: str) -> Filter:
-    """A filter by its name.
+def filter_for(system: System, method: str, what: str) -> Filter:
+    """The filter of a name, for a model that it can follow.
 
     Raises:
         DataError: for an unknown name.
+        ModelError: for a model that is not compiled, or that has events or no states.
     """
+    need_compiled(system, what)
+    need_double_precision()
+    check_model(system, what)
     if not isinstance(method, str):
         raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
     if method == "mhe":

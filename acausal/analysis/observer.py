@@ -13,12 +13,12 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import as_key, check_time, is_number, need_double_precision
-from acausal.analysis.estimate import belief_at, filter_named
+from acausal._jax import as_key, check_time, is_number
+from acausal.analysis.estimate import belief_at, filter_for
 from acausal.analysis.filtering import Belief, EnsembleFilter, Filter, Measured
-from acausal.analysis.tracking import TrackedModel, check_model, make_model, numbers_by_name
+from acausal.analysis.tracking import TrackedModel, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
-from acausal.errors import DataError, need_compiled, shown
+from acausal.errors import DataError, shown
 from acausal.modeling import ByName
 from acausal.simulation import Samples, Steps
 
@@ -170,10 +170,7 @@ def observer(
         DataError: if an argument does not fit.
         ModelError: for a model that is not compiled, or that has events or no states.
     """
-    need_compiled(system, "observer")
-    need_double_precision()
-    check_model(system, "observer")
-    how = filter_named(method)
+    how = filter_for(system, method, "observer")
     if isinstance(how, EnsembleFilter):
         raise DataError("observer: method='enkf' draws random numbers; take 'ekf' or 'ukf'.")
     if not (is_number(sample_time) and sample_time > 0):

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
@@ -175,21 +174,19 @@ def _smooth(net: Any) -> Any:
     if isinstance(net, MLP | Monotone):
         if net.activation != "relu":
             return net
-        width, depth = len(net.biases[0]), len(net.biases) - 1
-        if isinstance(net, MLP):
-            like: Any = MLP(net.in_size, width, depth, "tanh", key=0)
-        else:
-            like = Monotone(net.in_size - 1, width, depth, "tanh", key=0)
-        return _filled(like, net)
+        unscaled = _unscaled(net, SCALES) if isinstance(net, MLP) else net
+        return _with(unscaled, activation="tanh")
     return replace(net, net=_smooth(net.net)) if hasattr(net, "net") else net
 
 
-def _unscaled(net: MLP) -> MLP:
+def _unscaled(net: MLP, left_open: tuple[str, ...] = ()) -> MLP:
     """The same weights without scales."""
-    width, depth = len(net.biases[0]), len(net.biases) - 1
-    like = MLP(net.in_size, width, depth, net.activation, input_scale=1.0, output_scale=1.0, key=0)
-    return _filled(like, net)
+    return _with(net, input_scale=1.0, output_scale=1.0, left_open=left_open)
 
 
-def _filled(like: Any, net: Any) -> Any:
-    return jax.tree.unflatten(jax.tree.structure(like), jax.tree.leaves(net))
+def _with(net: Any, **settings: Any) -> Any:
+    """The same network with other settings."""
+    found = object.__new__(type(net))
+    for field in fields(net):
+        object.__setattr__(found, field.name, settings.get(field.name, getattr(net, field.name)))
+    return found
