@@ -76,16 +76,16 @@ def build_problem(
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     system.pack(params)  # refuses what does not fit
-    chosen = trained_networks(system, options.train, params)
+    names_of_networks = trained_networks(system, options.train, params)
     layout = system.layout
-    changed = modifiers(
+    trained_parameters = modifiers(
         options.modifiers, options.gamma, params, layout.why_not_free, layout.declared_range
     )
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
-    changed = changed.joined(moving)
-    if not chosen and not changed.names and not options.per_record:
+    trained_parameters = trained_parameters.joined(moving)
+    if not names_of_networks and not trained_parameters.names and not options.per_record:
         raise TrainingError(
-            "There is nothing to train: no network is in the model or chosen by train=[...]. "
+            "There is nothing to train: no network is in the model or names_of_networks by train=[...]. "
             "Give modifiers=[...] to train parameters."
         )
     _check_targets(system, targets)
@@ -118,8 +118,8 @@ def build_problem(
         params={
             n: leaf if callable(leaf) else jnp.asarray(leaf, float) for n, leaf in params.items()
         },
-        networks=chosen,
-        modifiers=changed,
+        networks=names_of_networks,
+        modifiers=trained_parameters,
         parameter_spread=parameter_spread(options.parameter_spread, params, layout.declared_range),
         per_record=per_record(system, options.per_record, params, records.count),
         timing=times,

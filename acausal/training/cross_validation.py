@@ -266,11 +266,11 @@ def cross_validate(
         TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "cross_validate")
-    chosen = FitOptions.of("cross_validate", options)
+    fit_options = FitOptions.of("cross_validate", options)
     for name, reason in REFUSED.items():
-        if getattr(chosen, name) is not None:
+        if getattr(fit_options, name) is not None:
             raise TrainingError(f"cross_validate has no {name}=: {reason}; leave it out.")
-    training = prepare(system, data, targets, chosen, seeds=(seed,), params=(params,))
+    training = prepare(system, data, targets, fit_options, seeds=(seed,), params=(params,))
     found: list[Fold] = []
     for part in left_out(training.problem.records, folds):
         fold = _fold(training, part)

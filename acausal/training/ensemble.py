@@ -175,10 +175,10 @@ def ensemble(
     """
     need_compiled(system, "ensemble")
     members = need_whole(members, "members", TrainingError, 2)
-    chosen = FitOptions.of("ensemble", options)
-    if chosen.devices is not None:
+    fit_options = FitOptions.of("ensemble", options)
+    if fit_options.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
-    if chosen.starts > 1:
+    if fit_options.starts > 1:
         raise TrainingError(
             "The members of an ensemble differ in their seeds alone: leave out starts=, or pass the params of an "
             "ac.fit(..., starts=...)."
@@ -194,7 +194,7 @@ def ensemble(
     if len(params) != members:
         raise TrainingError(f"There are {len(params)} params for {members} members.")
     seeds = tuple(range(seed, seed + members))
-    return Ensemble(run(prepare(system, data, targets, chosen, seeds=seeds, params=params)))
+    return Ensemble(run(prepare(system, data, targets, fit_options, seeds=seeds, params=params)))
 
 
 def _mean_and_deviation(

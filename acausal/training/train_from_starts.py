@@ -116,19 +116,17 @@ def prepare(
     kept = split(records, options.validation)
     names = names_in(targets, "targets")
     check_records(options.x0, (*records, *(kept.held or {})))
-    chosen = None
+    from_data = None
     if options.automatic:
-        with (
-            warnings.catch_warnings()
-        ):  # what there is to warn of, the problem of the training says again
+        with warnings.catch_warnings():  # the problem of the training warns again
             warnings.simplefilter("ignore")
-            chosen = automatic(system, kept.training, names, starts, options)
-        options, starts = chosen.options, list(chosen.params)
+            from_data = automatic(system, kept.training, names, starts, options)
+        options, starts = from_data.options, list(from_data.params)
     problem = build_problem(system, kept.training, names, dict(starts[0]), options)
     held = hold_out(problem, kept, options.x0)
-    planned = stages(options) if chosen is None else chosen.stages
+    planned = stages(options) if from_data is None else from_data.stages
     plan = legs(problem, planned, options)
-    return Training(problem, kept.training, held, plan, options, seeds, starts, chosen)
+    return Training(problem, kept.training, held, plan, options, seeds, starts, from_data)
 
 
 def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:
@@ -149,11 +147,9 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     if training.automatic is not None and options.starts == 1:
         starts = [training.automatic.begin(problem, start) for start in starts]
     keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
-    identity = (
-        {}
-        if options.checkpoint is None
-        else fingerprint(problem, plan, seeds, starts[1:], held, training.records)
-    )
+    identity: dict[str, str] = {}
+    if options.checkpoint is not None:
+        identity = fingerprint(problem, plan, seeds, starts[1:], held, training.records)
     path, stored = _checkpoint(options, identity)
     what = ", ".join((*problem.networks, *problem.modifiers.names))
     LOGGER.info(
@@ -166,8 +162,9 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     ):
         observers = (show, log_progress, *options.all_observers)
         ends = halving(options.starts, epochs)
-        training_run = TrainingRun(problem, plan, keys, observers, keep, held, ends)
-        trained = training_run.train(starts, stored)
+        trained = TrainingRun(problem, plan, keys, observers, keep, held, ends).train(
+            starts, stored
+        )
     for one in trained:
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
@@ -179,28 +176,26 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
-    settings = [{"seed": str(seed), **options.described()} for seed in seeds]
-    chosen = training.automatic
-    linear = None if chosen is None or chosen.linear is None else chosen.linear.loss
-    not_laws = None if chosen is None else chosen.not_laws
+    from_data, described = training.automatic, options.described()
+    linear = None if from_data is None or from_data.linear is None else from_data.linear.loss
     return tuple(
         result(
             own,
             one,
             judged or held,
             spread,
-            said,
+            {"seed": str(seed), **described},
             stage_results(one.history, plan, linear),
-            not_laws,
+            None if from_data is None else from_data.not_laws,
         )
-        for own, one, said in zip(problems, trained, settings, strict=True)
+        for own, one, seed in zip(problems, trained, seeds, strict=True)
     )
 
 
 def _trained_numbers(options: FitOptions) -> tuple[str, ...]:
     """The parameters that are trained beside networks."""
-    own = options.modifiers
-    named = () if own is None or isinstance(own, Iterator) else tuple(own)
+    moved = options.modifiers
+    named = () if moved is None or isinstance(moved, Iterator) else tuple(moved)
     return (*named, *(options.per_record or ()))
 
 
