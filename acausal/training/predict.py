@@ -94,8 +94,12 @@ def predict(
         }
         every = {f.name: getattr(record, f.name) for f in fields(RecordFit)}
         return Prediction(
-            **every, bands=bands, outside=out_of_range(record, fit), found=_told(problem, k), units=units
-        )  # fmt: skip
+            **every,
+            bands=bands,
+            outside=out_of_range(record, fit),
+            found=found_starts(problem, slice(k, k + 1)),
+            units=units,
+        )
 
     return Predictions({n: one(k, r) for k, (n, r) in enumerate(made.items())}, system)
 
@@ -249,12 +253,3 @@ def _deviations(
             "rti,ij,rtj->rt", alone, covariance, alone
         )
     return np.sqrt(variance + np.square(noise))
-
-
-def _told(problem: Problem, k: int) -> str:
-    """A clause on the initial states of a record that were found."""
-    if problem.start_prior is None:
-        return ""
-    first, scale, rows = problem.first_states, problem.start_prior.scale, slice(k, k + 1)
-    alone = replace(first, kind=first.kind[rows], given=first.given[rows])
-    return found_starts(replace(problem, first_states=alone, start_prior=StartPrior(scale[rows])))

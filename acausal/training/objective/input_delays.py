@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from acausal._jax import array
-from acausal.data import FRACTIONS, Signal, deviation_from_line
+from acausal.data import FRACTIONS, Signal, deviation_from_line, polynomial_coefficients
 from acausal.errors import TrainingError
 from acausal.simulation import (
     Parts,
@@ -171,23 +171,11 @@ class DelayedInputs(eqx.Module):
                 at = [low + node * (high - low) for node in nodes]
                 columns.append([on_curve(*ends, curve, s) for s in at])
         start, end = (jnp.stack([c[k] for c in columns], axis=-1) for k in (0, -1))
-        curves = [_coefficients(self.fractions, c[0], c[-1], c[1:-1]) for c in columns]
-        return Samples(start, end, (), jnp.stack(curves, axis=-1) if self.fractions else None)
-
-
-def _coefficients(
-    fractions: tuple[float, ...],
-    start: Float[Array, "*n"],
-    end: Float[Array, "*n"],
-    values: Sequence[Float[Array, "*n"]],
-) -> Float[Array, "*n n_fractions"]:
-    """Coefficients for `deviation_from_line` of the polynomial through both ends and some values in between."""
-    if not values:
-        return jnp.zeros((*start.shape, 0))
-    p = np.asarray(fractions)
-    inverse = np.linalg.inv((p * (1 - p))[:, None] * p[:, None] ** np.arange(len(p)))
-    line = start[..., None] + (end - start)[..., None] * p
-    return (jnp.stack(values, axis=-1) - line) @ inverse.T
+        if not self.fractions:
+            return Samples(start, end)
+        inner = jnp.stack([jnp.stack(c[1:-1], axis=-1) for c in columns], axis=-2)
+        curves = polynomial_coefficients(start, end, inner, self.fractions)
+        return Samples(start, end, (), jnp.moveaxis(curves, 0, -2))
 
 
 NOTHING_DELAYED = DelayedInputs((), (), (), (), 0)

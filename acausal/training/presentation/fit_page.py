@@ -29,6 +29,8 @@ from acausal.training.uncertainty.residuals import Residuals
 LOSSES = 2000
 """Losses that are drawn."""
 
+NOT_SURE = "The trained model diverges over the record; what it has learned cannot be assessed."
+
 DIVERGENCES_SHOWN = 50
 """Divergences that are listed."""
 
@@ -66,7 +68,7 @@ def fit_content(
             "Parameters of records": [_own(fit, sure)],
         },
         "Trust": {
-            "How sure it is": [Text(s) for s in _sentences(sure)],
+            "How sure it is": [Text(s) for s in ([NOT_SURE] if sure is None else sure.summary())],
             "Profiles": [block for p in profiles for block in _profile(p)],
             "Residuals": [] if sure is None else [b for r in fit.residuals() for b in _residuals(r)],
             "What diverged": list(_diverged(fit.history)),
@@ -132,14 +134,6 @@ def _own(fit: TrainedModel, sure: Confidence | None) -> Table | None:
 
 
 # -- trust ---------------------------------------------------------------------------------------------------
-
-
-def _sentences(sure: Confidence | None) -> list[str]:
-    if sure is None:
-        return [
-            "The trained model diverges over the record; what it has learned cannot be assessed."
-        ]
-    return sure.summary()
 
 
 def _profile(profile: Profiled) -> Iterable[Block]:
