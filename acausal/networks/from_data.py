@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -187,6 +187,6 @@ def _unscaled(net: MLP, left_open: tuple[str, ...] = ()) -> MLP:
 def _with(net: Any, **settings: Any) -> Any:
     """The same network with other settings."""
     found = object.__new__(type(net))
-    for field in fields(net):
-        object.__setattr__(found, field.name, settings.get(field.name, getattr(net, field.name)))
+    for name, value in vars(net).items():
+        object.__setattr__(found, name, settings.get(name, value))
     return found

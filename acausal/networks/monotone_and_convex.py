@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import equinox as eqx
 import jax
@@ -44,9 +45,10 @@ class Secondary(eqx.Module):
 class WithSecondary(Layered):
     """Base of networks that promise something of their first inputs; the others, if there are any, shift the biases."""
 
-    weights: eqx.AbstractVar[tuple[Array, ...]]
-    biases: eqx.AbstractVar[tuple[Array, ...]]
-    secondary: eqx.AbstractVar[Secondary | None]
+    if TYPE_CHECKING:  # subclasses have these as fields, each in an order of its own
+        weights: tuple[Array, ...]
+        biases: tuple[Array, ...]
+        secondary: Secondary | None
 
     @property
     def in_size(self) -> int:  # pyright: ignore[reportIncompatibleVariableOverride]
