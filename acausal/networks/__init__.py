@@ -60,6 +60,7 @@ from acausal.networks.promises import (
 from acausal.networks.scaled import (
     EnergyLaw as EnergyLaw,
     Scaled as Scaled,
+    WithLaw as WithLaw,
     inputs_of as inputs_of,
     law_at as law_at,
     law_of as law_of,

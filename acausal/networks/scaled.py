@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 
 import equinox as eqx
@@ -42,7 +43,15 @@ class Scaled(eqx.Module):
         return self.output_scale * self.net(*numbers)
 
 
-class EnergyLaw(eqx.Module):
+class WithLaw(eqx.Module):
+    """A network whose law is not the network itself, such as the derivative of an energy."""
+
+    @abstractmethod
+    def law(self, *inputs: ArrayLike) -> Array:
+        """The law."""
+
+
+class EnergyLaw(WithLaw):
     """An energy ``W(x) = energy_scale · net(x / input_scale)``, whose derivative is a law, `law`.
 
     Attributes:
@@ -84,7 +93,7 @@ def _check_scales(network: Scaled | EnergyLaw, inputs: Sequence[ArrayLike]) -> N
 
 def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
     """The law of a network: itself, or the derivative of an energy."""
-    return network.law if isinstance(network, EnergyLaw) else network
+    return network.law if isinstance(network, WithLaw) else network
 
 
 def law_at(
@@ -93,8 +102,7 @@ def law_at(
     rest: Float[Array | np.ndarray, " n"],
 ) -> Float[Array, " points"]:
     """The law of a network over its first input, the first of several; the other inputs are held at ``rest``."""
-    law: Callable[..., Array] = getattr(network, "law", network)
-    found = jax.vmap(lambda x: law(x, *rest))(jnp.asarray(points))
+    found = jax.vmap(lambda x: law_of(network)(x, *rest))(jnp.asarray(points))
     return found if found.ndim == 1 else found[:, 0]
 
 
