@@ -9,7 +9,6 @@ from acausal.analysis.estimate import estimate as estimate
 from acausal.analysis.estimation import Estimation as Estimation
 from acausal.analysis.formula import Formula as Formula
 from acausal.analysis.linearization import Linearization as Linearization, linearize as linearize
-from acausal.analysis.loops import OpenLoop as OpenLoop, open_loop as open_loop
 from acausal.analysis.module_calls import (
     Calls as Calls,
     Labels as Labels,
@@ -19,6 +18,7 @@ from acausal.analysis.module_calls import (
     target as target,
 )
 from acausal.analysis.observer import Observer as Observer, observer as observer
+from acausal.analysis.opened_loops import OpenLoop as OpenLoop, open_loop as open_loop
 from acausal.analysis.operating_point import (
     OperatingPoint as OperatingPoint,
     operating_point as operating_point,

@@ -17,7 +17,7 @@ from acausal._jax import as_key, need_double_precision, traced
 from acausal.analysis.estimation import Estimation
 from acausal.analysis.filtering import (
     Belief,
-    Ensemble,
+    EnsembleFilter,
     Filter,
     Filtered,
     Linearized,
@@ -115,10 +115,7 @@ def estimate(
         DataError: if the record lacks inputs or measurements, or an argument does not fit.
         ModelError: for a model that is not compiled, or that has events or no states.
     """
-    need_compiled(system, "estimate")
-    need_double_precision()
-    check_model(system, "estimate")
-    how = filter_named(method)
+    how = filter_for(system, method, "estimate")
     members = need_whole(members, "members", DataError, 2)
     data = Data.of(record).for_system(system)
     if len(data) < 2:
@@ -136,7 +133,7 @@ def estimate(
     walk = jnp.concatenate([size / jnp.sqrt(path.t[-1] - path.t[0]), jnp.zeros(len(drift))])
 
     def filtered(q: Array, r: Array, how: Filter = EKF) -> Filtered:
-        begin = _with_members(start, members, key) if isinstance(how, Ensemble) else start
+        begin = _with_members(start, members, key) if isinstance(how, EnsembleFilter) else start
         return _filtered(how, path, begin, measured._replace(sigma=r), q, key)
 
     if isinstance(noise, Mapping):
@@ -160,12 +157,16 @@ def estimate(
 EKF = Linearized(by_derivatives)
 
 
-def filter_named(method: str) -> Filter:
-    """A filter by its name.
+def filter_for(system: System, method: str, what: str) -> Filter:
+    """The filter of a name, for a model that it can follow.
 
     Raises:
         DataError: for an unknown name.
+        ModelError: for a model that is not compiled, or that has events or no states.
     """
+    need_compiled(system, what)
+    need_double_precision()
+    check_model(system, what)
     if not isinstance(method, str):
         raise DataError(f"method={shown(method)}; give the name of a method, such as 'ekf'.")
     if method == "mhe":
@@ -174,7 +175,7 @@ def filter_named(method: str) -> Filter:
         )
     if method not in METHODS:
         raise DataError(f"No method {shown(method)}: {nearest(method, METHODS)}")
-    return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": Ensemble()}[method]
+    return {"ekf": EKF, "ukf": Linearized(by_points), "enkf": EnsembleFilter()}[method]
 
 
 def _sensors(system: System, data: Data, given: Any) -> dict[str, Any]:

@@ -54,22 +54,6 @@ class Innovation(NamedTuple):
     log_likelihood: Float[Array, ""]
 
 
-class Filter(Protocol):
-    """A way to carry a belief through a model."""
-
-    def forecast(
-        self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray
-    ) -> tuple[Belief, Float[Array, "m m"]]:
-        """The belief after a step that adds noise, and its covariance with that before."""
-        ...
-
-    def correct(
-        self, belief: Belief, observe: Function, measured: Measured, key: PRNGKeyArray
-    ) -> tuple[Belief, Innovation]:
-        """The belief after a measurement."""
-        ...
-
-
 class Linear(NamedTuple):
     """A function near a belief: its mean, its slope, and the covariance that a line does not explain."""
 
@@ -110,7 +94,7 @@ class Linearized(NamedTuple):
     def forecast(
         self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray
     ) -> tuple[Belief, Float[Array, "m m"]]:
-        """As of `Filter`."""
+        """The belief after a step that adds noise, and its covariance with that before."""
         mean, slope, rest = self.line(step, belief)
         shared = belief.covariance @ slope.T
         return Belief(mean, _symmetric(slope @ shared + rest) + jnp.diag(sigma**2)), shared
@@ -118,7 +102,7 @@ class Linearized(NamedTuple):
     def correct(
         self, belief: Belief, observe: Function, measured: Measured, key: PRNGKeyArray
     ) -> tuple[Belief, Innovation]:
-        """As of `Filter`, in Joseph's form."""
+        """The belief after a measurement, in Joseph's form."""
         y, slope, rest = self.line(observe, belief)
         slope = jnp.where(measured.known[:, None], slope, 0.0)
         own = _own_noise(rest, measured)
@@ -130,13 +114,13 @@ class Linearized(NamedTuple):
         return Belief(belief.mean + gain @ found.value, _symmetric(covariance)), found
 
 
-class Ensemble(NamedTuple):
+class EnsembleFilter(NamedTuple):
     """The ensemble filter: each member sees measurements with noise of its own."""
 
     def forecast(
         self, belief: Belief, step: Function, sigma: Float[Array, " m"], key: PRNGKeyArray
     ) -> tuple[Belief, Float[Array, "m m"]]:
-        """As of `Filter`."""
+        """As of `Linearized`."""
         members = belief.members
         assert members is not None
         moved = jax.vmap(step)(members) + sigma * jax.random.normal(key, members.shape)
@@ -145,7 +129,7 @@ class Ensemble(NamedTuple):
     def correct(
         self, belief: Belief, observe: Function, measured: Measured, key: PRNGKeyArray
     ) -> tuple[Belief, Innovation]:
-        """As of `Filter`."""
+        """As of `Linearized`."""
         members = belief.members
         assert members is not None
         y = jnp.where(measured.known, jax.vmap(observe)(members), 0.0)
@@ -154,6 +138,10 @@ class Ensemble(NamedTuple):
         seen = measured.y + measured.sigma * jax.random.normal(key, y.shape)
         moves = jnp.where(measured.known, seen - y, 0.0) @ _gain(_covariance(members, y), found).T
         return _of(members + moves), found
+
+
+Filter = Linearized | EnsembleFilter
+"""A way to carry a belief through a model."""
 
 
 class Filtered(NamedTuple):

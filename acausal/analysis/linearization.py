@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import jax
 import jax.numpy as jnp
@@ -16,6 +16,7 @@ from scipy.linalg import expm, solve_continuous_are
 from acausal._jax import check_time, is_real
 from acausal.analysis.operating_point import OperatingPoint
 from acausal.analysis.tracking import numbers_by_name
+from acausal.codegen import Values
 from acausal.errors import DataError, cut_short, need_compiled, shown
 from acausal.modeling import names_in
 
@@ -368,13 +369,32 @@ def _times(
     return times
 
 
+Where: TypeAlias = "Mapping[str, ArrayLike] | Float[ArrayLike, ' n_states'] | OperatingPoint | Literal['steady'] | None"
+"""States by name or all as an array, an operating point, the model's rest, or (``None``) its initial state."""
+
+
+def point_of(
+    system: System,
+    x: Where,
+    u: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None,
+    inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None,
+    params: Params | None,
+    t: float | None,
+) -> Values:
+    """The values of a model where it is linearized; arguments and errors as of `linearize`."""
+    if isinstance(x, OperatingPoint):
+        params, t = x.values.packed if params is None else params, x.time if t is None else t
+        inputs = x.u if inputs is None and u is None else inputs
+        x = x.x
+    t = 0.0 if t is None else t
+    check_time(t)
+    packed, given = system.pack(params), system.inputs_at(t, inputs, u)
+    return system.values(t, system.initial_state(packed, x, inputs=given, t0=t), given, packed)
+
+
 def linearize(
     system: System,
-    x: Mapping[str, ArrayLike]
-    | Float[ArrayLike, " n_states"]
-    | OperatingPoint
-    | Literal["steady"]
-    | None = None,
+    x: Where = None,
     u: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
     *,
     inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
@@ -401,17 +421,7 @@ def linearize(
     """
     need_compiled(system, "linearize")
     outputs = names_in(outputs, "outputs")
-    if isinstance(x, OperatingPoint):
-        params, t = x.values.packed if params is None else params, x.time if t is None else t
-        inputs = x.u if inputs is None and u is None else inputs
-        x = x.x
-    t = 0.0 if t is None else t
-    check_time(t)
-    packed = system.pack(params)
-    point = system.inputs_at(t, inputs, u)
-    state = system.initial_state(packed, x, inputs=point, t0=t)
-
-    at = system.values(t, state, point, packed)
+    at = point_of(system, x, u, inputs, params, t)
 
     def rates_and_outputs(x: Array, u: Array) -> tuple[Array, Array]:
         values = at._replace(x=x, u=u)

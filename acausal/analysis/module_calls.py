@@ -81,20 +81,19 @@ def calls(system: System, *modules: str) -> tuple[Calls, ...]:
 
 
 def _calls(system: System, wanted: list[int]) -> Iterator[Calls]:
+    for group, call, called in _stated(system):
+        rows = np.isin(called, wanted)
+        if rows.any():
+            yield _filled(system, group.rows(rows), called[rows], call.args[2:])
+
+
+def _stated(system: System) -> Iterator[tuple[EquationGroup, Any, Integers]]:
+    """The calls of modules that equations state: their group, the call, and the module that each row calls."""
     for group in system.flat.groups:
-        if not group.template.modules:
-            continue
-        for call in _stated(group):
-            slot = group.template.modules.index(call.args[0])
-            called = system.layout.module_of[group.modules[:, slot]]
-            rows = np.isin(called, wanted)
-            if rows.any():
-                yield _filled(system, group.rows(rows), called[rows], call.args[2:])
-
-
-def _stated(group: EquationGroup) -> list[Any]:
-    """The calls in an equation of a group."""
-    return sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key)
+        if group.template.modules:
+            for call in sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key):
+                slot = group.template.modules.index(call.args[0])
+                yield group, call, system.layout.module_of[group.modules[:, slot]]
 
 
 def _filled(
@@ -159,22 +158,18 @@ def labels(system: System, module: str, packed: Packed) -> Labels:
         ModelError: for a name that is no module of the model.
     """
     wanted = target(system, module)
-    for group in system.flat.groups:
-        if not group.template.modules:
+    for group, call, called in _stated(system):
+        rows = np.flatnonzero(called == wanted)
+        if not rows.size:
             continue
-        for call in _stated(group):
-            slot = group.template.modules.index(call.args[0])
-            rows = np.flatnonzero(system.layout.module_of[group.modules[:, slot]] == wanted)
-            if not rows.size:
-                continue
-            first = group.rows(rows[:1])
-            arguments = tuple(_label(system, first, a) for a in call.args[2:])
-            given, factor = _given(first, call)
-            if given is None:
-                return Labels(arguments, "")
-            slots = zip(group.template.parameters, first.parameters[0].tolist(), strict=True)
-            values = {s: read_parameters(system.layout, p, packed) for s, p in slots}
-            return Labels(arguments, _label(system, first, given), float(evaluate(factor, values)))
+        first = group.rows(rows[:1])
+        arguments = tuple(_label(system, first, a) for a in call.args[2:])
+        given, factor = _given(first, call)
+        if given is None:
+            return Labels(arguments, "")
+        slots = zip(group.template.parameters, first.parameters[0].tolist(), strict=True)
+        values = {s: read_parameters(system.layout, p, packed) for s, p in slots}
+        return Labels(arguments, _label(system, first, given), float(evaluate(factor, values)))
     return Labels((), "")
 
 

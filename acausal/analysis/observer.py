@@ -13,12 +13,12 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal._jax import as_key, check_time, is_number, need_double_precision
-from acausal.analysis.estimate import belief_at, filter_named
-from acausal.analysis.filtering import Belief, Ensemble, Filter, Measured
-from acausal.analysis.tracking import Model, check_model, make_model, numbers_by_name
+from acausal._jax import as_key, check_time, is_number
+from acausal.analysis.estimate import belief_at, filter_for
+from acausal.analysis.filtering import Belief, EnsembleFilter, Filter, Measured
+from acausal.analysis.tracking import TrackedModel, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
-from acausal.errors import DataError, need_compiled, shown
+from acausal.errors import DataError, shown
 from acausal.modeling import ByName
 from acausal.simulation import Samples, Steps
 
@@ -38,7 +38,7 @@ class Observer(ByName):
 
     def __init__(
         self,
-        model: Model,
+        model: TrackedModel,
         how: Filter,
         start: Belief,
         sigma: Float[Array, " p"],
@@ -170,11 +170,8 @@ def observer(
         DataError: if an argument does not fit.
         ModelError: for a model that is not compiled, or that has events or no states.
     """
-    need_compiled(system, "observer")
-    need_double_precision()
-    check_model(system, "observer")
-    how = filter_named(method)
-    if isinstance(how, Ensemble):
+    how = filter_for(system, method, "observer")
+    if isinstance(how, EnsembleFilter):
         raise DataError("observer: method='enkf' draws random numbers; take 'ekf' or 'ukf'.")
     if not (is_number(sample_time) and sample_time > 0):
         raise DataError(
@@ -204,7 +201,11 @@ def observer(
 
 
 def _correct(
-    model: Model, how: Filter, sigma: Float[Array, " p"], belief: Belief, row: Float[Array, " n"]
+    model: TrackedModel,
+    how: Filter,
+    sigma: Float[Array, " p"],
+    belief: Belief,
+    row: Float[Array, " n"],
 ) -> Belief:
     """The belief after measurements; the row has time, inputs and measurements, NaN where there are none."""
     t, u, y = jnp.split(row, [1, 1 + len(model.system.inputs)])
@@ -214,7 +215,7 @@ def _correct(
 
 
 def _step(
-    model: Model,
+    model: TrackedModel,
     how: Filter,
     sigma: Float[Array, " p"],
     walk: Float[Array, " m"],
@@ -231,6 +232,6 @@ def _step(
 
 @eqx.filter_jit
 def _read(
-    model: Model, names: tuple[str, ...], t: ArrayLike, z: Array, u: ArrayLike
+    model: TrackedModel, names: tuple[str, ...], t: ArrayLike, z: Array, u: ArrayLike
 ) -> Float[Array, " n_names"]:
     return model.system.read(names, model.values(jnp.asarray(t, float), z, jnp.asarray(u, float)))

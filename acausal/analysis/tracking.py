@@ -31,7 +31,7 @@ LONGER = 1e-6
 """Rows are added where samples are further apart than is usual, by more than this part of it."""
 
 
-class Model(eqx.Module):
+class TrackedModel(eqx.Module):
     """A model whose states and drifting parameters are estimated from sensors.
 
     Attributes:
@@ -81,7 +81,7 @@ class AlongRecord(eqx.Module):
         t, u: times and inputs at the rows.
     """
 
-    model: Model
+    model: TrackedModel
     steps: Steps
     t: Float[Array, " n"]
     u: Float[Array, "n n_inputs"]
@@ -113,11 +113,11 @@ def make_model(
     longest: float,
     dt: float | None,
     solver: Any,
-) -> Model:
+) -> TrackedModel:
     """A model with steps that follow it.
 
     Arguments:
-        system, sensors, drifting: as of `Model`.
+        system, sensors, drifting: as of `TrackedModel`.
         params: what differs from the model's own parameters.
         at: the values at the start, by parameters.
         longest: the longest way from row to row.
@@ -136,7 +136,7 @@ def make_model(
         solver = "kvaerno3" if found is None else "rk4"
         parts = (parts or 1) * (found or 1) if dt is None else parts
     scheme = for_fixed_steps(solver_named(solver, fixed=True), direct=True)
-    return Model(system, sensors, drifting, every, packed, scheme, parts or 1)
+    return TrackedModel(system, sensors, drifting, every, packed, scheme, parts or 1)
 
 
 def check_model(system: System, what: str) -> None:

@@ -7,6 +7,8 @@ interpolation is wrong where frequencies are high.
 
 from __future__ import annotations
 
+from functools import cache
+
 import jax.numpy as jnp
 import numpy as np
 from jax.typing import ArrayLike
@@ -17,9 +19,6 @@ DEGREE = 7
 
 FRACTIONS = (1 - np.cos(np.pi * np.arange(1, DEGREE) / DEGREE)) / 2
 """Fractions of an interval at which the polynomial interpolates, besides the ends: Chebyshev extrema."""
-
-_BASIS = (FRACTIONS * (1 - FRACTIONS))[:, None] * FRACTIONS[:, None] ** np.arange(DEGREE - 1)
-_INVERSE = np.linalg.inv(_BASIS)
 
 
 def between(
@@ -52,20 +51,29 @@ def polynomial_coefficients(
     start: Float[Array, ...],
     end: Float[Array, ...],
     inner: Float[Array, "... n_inner"],
+    fractions: tuple[float, ...] = tuple(FRACTIONS.tolist()),
 ) -> Float[Array, "n_inner ..."]:
-    """Coefficients of the polynomial through an interval's ends and its values at `FRACTIONS`.
+    """Coefficients of the polynomial through an interval's ends and its values at some fractions of it.
 
     It is ``start + p (end - start) + p (1 - p) (b0 + b1 p + ...)`` for the fraction p.
 
     Arguments:
         start, end: values at the ends, any shape.
-        inner: values in between, with a last axis of ``DEGREE - 1``.
+        inner: values in between, with a last axis of the fractions.
+        fractions: of the interval, between 0 and 1.
 
     Returns:
-        The coefficients b, with their axis first: shape (DEGREE - 1, ...).
+        The coefficients b, with their axis first: shape (n_inner, ...).
     """
-    line = start[..., None] + (end - start)[..., None] * FRACTIONS
-    return jnp.moveaxis((inner - line) @ _INVERSE.T, -1, 0)
+    line = start[..., None] + (end - start)[..., None] * np.asarray(fractions)
+    return jnp.moveaxis((inner - line) @ _inverse(fractions).T, -1, 0)
+
+
+@cache
+def _inverse(fractions: tuple[float, ...]) -> Float[np.ndarray, "n_inner n_inner"]:
+    """Coefficients from deviations of the line at fractions."""
+    p = np.asarray(fractions)
+    return np.linalg.inv((p * (1 - p))[:, None] * p[:, None] ** np.arange(len(p)))
 
 
 def deviation_from_line(

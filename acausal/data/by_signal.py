@@ -23,12 +23,17 @@ def check_choices(
         )
     by_name = {"The record": given} if isinstance(given, str) else given
     for name, choice in by_name.items():
-        if choice not in known:
-            raise DataError(f"{name} has {what}={shown(choice)}; choose one of {', '.join(known)}.")
+        check_choice(name, what, choice, known)
         if not isinstance(given, str) and name not in names:
             raise DataError(
                 f"There is a choice of {what} for '{name}' but no such signal: {nearest(name, names)}"
             )
+
+
+def check_choice(name: str, what: str, choice: object, known: tuple[str, ...]) -> None:
+    """Refuse an unknown choice; ``name`` is whose it is."""
+    if not isinstance(choice, str) or choice not in known:
+        raise DataError(f"{name} has {what}={shown(choice)}; choose one of {', '.join(known)}.")
 
 
 def chosen(given: Choices, name: str, default: str) -> Any:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeAlias, TypedDict, Unpack
 
 from acausal.data import readers
 from acausal.data.by_signal import Choices
-from acausal.data.given import Missing
+from acausal.data.given_columns import Missing
 from acausal.data.readers import Selection, Table
 from acausal.errors import DataError, nearest
 
@@ -95,16 +96,9 @@ class Formats(ABC):
         Raises:
             DataError: for a file that cannot be read, with the line's number and what was guessed.
         """
-        selection, others = _split(
-            "from_csv", {**options, "interpolation": interpolation}, time, group
-        )
-
-        def read(file: Path) -> Table | dict[str, Table]:
-            return readers.read_csv(
-                file, selection, separator=separator, decimal=decimal, encoding=encoding
-            )
-
-        return cls._of_files(path, "from_csv", read, others)
+        read = partial(readers.read_csv, separator=separator, decimal=decimal, encoding=encoding)
+        every = {**options, "interpolation": interpolation}
+        return cls._of_files("from_csv", path, read, every, time, group)
 
     @classmethod
     def from_parquet(
@@ -125,10 +119,7 @@ class Formats(ABC):
         Raises:
             DataError: for a file that cannot be read.
         """
-        selection, others = _split("from_parquet", options, time, group)
-        return cls._of_files(
-            path, "from_parquet", lambda file: readers.read_parquet(file, selection), others
-        )
+        return cls._of_files("from_parquet", path, readers.read_parquet, options, time, group)
 
     @classmethod
     def from_mat(cls, path: Paths, *, time: str = "time", **options: Unpack[ReadOptions]) -> Any:
@@ -145,10 +136,7 @@ class Formats(ABC):
         Raises:
             DataError: for a file that cannot be read.
         """
-        selection, others = _split("from_mat", options, time)
-        return cls._of_files(
-            path, "from_mat", lambda file: readers.read_mat(file, selection), others
-        )
+        return cls._of_files("from_mat", path, readers.read_mat, options, time)
 
     @classmethod
     def from_mdf(cls, path: Paths, **options: Unpack[ReadOptions]) -> Any:
@@ -164,10 +152,7 @@ class Formats(ABC):
         Raises:
             DataError: for a file that cannot be read.
         """
-        selection, others = _split("from_mdf", options)
-        return cls._of_files(
-            path, "from_mdf", lambda file: readers.read_mdf(file, selection), others
-        )
+        return cls._of_files("from_mdf", path, readers.read_mdf, options)
 
     @classmethod
     def from_dataframe(
@@ -229,17 +214,20 @@ class Formats(ABC):
     @classmethod
     def _of_files(
         cls,
-        path: object,
         function: str,
-        read: Callable[[Path], Table | dict[str, Table]],
+        path: object,
+        reader: Callable[[Path, Selection], Table | dict[str, Table]],
         options: Mapping[str, Any],
+        time: str = "time",
+        group: str | None = None,
     ) -> Self | dict[str, Self]:
+        selection, others = _split(function, options, time, group)
         found = readers.files(path, function)
         if isinstance(found, Path):
-            return cls._of_tables(read(found), options)
+            return cls._of_tables(reader(found, selection), others)
         records: dict[str, Self] = {}
         for name, file in found.items():
-            one = cls._of_tables(read(file), options)
+            one = cls._of_tables(reader(file, selection), others)
             records |= (
                 {f"{name}/{run}": r for run, r in one.items()}
                 if isinstance(one, dict)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
@@ -20,12 +21,11 @@ from acausal.data.by_signal import (
     kept,
 )
 from acausal.data.formats import Formats
-from acausal.data.gaps import warn_of_gaps
-from acausal.data.given import Missing, check_table, columns_of
+from acausal.data.given_columns import Missing, check_table, columns_of
 from acausal.data.readers import Table, frame_units, is_data_frame
 from acausal.data.samples import is_uniform
 from acausal.data.signal import Beyond, Interpolation, Signal
-from acausal.errors import DataError, listing, nearest, shown
+from acausal.errors import DataError, listing, nearest, shown, user_level
 from acausal.modeling import ByName, names_in
 from acausal.units import convert
 
@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
     from acausal.system import System
+
+LONG = 10
+"""An interval without samples is a gap if it is longer than this many median sample times of its signal."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +201,7 @@ class Data(ByName, Formats):
         ts, values = self.samples(name)
         kind: Interpolation = chosen(self.interpolation, name, interpolation)
         if len(ts) < len(self):
-            warn_of_gaps(ts, name, kind)
+            _warn_of_gaps(ts, name, kind)
         return Signal(
             ts,
             values,
@@ -293,3 +296,26 @@ class Data(ByName, Formats):
 
 def _percent(share: float) -> str:
     return f"{100 * share:.3g} %"
+
+
+def _warn_of_gaps(ts: Float[np.ndarray, " n"], name: str, interpolation: str) -> None:
+    """Warn once of the gaps of a signal that is used as a function of time; the longest is named.
+
+    Arguments:
+        ts: times of the samples that exist, in seconds.
+        name: of the signal.
+        interpolation: what bridges the gaps.
+    """
+    steps = np.diff(ts)
+    median = float(np.median(steps)) if len(steps) else 0.0
+    count = int(np.count_nonzero(steps > LONG * median))
+    if not count:
+        return
+    i = int(np.argmax(steps))
+    others = f" and {count - 1} more gap{'s' * (count > 2)}" if count > 1 else ""
+    warnings.warn(
+        f"'{name}' has no samples from {ts[i]:g} to {ts[i + 1]:g} s, {steps[i] / median:.3g} times its median sample "
+        f"time{others}; the interpolation '{interpolation}' bridges it. If that is wrong, use the record on both "
+        "sides of the gap: data.between(start, end).",
+        stacklevel=user_level(),
+    )

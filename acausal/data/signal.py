@@ -27,6 +27,7 @@ from acausal.data.band_limited import (
     deviation_from_line,
     polynomial_coefficients,
 )
+from acausal.data.by_signal import check_choice
 from acausal.data.samples import check_samples, check_time_base, is_uniform
 from acausal.data.slopes import SLOPES
 from acausal.errors import DataError, need_whole, shown
@@ -108,9 +109,9 @@ class Signal(eqx.Module):
     ) -> None:
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance]
             raise DataError(f"name={shown(name)} is not a name; give a text.")
-        _check_choice(name, "interpolation", interpolation, get_args(Interpolation))
+        check_choice(f"'{name}'", "interpolation", interpolation, get_args(Interpolation))
         if extrapolation is not None:
-            _check_choice(name, "extrapolation", extrapolation, get_args(Extrapolation))
+            check_choice(f"'{name}'", "extrapolation", extrapolation, get_args(Extrapolation))
         if isinstance(ts, jax.Array) and not is_real(ts):  # keys, of which NumPy makes nothing
             raise DataError(f"'{name}' has the times {shown(ts)}; give real numbers.")
         if not traced(ts):
@@ -121,8 +122,8 @@ class Signal(eqx.Module):
         self.interpolation = interpolation
         self.before_start = before_start or extrapolation or "refuse"
         self.after_end = after_end or extrapolation or "refuse"
-        _check_choice(name, "before_start", self.before_start, get_args(Beyond))
-        _check_choice(name, "after_end", self.after_end, get_args(Beyond))
+        check_choice(f"'{name}'", "before_start", self.before_start, get_args(Beyond))
+        check_choice(f"'{name}'", "after_end", self.after_end, get_args(Beyond))
         self.derivative = 0
         self.uniform = not traced(ts) and is_uniform(np.asarray(ts))
         self.coefficients = self._coefficients(name) if interpolation == "band-limited" else None
@@ -333,8 +334,3 @@ def _no_derivative(name: str, interpolation: str, times: int) -> str:
         f"'{name}' has the interpolation '{interpolation}', which has no useful "
         f"{ORDINALS[min(times, len(ORDINALS)) - 1]} derivative; {mend} as measured."
     )
-
-
-def _check_choice(name: str, what: str, value: str, choices: tuple[str, ...]) -> None:
-    if not isinstance(value, str) or value not in choices:
-        raise DataError(f"'{name}' has {what}={shown(value)}; choose one of {', '.join(choices)}.")

@@ -10,14 +10,13 @@ It knows no model.
 
 from acausal.networks.activations import ACTIVATIONS as ACTIVATIONS
 from acausal.networks.arity import check_inputs as check_inputs
-from acausal.networks.beside_linear import (
-    BesideLinear as BesideLinear,
+from acausal.networks.energy_parts import (
     BesideQuadratic as BesideQuadratic,
+    Bowl as Bowl,
+    FromRest as FromRest,
+    Levelled as Levelled,
+    WithMinCurvature as WithMinCurvature,
 )
-from acausal.networks.bounded import Between as Between, Positive as Positive
-from acausal.networks.convex import Convex as Convex
-from acausal.networks.dry_friction_factor import DryFrictionFactor as DryFrictionFactor
-from acausal.networks.energy import Bowl as Bowl, FromRest as FromRest, Levelled as Levelled
 from acausal.networks.energy_spec import Energy as Energy
 from acausal.networks.extrapolation import (
     Continued as Continued,
@@ -32,14 +31,27 @@ from acausal.networks.from_data import (
     linear_shape as linear_shape,
     with_scales as with_scales,
 )
-from acausal.networks.law_spec import Law as Law
-from acausal.networks.min_slope import (
-    WithMinCurvature as WithMinCurvature,
+from acausal.networks.in_params import (
+    networks as networks,
+    output_scale as output_scale,
+    remove_offset as remove_offset,
+)
+from acausal.networks.law_parts import (
+    BesideLinear as BesideLinear,
+    Between as Between,
+    DryFrictionFactor as DryFrictionFactor,
+    Even as Even,
+    Odd as Odd,
+    OffsetCorrected as OffsetCorrected,
+    Passive as Passive,
+    Positive as Positive,
+    SameSign as SameSign,
+    ThroughZero as ThroughZero,
     WithMinSlope as WithMinSlope,
 )
+from acausal.networks.law_spec import Law as Law
 from acausal.networks.mlp import MLP as MLP
-from acausal.networks.monotone import Monotone as Monotone
-from acausal.networks.passive import Passive as Passive, SameSign as SameSign
+from acausal.networks.monotone_and_convex import Convex as Convex, Monotone as Monotone
 from acausal.networks.promises import (
     bounds_of as bounds_of,
     kept_promises as kept_promises,
@@ -48,14 +60,9 @@ from acausal.networks.promises import (
 from acausal.networks.scaled import (
     EnergyLaw as EnergyLaw,
     Scaled as Scaled,
+    WithLaw as WithLaw,
     inputs_of as inputs_of,
+    law_at as law_at,
     law_of as law_of,
     rise_of as rise_of,
 )
-from acausal.networks.symmetry import Even as Even, Odd as Odd
-from acausal.networks.trainable import (
-    networks as networks,
-    output_scale as output_scale,
-    remove_offset as remove_offset,
-)
-from acausal.networks.zero import OffsetCorrected as OffsetCorrected, ThroughZero as ThroughZero

@@ -7,14 +7,13 @@ from dataclasses import dataclass
 
 from acausal.errors import DeclarationError
 from acausal.networks.activations import SMOOTH, SMOOTH_AND_CONVEX, checked
-from acausal.networks.convex import Convex
-from acausal.networks.energy import Bowl, FromRest, Levelled
+from acausal.networks.energy_parts import Bowl, FromRest, Levelled, WithMinCurvature
 from acausal.networks.extrapolation import ContinuedEnergy
-from acausal.networks.min_slope import WithMinCurvature, start_at
+from acausal.networks.law_parts import Even, start_at
 from acausal.networks.mlp import MLP, Key
+from acausal.networks.monotone_and_convex import Convex
 from acausal.networks.scaled import EnergyLaw
 from acausal.networks.spec import Layers, Net, NetworkSpec
-from acausal.networks.symmetry import Even
 
 EnergyPart = Callable[[Net, int], Net]
 

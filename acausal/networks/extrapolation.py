@@ -13,6 +13,7 @@ from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal.errors import DeclarationError, shown
+from acausal.networks.law_parts import Wrapper
 
 Extrapolation = Literal["saturating", "linear", "cubic"]
 """Constant beyond the limit, along the tangent there, or along a cubic."""
@@ -20,7 +21,16 @@ Extrapolation = Literal["saturating", "linear", "cubic"]
 ScalarFunction = Callable[[Array], Array]
 
 
-class Continued(eqx.Module):
+class _Extrapolated(Wrapper):
+    low: float = eqx.field(static=True)
+    high: float = eqx.field(static=True)
+    extrapolation: Extrapolation = eqx.field(static=True, default="linear")
+
+    def __check_init__(self) -> None:
+        check_limits(self.low, self.high, self.extrapolation)
+
+
+class Continued(_Extrapolated):
     """A law of ``x`` within limits, and beyond each of them a polynomial about that limit.
 
     A law that is odd or monotone within symmetric limits stays so everywhere; with ``rising`` also one that is passive.
@@ -39,14 +49,7 @@ class Continued(eqx.Module):
         DeclarationError: for limits that do not enclose an interval, or zero where a cubic needs it.
     """
 
-    net: Callable[..., Array]
-    low: float = eqx.field(static=True)
-    high: float = eqx.field(static=True)
-    extrapolation: Extrapolation = eqx.field(static=True, default="linear")
     rising: bool = eqx.field(static=True, default=False)
-
-    def __check_init__(self) -> None:
-        check_limits(self.low, self.high, self.extrapolation)
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""
@@ -59,19 +62,11 @@ class Continued(eqx.Module):
         return _polynomial(derivatives, x - near)
 
 
-class ContinuedEnergy(eqx.Module):
+class ContinuedEnergy(_Extrapolated):
     """An energy within limits, extrapolated so that its derivative is extrapolated as a `Continued` law.
 
     An energy that is even or convex within symmetric limits stays so everywhere. Attributes, errors: see `Continued`.
     """
-
-    net: Callable[..., Array]
-    low: float = eqx.field(static=True)
-    high: float = eqx.field(static=True)
-    extrapolation: Extrapolation = eqx.field(static=True, default="linear")
-
-    def __check_init__(self) -> None:
-        check_limits(self.low, self.high, self.extrapolation)
 
     def __call__(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The output for scalar inputs."""

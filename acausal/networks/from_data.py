@@ -7,19 +7,17 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
 from acausal.data import like_saved
-from acausal.networks.beside_linear import BesideLinear, BesideQuadratic
+from acausal.networks.energy_parts import BesideQuadratic, WithMinCurvature
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
-from acausal.networks.min_slope import WithMinCurvature, WithMinSlope, start_at
+from acausal.networks.law_parts import BesideLinear, WithMinSlope, start_at
 from acausal.networks.mlp import MLP
-from acausal.networks.monotone import Monotone
+from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.promises import kept_promises
 from acausal.networks.scaled import EnergyLaw, Scaled
-from acausal.networks.secondary import number_of
 
 SCALES = ("input_scale", "output_scale")
 
@@ -176,21 +174,19 @@ def _smooth(net: Any) -> Any:
     if isinstance(net, MLP | Monotone):
         if net.activation != "relu":
             return net
-        width, depth = len(net.biases[0]), len(net.biases) - 1
-        if isinstance(net, MLP):
-            like: Any = MLP(net.in_size, width, depth, "tanh", key=0)
-        else:
-            like = Monotone(number_of(net.secondary), width, depth, "tanh", key=0)
-        return _filled(like, net)
+        unscaled = _unscaled(net, SCALES) if isinstance(net, MLP) else net
+        return _with(unscaled, activation="tanh")
     return replace(net, net=_smooth(net.net)) if hasattr(net, "net") else net
 
 
-def _unscaled(net: MLP) -> MLP:
+def _unscaled(net: MLP, left_open: tuple[str, ...] = ()) -> MLP:
     """The same weights without scales."""
-    width, depth = len(net.biases[0]), len(net.biases) - 1
-    like = MLP(net.in_size, width, depth, net.activation, input_scale=1.0, output_scale=1.0, key=0)
-    return _filled(like, net)
+    return _with(net, input_scale=1.0, output_scale=1.0, left_open=left_open)
 
 
-def _filled(like: Any, net: Any) -> Any:
-    return jax.tree.unflatten(jax.tree.structure(like), jax.tree.leaves(net))
+def _with(net: Any, **settings: Any) -> Any:
+    """The same network with other settings."""
+    found = object.__new__(type(net))
+    for name, value in vars(net).items():
+        object.__setattr__(found, name, settings.get(name, value))
+    return found

@@ -8,14 +8,20 @@ from dataclasses import dataclass
 from acausal.errors import DeclarationError
 from acausal.networks.activations import INCREASING, checked
 from acausal.networks.extrapolation import Continued
-from acausal.networks.min_slope import WithMinSlope, start_at
+from acausal.networks.law_parts import (
+    Even,
+    Odd,
+    OffsetCorrected,
+    Passive,
+    SameSign,
+    ThroughZero,
+    WithMinSlope,
+    start_at,
+)
 from acausal.networks.mlp import MLP, Key
-from acausal.networks.monotone import Monotone
-from acausal.networks.passive import Passive, SameSign
+from acausal.networks.monotone_and_convex import Monotone
 from acausal.networks.scaled import Scaled
 from acausal.networks.spec import Layers, Net, NetworkSpec, ZeroCrossing
-from acausal.networks.symmetry import Even, Odd
-from acausal.networks.zero import OffsetCorrected, ThroughZero
 
 LawPart = Callable[[Net], Net]
 

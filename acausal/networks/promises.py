@@ -7,17 +7,28 @@ from typing import Any
 
 import numpy as np
 
-from acausal.networks.beside_linear import BesideLinear, BesideQuadratic
-from acausal.networks.bounded import Between, Positive
-from acausal.networks.convex import Convex
-from acausal.networks.energy import Bowl, FromRest, Levelled
+from acausal.networks.energy_parts import (
+    BesideQuadratic,
+    Bowl,
+    FromRest,
+    Levelled,
+    WithMinCurvature,
+)
 from acausal.networks.extrapolation import Continued, ContinuedEnergy
-from acausal.networks.min_slope import WithMinCurvature, WithMinSlope
-from acausal.networks.monotone import Monotone
-from acausal.networks.passive import Passive, SameSign
+from acausal.networks.law_parts import (
+    BesideLinear,
+    Between,
+    Even,
+    Odd,
+    OffsetCorrected,
+    Passive,
+    Positive,
+    SameSign,
+    ThroughZero,
+    WithMinSlope,
+)
+from acausal.networks.monotone_and_convex import Convex, Monotone
 from acausal.networks.scaled import EnergyLaw, Scaled
-from acausal.networks.symmetry import Even, Odd
-from acausal.networks.zero import OffsetCorrected, ThroughZero
 
 Promises = frozenset[str]
 

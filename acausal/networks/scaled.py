@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
 from acausal.networks.arity import check_inputs
-from acausal.networks.dry_friction_factor import WithFactor
+from acausal.networks.law_parts import WithFactor
 from acausal.networks.mlp import Scale, scaled
 
 REACH = 1e6
@@ -41,7 +43,15 @@ class Scaled(eqx.Module):
         return self.output_scale * self.net(*numbers)
 
 
-class EnergyLaw(eqx.Module):
+class WithLaw(eqx.Module):
+    """A network whose law is not the network itself, such as the derivative of an energy."""
+
+    @abstractmethod
+    def law(self, *inputs: ArrayLike) -> Array:
+        """The law."""
+
+
+class EnergyLaw(WithLaw):
     """An energy ``W(x) = energy_scale · net(x / input_scale)``, whose derivative is a law, `law`.
 
     Attributes:
@@ -83,7 +93,17 @@ def _check_scales(network: Scaled | EnergyLaw, inputs: Sequence[ArrayLike]) -> N
 
 def law_of(network: Callable[..., Array]) -> Callable[..., Array]:
     """The law of a network: itself, or the derivative of an energy."""
-    return network.law if isinstance(network, EnergyLaw) else network
+    return network.law if isinstance(network, WithLaw) else network
+
+
+def law_at(
+    network: Callable[..., Array],
+    points: Float[Array | np.ndarray, " points"],
+    rest: Float[Array | np.ndarray, " n"],
+) -> Float[Array, " points"]:
+    """The law of a network over its first input, the first of several; the other inputs are held at ``rest``."""
+    found = jax.vmap(lambda x: law_of(network)(x, *rest))(jnp.asarray(points))
+    return found if found.ndim == 1 else found[:, 0]
 
 
 def inputs_of(network: Callable[..., Array]) -> int:

@@ -5,8 +5,11 @@ further questions. It may import every room below; none of them imports it. Insi
 minimise, `optimizers` how, and `uncertainty` computes how certain the result is; only `objective` lays records out.
 """
 
-from acausal.training.cross_validate import cross_validate as cross_validate
-from acausal.training.cross_validation import CrossValidation as CrossValidation, Fold as Fold
+from acausal.training.cross_validation import (
+    CrossValidation as CrossValidation,
+    Fold as Fold,
+    cross_validate as cross_validate,
+)
 from acausal.training.ensemble import Ensemble as Ensemble, ensemble as ensemble
 from acausal.training.fit import fit as fit
 from acausal.training.history import Divergence as Divergence, History as History
@@ -32,6 +35,7 @@ from acausal.training.options import FitOptions as FitOptions
 from acausal.training.prediction import Prediction as Prediction, Predictions as Predictions
 from acausal.training.profile import Profile as Profile
 from acausal.training.record_fit import RecordFit as RecordFit
-from acausal.training.result import Fit as Fit, Seen as Seen
+from acausal.training.result import Fit as Fit
 from acausal.training.starts import Minimum as Minimum, Starts as Starts
+from acausal.training.trained_model import Seen as Seen
 from acausal.training.uncertainty.confidence import Band as Band, Confidence as Confidence

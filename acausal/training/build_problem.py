@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array, Float
 
 from acausal._jax import precision
 from acausal.data import Data, check_resolution
@@ -24,7 +25,6 @@ from acausal.simulation import (
     for_fixed_steps,
     solver_named,
 )
-from acausal.training.objective.context import context, states_before_training
 from acausal.training.objective.initial_state import by_record, first_states
 from acausal.training.objective.lay_out import check_step, lay_out
 from acausal.training.objective.losses import named
@@ -35,7 +35,7 @@ from acausal.training.objective.per_record import per_record
 from acausal.training.objective.prior import prior_of
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
-from acausal.training.objective.regularizers import Context, Regularizer, label
+from acausal.training.objective.regularizers import Context, Regularizer, Trajectory, label
 from acausal.training.objective.sequences import cut
 from acausal.training.objective.sharding import device_mesh
 from acausal.training.objective.start_prior import start_prior
@@ -49,6 +49,10 @@ if TYPE_CHECKING:
 
 VARIES = 1e-12
 """A target that varies by less than this, relative to its size, counts as constant."""
+
+
+PASSED = 1000
+"""The most samples of the records in the context of regularizers; they are evenly spread."""
 
 
 def build_problem(
@@ -72,16 +76,16 @@ def build_problem(
         TrainingError: if there is nothing to train, or an option does not fit the model or the data.
     """
     system.pack(params)  # refuses what does not fit
-    chosen = trained_networks(system, options.train, params)
+    names_of_networks = trained_networks(system, options.train, params)
     layout = system.layout
-    changed = modifiers(
+    trained_parameters = modifiers(
         options.modifiers, options.gamma, params, layout.why_not_free, layout.declared_range
     )
     times, moving = timing(options.delays, options.lags, data.values(), system.inputs, targets)
-    changed = changed.joined(moving)
-    if not chosen and not changed.names and not options.per_record:
+    trained_parameters = trained_parameters.joined(moving)
+    if not names_of_networks and not trained_parameters.names and not options.per_record:
         raise TrainingError(
-            "There is nothing to train: no network is in the model or chosen by train=[...]. "
+            "There is nothing to train: no network is in the model or names_of_networks by train=[...]. "
             "Give modifiers=[...] to train parameters."
         )
     _check_targets(system, targets)
@@ -95,15 +99,7 @@ def build_problem(
     shooting = "fit" in by_record(data, options.x0)
     solver = _solver(options, dtype)
     records, substeps = lay_out(
-        data,
-        system.inputs,
-        targets,
-        system.states,
-        options.dt,
-        solver=solver,
-        timing=times,
-        held=system.held_inputs,
-        rates=system.rates_among_states if options.automatic else None,
+        system, data, targets, options.dt, solver, times, differentiated=options.automatic
     )
     for record in data.values():
         announce_derivatives(system.inputs, record)
@@ -124,8 +120,8 @@ def build_problem(
         params={
             n: leaf if callable(leaf) else jnp.asarray(leaf, float) for n, leaf in params.items()
         },
-        networks=chosen,
-        modifiers=changed,
+        networks=names_of_networks,
+        modifiers=trained_parameters,
         parameter_spread=parameter_spread(options.parameter_spread, params, layout.declared_range),
         per_record=per_record(system, options.per_record, params, records.count),
         timing=times,
@@ -150,7 +146,7 @@ def build_problem(
     problem = with_sizes(problem)
     if shooting:
         problem = replace(problem, shooting=_shooting_states(problem, data))
-    return replace(problem, context=context(problem)) if options.penalties else problem
+    return replace(problem, context=_context(problem)) if options.penalties else problem
 
 
 def _solver(options: FitOptions, dtype: np.dtype[Any]) -> Scheme | Adaptive:
@@ -251,7 +247,7 @@ def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
     records = problem.records
     sequences = problem.sequences
     untrained = replace(problem, first_states=problem.first_states.from_model())
-    passed = np.array(states_before_training(untrained))
+    passed = np.array(_states_before_training(untrained))
     for i, name in enumerate(problem.system.states):
         for k, record in enumerate(data.values()):
             if name in record.signals:
@@ -260,3 +256,33 @@ def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:
                 passed[rows, i] = np.where(np.isnan(measured), passed[rows, i], measured)
     rows = records.first if sequences.whole else sequences.starts
     return shooting_states(passed, np.asarray(rows), np.asarray(records.of))
+
+
+def _context(problem: Problem) -> Context:
+    """The arguments of regularizers besides the parameters.
+
+    Raises:
+        TrainingError: if states are not measured, and the model diverges.
+    """
+    rows = np.unique(np.linspace(0, len(problem.records) - 1, PASSED).astype(int))
+    x = _states_before_training(problem)
+    t = problem.records.steps.t
+    passed = Trajectory(problem.system, t[rows], x[rows], problem.inputs[rows])
+    return Context(problem.networks, problem.seen(problem.start(), x, jnp.asarray(rows)), passed)
+
+
+def _states_before_training(problem: Problem) -> Float[Array, "N n_states"]:
+    """The states at every row: as measured, else as the model has them before training.
+
+    Raises:
+        TrainingError: if the model diverges.
+    """
+    measured = problem.records.x
+    if measured is not None and not bool(jnp.isnan(measured).any()):
+        return measured
+    x = problem.simulate(problem.start()).x
+    if not bool(jnp.isfinite(x).all()):
+        raise TrainingError(
+            "The model diverges over its records before training; start from better parameters."
+        )
+    return x

@@ -15,7 +15,7 @@ import numpy as np
 from acausal.data import filled_like, named_arrays, read_arrays, write_arrays
 from acausal.errors import DataError, TrainingError, listing, reason, user_level
 from acausal.files import Lock
-from acausal.training.history import Rows
+from acausal.training.history import LogContent
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.trainer import State
 
@@ -60,7 +60,7 @@ class Snapshot(NamedTuple):
     updating: float
 
 
-Logs = tuple[Rows, ...]
+Logs = tuple[LogContent, ...]
 """The log of each training."""
 
 Keep = Callable[[Snapshot, Logs], None]
@@ -251,5 +251,5 @@ def _identity(path: Path) -> tuple[int, int] | None:
     return found.st_ino, found.st_mtime_ns
 
 
-def _epochs(rows: Rows) -> int:
+def _epochs(rows: LogContent) -> int:
     return sum(len(chunk["loss"]) for chunk in rows.chunks)

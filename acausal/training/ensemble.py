@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
@@ -17,12 +15,12 @@ from numpy.typing import ArrayLike
 from acausal.data import Data, RecordsLike
 from acausal.errors import DataError, TrainingError, need_compiled, need_whole, shown
 from acausal.files import need_path
-from acausal.networks import law_of
+from acausal.networks import law_at
 from acausal.pages import write_page
 from acausal.reporting import PageContent, table
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
-from acausal.training.page_of_several import prediction_blocks, several_content
+from acausal.training.presentation.page_of_several import prediction_blocks, several_content
 from acausal.training.result import Fit
 from acausal.training.train_from_starts import prepare, run
 from acausal.training.uncertainty.bumps import SIGMAS
@@ -60,12 +58,8 @@ class Ensemble:
         centre, sigma = seen[:, 0].mean(), seen[:, 0].std() or 1.0
         x = np.linspace(centre - SIGMAS * sigma, centre + SIGMAS * sigma, BAND_POINTS)
         rest = seen[:, 1:].mean(axis=0)
-
-        def values(network: Callable[..., Any]) -> Float[np.ndarray, " points"]:
-            law = np.asarray(jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x)))
-            return law if law.ndim == 1 else law[:, 0]
-
-        return _mean_and_deviation(x, [values(fit.params[name]) for fit in self.fits])
+        learned = [np.asarray(law_at(fit.params[name], x, rest)) for fit in self.fits]
+        return _mean_and_deviation(x, learned)
 
     @cached_property
     def predicted(self) -> dict[str, Band]:
@@ -181,10 +175,10 @@ def ensemble(
     """
     need_compiled(system, "ensemble")
     members = need_whole(members, "members", TrainingError, 2)
-    chosen = FitOptions.of("ensemble", options)
-    if chosen.devices is not None:
+    fit_options = FitOptions.of("ensemble", options)
+    if fit_options.devices is not None:
         raise TrainingError("An ensemble is trained on one device: leave out devices=.")
-    if chosen.starts > 1:
+    if fit_options.starts > 1:
         raise TrainingError(
             "The members of an ensemble differ in their seeds alone: leave out starts=, or pass the params of an "
             "ac.fit(..., starts=...)."
@@ -200,7 +194,7 @@ def ensemble(
     if len(params) != members:
         raise TrainingError(f"There are {len(params)} params for {members} members.")
     seeds = tuple(range(seed, seed + members))
-    return Ensemble(run(prepare(system, data, targets, chosen, seeds=seeds, params=params)))
+    return Ensemble(run(prepare(system, data, targets, fit_options, seeds=seeds, params=params)))
 
 
 def _mean_and_deviation(

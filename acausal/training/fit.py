@@ -50,6 +50,6 @@ def fit(
         TypeError: for a keyword that is not an option.
     """
     need_compiled(system, "fit")
-    chosen = FitOptions.of("fit", options)
-    (trained,) = run(prepare(system, data, targets, chosen, seeds=(seed,), params=(params,)))
+    fit_options = FitOptions.of("fit", options)
+    (trained,) = run(prepare(system, data, targets, fit_options, seeds=(seed,), params=(params,)))
     return trained

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Float, Int
 
 from acausal.errors import DataError, listing
 from acausal.training.happened import EventChange
 from acausal.training.objective.records import Places
+from acausal.training.optimizers.trainer import UpdateLog
 
 
 @dataclass(frozen=True)
@@ -118,8 +119,8 @@ class Evaluation(NamedTuple):
     events: tuple[int, ...] = ()
 
 
-class Rows(NamedTuple):
-    """The content of a `Log` at some moment.
+class LogContent(NamedTuple):
+    """The content of a `TrainingLog` at some moment.
 
     Attributes:
         chunks: columns of some updates each, by name.
@@ -140,51 +141,7 @@ class Rows(NamedTuple):
 EVALUATIONS = "evaluations"
 
 
-class LogEntry(Protocol):
-    """The report of some updates, with a leading axis: see `acausal.training.optimizers.trainer.Entry`."""
-
-    @property
-    def loss(self) -> Float[Array, " n"]:
-        """Of the batch."""
-        ...
-
-    @property
-    def diverged(self) -> Int[Array, " n"]:
-        """How many sequences were left out."""
-        ...
-
-    @property
-    def exploded(self) -> Int[Array, " n"]:
-        """How many of them only because their gradient exploded."""
-        ...
-
-    @property
-    def first(self) -> Int[Array, " n"]:
-        """Where the first of them starts: a sample's index."""
-        ...
-
-    @property
-    def rejected(self) -> Bool[Array, " n"]:
-        """Whether the update was rejected."""
-        ...
-
-    @property
-    def turned_down(self) -> Bool[Array, " n"]:
-        """Whether it was a trial that its optimizer turned down."""
-        ...
-
-    @property
-    def penalties(self) -> Mapping[str, Float[Array, " n"]]:
-        """By regularizer."""
-        ...
-
-    @property
-    def logged(self) -> Mapping[str, Float[Array, " n"]]:
-        """By parameter, its change."""
-        ...
-
-
-class Log:
+class TrainingLog:
     """Collects a `History` while training runs.
 
     Arguments:
@@ -210,7 +167,7 @@ class Log:
         self.epochs = 0
 
     def add(
-        self, entry: LogEntry, count: int, started: float, ended: float, part: int = 0
+        self, entry: UpdateLog, count: int, started: float, ended: float, part: int = 0
     ) -> list[Divergence]:
         """Add the first ``count`` rows of a chunk's log, of a part of the strategy; returns its divergences."""
         reported = {
@@ -258,9 +215,9 @@ class Log:
         """The loss of the last update that was not turned down."""
         return self._loss
 
-    def rows(self) -> Rows:
+    def rows(self) -> LogContent:
         """What was collected up to now."""
-        return Rows(tuple(self._chunks), tuple(self.evaluations))
+        return LogContent(tuple(self._chunks), tuple(self.evaluations))
 
     def go_on(self, columns: Mapping[str, np.ndarray]) -> None:
         """Fill this empty log with the content of another one: its ``rows().columns()``.

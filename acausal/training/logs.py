@@ -1,4 +1,4 @@
-"""Logs for other programs: observers that write the reports of a training.
+"""Logs: observers that write the reports of a training, for Python's log and for other programs.
 
 A log that is continued after a break replaces the entries of updates that are repeated.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+import logging
 import os
 import warnings
 from collections.abc import Callable
@@ -17,6 +18,8 @@ from acausal.errors import DataError, TrainingError, reason, user_level
 from acausal.files import need_path, replace_file
 from acausal.training.progress import Progress
 
+LOGGER = logging.getLogger(__name__)
+
 SCALARS: dict[str, Callable[[Progress], float]] = {
     "loss": lambda p: p.loss,
     "best": lambda p: p.best,
@@ -26,6 +29,20 @@ SCALARS: dict[str, Callable[[Progress], float]] = {
 }
 """The columns: the last update's loss, the lowest loss over the whole record, the time since the start and per update,
 and the number of updates since the last report in which something diverged."""
+
+
+def log_progress(progress: Progress) -> None:
+    """An observer that writes what is reported into the log."""
+    for divergence in progress.divergences:
+        LOGGER.info("%s", divergence)
+    LOGGER.debug(
+        "epoch %d of %d: loss %.4g, best %.4g, %.3g s",
+        progress.epoch,
+        progress.epochs,
+        progress.loss,
+        progress.best,
+        progress.seconds,
+    )
 
 
 class CsvLog:

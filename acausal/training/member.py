@@ -12,7 +12,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float, PRNGKeyArray, PyTree
 
 from acausal.training.happened import events_in
-from acausal.training.history import History, Log
+from acausal.training.history import History, TrainingLog
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -84,7 +84,9 @@ class Member:
 
     def __init__(self, problem: Problem, held: HeldOut | None, key: PRNGKeyArray) -> None:
         self.problem, self.held, self.key = problem, held, key
-        self.log = Log(problem.records.places, tuple(problem.regularizers), problem.modifiers.names)
+        self.log = TrainingLog(
+            problem.records.places, tuple(problem.regularizers), problem.modifiers.names
+        )
 
     def evaluate(self, candidates: Sequence[Trainable]) -> None:
         """Evaluate some trainables, log the best of them, and keep it if it is better than the best so far."""

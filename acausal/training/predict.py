@@ -22,10 +22,10 @@ from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
 from acausal.training.objective.trainable import Trainable
 from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
-from acausal.training.page_subject import Trained
 from acausal.training.prediction import Prediction, Predictions
-from acausal.training.record_fit import RecordFit, of_records, out_of_range
-from acausal.training.uncertainty.bumps import BUMPS, bumped_law
+from acausal.training.record_fit import RecordFit, of_records
+from acausal.training.trained_model import TrainedModel, out_of_range
+from acausal.training.uncertainty.bumps import bumped_law, with_changes
 from acausal.training.uncertainty.confidence import Band, Confidence
 from acausal.training.uncertainty.conformal import Conformal
 
@@ -63,7 +63,7 @@ class Own:
 
 
 def predict(
-    fit: Trained,
+    fit: TrainedModel,
     data: RecordsLike,
     x0: InitialState,
     params: OwnParameters | None,
@@ -94,14 +94,18 @@ def predict(
         }
         every = {f.name: getattr(record, f.name) for f in fields(RecordFit)}
         return Prediction(
-            **every, bands=bands, outside=out_of_range(record, fit), found=_told(problem, k), units=units
-        )  # fmt: skip
+            **every,
+            bands=bands,
+            outside=out_of_range(record, fit),
+            found=found_starts(problem, slice(k, k + 1)),
+            units=units,
+        )
 
     return Predictions({n: one(k, r) for k, (n, r) in enumerate(made.items())}, system)
 
 
 def _own(
-    fit: Trained, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
+    fit: TrainedModel, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
 ) -> Own:
     """What the records have for themselves, before their targets have told of it."""
     problem = over(fit.problem, records, x0, measured=False)
@@ -128,7 +132,7 @@ def _own(
 
 
 def _given(
-    fit: Trained,
+    fit: TrainedModel,
     own: Float[np.ndarray, "R n_own"],
     records: Mapping[str, Data],
     params: OwnParameters | None,
@@ -208,7 +212,7 @@ def _deviations(
     own: Own,
     values: Float[np.ndarray, "R m"],
     certainty: Float[np.ndarray, "N n_targets"],
-    fit: Trained,
+    fit: TrainedModel,
     confidence: Confidence,
 ) -> Float[np.ndarray, "N n_targets"]:
     """The standard deviation of every target at every row.
@@ -225,15 +229,7 @@ def _deviations(
     @eqx.filter_jit
     def run(problem: Problem) -> tuple[Array, Array]:
         def predicted(w: Float[Array, " n"]) -> Float[Array, "N n_targets"]:
-            moves = root @ w[: len(root)]
-            nets = {
-                n: replace(law, heights=moves[k * BUMPS : (k + 1) * BUMPS])
-                for k, (n, law) in enumerate(bumped.items())
-            }
-            changes = moves[len(nets) * BUMPS :]
-            moved = problem.modifiers.changed(
-                {**params, **nets}, dict(zip(prior.names, changes, strict=True))
-            )
+            moved = with_changes(problem, params, bumped, root @ w[: len(root)])
             return problem.predict(own.moved(values + w[len(root) :] * scale), moved)
 
         return value_and_jacobian(predicted, jnp.zeros(len(root) + m), axis=-1)
@@ -257,12 +253,3 @@ def _deviations(
             "rti,ij,rtj->rt", alone, covariance, alone
         )
     return np.sqrt(variance + np.square(noise))
-
-
-def _told(problem: Problem, k: int) -> str:
-    """A clause on the initial states of a record that were found."""
-    if problem.start_prior is None:
-        return ""
-    first, scale, rows = problem.first_states, problem.start_prior.scale, slice(k, k + 1)
-    alone = replace(first, kind=first.kind[rows], given=first.given[rows])
-    return found_starts(replace(problem, first_states=alone, start_prior=StartPrior(scale[rows])))

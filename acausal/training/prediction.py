@@ -23,7 +23,7 @@ from acausal.reporting import (
     table,
     titled_sections,
 )
-from acausal.training.page_of_several import prediction_blocks
+from acausal.training.presentation.page_of_several import prediction_blocks
 from acausal.training.record_fit import RecordFit
 from acausal.training.uncertainty.confidence import Band
 

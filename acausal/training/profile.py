@@ -11,19 +11,17 @@ from dataclasses import dataclass, replace
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.flatten_util import ravel_pytree
-from jaxtyping import Array, Bool, Float, PRNGKeyArray
+from jaxtyping import Array, Bool, Float
 
 from acausal.errors import TrainingError, nearest, shown
 from acausal.reporting import plot_profile
 from acausal.training.member import stacked
 from acausal.training.objective.modifiers import Bounded, Shift
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.sequences import Batch
 from acausal.training.objective.trainable import Trainable
 from acausal.training.objective.whole_record import gauss_newton, over_whole_record
 from acausal.training.optimizers.gradients import with_gauss_newton_hessian, with_gradient
@@ -159,50 +157,13 @@ def _crossing(
     return float(values[k - 1] + (values[k] - values[k - 1]) * (edge - inner) / (outer - inner))
 
 
-class _Held(eqx.Module):
-    """A problem in which one trained parameter stays where it is.
+@dataclass(frozen=True)
+class _HeldShift(Shift):
+    """A parameter that stays where it is put, because all derivatives by it are zero."""
 
-    Attributes:
-        problem: the training.
-        name: the parameter.
-    """
-
-    problem: Problem
-    name: str = eqx.field(static=True)
-
-    def _held(self, trainable: Trainable) -> Trainable:
-        own = {self.name: jax.lax.stop_gradient(trainable.modifiers[self.name])}
-        return replace(trainable, modifiers={**trainable.modifiers, **own})
-
-    def draw(self, key: PRNGKeyArray) -> Batch:
-        """All of every record."""
-        return self.problem.draw(key)
-
-    def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " 1"]:
-        """The loss."""
-        return self.problem.losses(self._held(trainable), batch)
-
-    def weighed(self, loss: Float[Array, ""], trainable: Trainable) -> Float[Array, ""]:
-        """The loss, weighed by what is known without data."""
-        return self.problem.weighed(loss, self._held(trainable))
-
-    def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
-        """What every regularizer adds to the loss."""
-        return self.problem.penalties(self._held(trainable))
-
-    def predictions(self, trainable: Trainable) -> Float[Array, "n_models N n_targets"]:
-        """The predictions of every model that counts."""
-        return self.problem.predictions(self._held(trainable))
-
-    def compare(self, predicted: Float[Array, "N n_targets"]) -> Float[Array, ""]:
-        """The loss of predictions."""
-        return self.problem.compare(predicted)
-
-    def curvature(
-        self, predicted: Float[Array, "N n_targets"]
-    ) -> Float[Array, "N n_targets"] | None:
-        """The second derivative of the loss by each prediction."""
-        return self.problem.curvature(predicted)
+    def change(self, value: Float[Array, ""], delta: Float[Array, ""]) -> Float[Array, ""]:
+        """That of `Shift`."""
+        return super().change(value, jax.lax.stop_gradient(delta))
 
 
 def profile(
@@ -226,13 +187,12 @@ def profile(
     held, starts = _starts(problem, trained, params, name, values)
     trainer, updates = _trainer(starts[0])
     state = stacked([begin(trainer, start, jax.random.key(0)) for start in starts])
-    side_by_side = jax.default_backend() != "cpu"
-    state, _ = advance(held, trainer, state, jnp.asarray(updates), side_by_side=side_by_side)
+    state, _ = advance(held, trainer, state, jnp.asarray(updates))
     _, unravel = ravel_pytree(starts[0])
     losses = np.asarray(state.optimizer.value)
 
     def trained_values(flat: Float[Array, " n"]) -> dict[str, Array]:
-        assembled = held.problem.assemble(unravel(flat))
+        assembled = held.assemble(unravel(flat))
         return {n: jnp.asarray(assembled[n]) for n in problem.modifiers.names if n != name}
 
     others = jax.vmap(trained_values)(state.optimizer.point)
@@ -291,12 +251,12 @@ def _starts(
     params: dict[str, Any],
     name: str,
     values: Float[np.ndarray, " points"],
-) -> tuple[_Held, list[Trainable]]:
-    """The problem over whole records in which the parameter can be put anywhere, and a start for each of its values."""
+) -> tuple[Problem, list[Trainable]]:
+    """The problem over whole records in which the parameter stays where it is, and a start for each of its values."""
     moved = problem.modifiers
     i = moved.names.index(name)
     centre, scale = float(params[name]), float(np.ptp(values))
-    kinds = (*moved.kinds[:i], Shift(scale), *moved.kinds[i + 1 :])
+    kinds = (*moved.kinds[:i], _HeldShift(scale), *moved.kinds[i + 1 :])
     start = (*moved.values[:i], jnp.asarray(centre), *moved.values[i + 1 :])
     free = replace(
         problem,
@@ -310,7 +270,7 @@ def _starts(
         replace(entry, modifiers={**entry.modifiers, name: jnp.asarray((v - centre) / scale)})
         for v in values.tolist()
     ]
-    return _Held(whole, name), starts
+    return whole, starts
 
 
 def _size(trainable: Trainable) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from jaxtyping import Float
@@ -12,12 +11,6 @@ from jaxtyping import Float
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.uncertainty.residuals import Piece, Residuals, residuals
-
-if TYPE_CHECKING:
-    from acausal.system import System
-
-OUTSIDE = 0.05
-"""A record is outside of the training's range if it leaves it by more than this part of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,59 +82,6 @@ def residuals_of(records: Sequence[RecordFit]) -> tuple[Residuals, ...]:
         if pieces:
             found.append(residuals(name, pieces, float(records[0].sigma[i])))
     return tuple(found)
-
-
-class _Known(Protocol):
-    @property
-    def system(self) -> System: ...
-    @property
-    def records(self) -> Mapping[str, RecordFit]: ...
-
-
-def out_of_range(record: RecordFit, fit: _Known) -> str:
-    """A sentence on what of a record is outside of what a model was trained on; empty where nothing is.
-
-    Inputs, targets and the arguments of networks count, at samples where a target is measured, from `OUTSIDE` of the
-    range in training on.
-
-    Arguments:
-        record: as predicted by the trained model.
-        fit: the training.
-    """
-    seen = [_measured(r) for r in fit.records.values()]
-    found: list[str] = []
-    for name, values in _measured(record).items():
-        known = np.concatenate([columns[name] for columns in seen])
-        if not (len(values) and len(known)):
-            continue
-        low, high, least, most = known.min(), known.max(), values.min(), values.max()
-        if max(low - least, most - high) > OUTSIDE * (high - low):
-            plain = name in (*record.inputs, *record.targets)
-            what, unit = (f"'{name}'", fit.system.unit(name)) if plain else (name, "")
-            found.append(
-                f"{what} is from {least:.4g} to {most:.4g} {unit}".rstrip()
-                + f" (in training {low:.4g} to {high:.4g})"
-            )
-    if not found:
-        return ""
-    return f"'{record.name}' is outside of the training's range: {', '.join(found)}. There the model extrapolates."
-
-
-def _measured(record: RecordFit) -> dict[str, Float[np.ndarray, " m"]]:
-    """Inputs, targets and arguments of networks, by name, where some target is measured; everywhere if none is."""
-    counts = np.atleast_1d(np.isfinite(record.measured).any(axis=1))
-    counts = counts if counts.any() else np.ones_like(counts)
-    columns = {
-        **record.inputs,
-        **{n: record.measured[:, i] for i, n in enumerate(record.targets)},
-    }
-    for name, calls in record.arguments.items():
-        at_samples = calls.reshape(len(counts), -1, calls.shape[1])
-        for i in range(calls.shape[1]):
-            which = f"argument {i + 1}" if calls.shape[1] > 1 else "the argument"
-            columns[f"{which} of '{name}'"] = at_samples[:, :, i]
-    rows = {n: c[counts] for n, c in columns.items()}
-    return {n: c[np.isfinite(c)] for n, c in rows.items()}
 
 
 def of_records(

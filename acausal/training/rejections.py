@@ -7,7 +7,7 @@ import numpy as np
 from acausal.errors import TrainingError
 from acausal.networks import output_scale
 from acausal.simulation import Adaptive
-from acausal.training.history import Log
+from acausal.training.history import TrainingLog
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 
@@ -27,7 +27,7 @@ MOST = 4
 """Networks whose scales a message tells."""
 
 
-def check_rejections(log: Log, rejected: int, problem: Problem, tried: Trainable) -> None:
+def check_rejections(log: TrainingLog, rejected: int, problem: Problem, tried: Trainable) -> None:
     """Check how many updates were rejected in a row.
 
     Arguments:

@@ -1,80 +1,47 @@
-"""The result of a training, and further analyses of it."""
+"""`Fit`: a trained model, and further questions to it."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Float
 
-from acausal.analysis import Distilled, distill, labels
+from acausal.analysis import Distilled, distill
 from acausal.data import RecordsLike
-from acausal.errors import TrainingError, nearest
 from acausal.files import need_path
 from acausal.networks import remove_offset
 from acausal.pages import write_page
 from acausal.reporting import PageContent, PlainTable
-from acausal.training.auto.verdict import (
-    StageResult,
-    Verdict,
-    step_error,
-    verdict,
-)
-from acausal.training.export_with_card import export_with_card
-from acausal.training.fit_page import fit_content
-from acausal.training.fit_view import fit_view
-from acausal.training.history import History
+from acausal.training.auto.verdict import Verdict, step_error, verdict
 from acausal.training.member import Trained
-from acausal.training.objective.error_laws import LogLikelihood
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import on_default_device
-from acausal.training.objective.start_sizes import found_starts
-from acausal.training.objective.timing import delay_of, lag_of
-from acausal.training.objective.trainable import Trainable, changes_of
-from acausal.training.page_subject import LearnedLaw
+from acausal.training.objective.trainable import Trainable
 from acausal.training.predict import OwnParameters, predict
 from acausal.training.prediction import Predictions
+from acausal.training.presentation.export_with_card import export_with_card
+from acausal.training.presentation.fit_page import fit_content
+from acausal.training.presentation.fit_view import fit_text, fit_view
 from acausal.training.profile import Profile, profile
-from acausal.training.record_fit import RecordFit, of_records, residuals_of
+from acausal.training.record_fit import RecordFit, of_records
 from acausal.training.starts import Starts
-from acausal.training.uncertainty.confidence import Band, Confidence, confidence
+from acausal.training.strategy import StageResult
+from acausal.training.trained_model import Seen, TrainedModel
+from acausal.training.uncertainty.confidence import Confidence
 from acausal.training.uncertainty.conformal import Conformal, conformal
-from acausal.training.uncertainty.residuals import Residuals
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from acausal.system import System
 
-
-@dataclass(frozen=True, eq=False)
-class Seen:
-    """Statistics of a network's arguments over the record, in one simulation with the trained parameters.
-
-    Attributes:
-        mean: of every argument.
-        sigma: standard deviation of every argument.
-    """
-
-    mean: Float[np.ndarray, " n_arguments"]
-    sigma: Float[np.ndarray, " n_arguments"]
-
-    def interval(
-        self, sigmas: float = 2.0
-    ) -> tuple[Float[np.ndarray, " n_arguments"], Float[np.ndarray, " n_arguments"]]:
-        """Bounds ``mean ± sigmas · σ`` of every argument; outside of 2σ a network extrapolates."""
-        return self.mean - sigmas * self.sigma, self.mean + sigmas * self.sigma
-
-
-@dataclass(frozen=True, eq=False)
-class Fit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(TrainedModel):
     """The result of `fit`.
 
     Attributes:
@@ -105,30 +72,6 @@ class Fit:
         not_laws: networks of which ``strategy="auto"`` knew no scales: modules of your own.
     """
 
-    system: System
-    params: dict[str, Any]
-    loss: float
-    loss_before: float
-    validation_loss: float | None
-    best_epoch: int
-    records: dict[str, RecordFit]
-    held_out: dict[str, RecordFit]
-    modifiers: dict[str, float]
-    arguments: dict[str, Float[np.ndarray, "n_calls n_arguments"]]
-    seen: dict[str, Seen]
-    history: History
-    seconds: float
-    compile_seconds: float
-    seconds_per_epoch: float
-    interrupted: bool
-    problem: Problem
-    trained: Trainable
-    starts: Starts | None = None
-    settings: Mapping[str, str] = field(default_factory=dict[str, str])
-    stages: tuple[StageResult, ...] = ()
-    step_error: float | None = None
-    not_laws: tuple[str, ...] = ()
-
     @cached_property
     def verdict(self) -> Verdict | None:
         """Whether the fit explains the records down to their noise; ``None`` for other losses than ``"nrmse"``."""
@@ -138,112 +81,6 @@ class Fit:
         """The stages and what each reached, in a line."""
         line = " → ".join(f"{stage.title} {stage.loss:.4g}" for stage in self.stages)
         return line if self.verdict is None else f"{line}; noise {self.verdict.noise:.4g}"
-
-    @property
-    def x0(self) -> dict[str, float]:
-        """The state at the start of the only record, by name."""
-        return self._only("x0").x0
-
-    @property
-    def predicted(self) -> Float[np.ndarray, "N n_targets"]:
-        """The targets in one simulation of the only record."""
-        return self._only("predicted").predicted
-
-    @property
-    def predicted_before(self) -> Float[np.ndarray, "N n_targets"]:
-        """The same before training."""
-        self._only("predicted")
-        return next(iter(self.before.values())).predicted
-
-    @property
-    def time(self) -> Float[np.ndarray, " N"]:
-        """The times of the only record, in seconds."""
-        return self._only("time").time
-
-    @property
-    def samples_trained(self) -> int:
-        """How many samples the training's records have."""
-        return sum(len(record.time) for record in self.records.values())
-
-    def _only(self, what: str) -> RecordFit:
-        """The only record.
-
-        Raises:
-            TrainingError: if there are several.
-        """
-        first, *others = self.records.values()
-        if others:
-            raise TrainingError(
-                f"There are {len(self.records)} records: ask one of them, fit.records['{first.name}'].{what}."
-            )
-        return first
-
-    @property
-    def rms(self) -> dict[str, float]:
-        """By target, the root mean square error over all records, in the target's unit."""
-        errors = np.concatenate([record.errors for record in self.records.values()])
-        squares = np.sqrt(np.nanmean(errors**2, axis=0))
-        return dict(zip(self.problem.targets, squares.tolist(), strict=True))
-
-    @cached_property
-    def noise(self) -> dict[str, float]:
-        """By target, the level of its noise in its unit: as given to the loss, or as estimated from all records.
-
-        For losses that know of no noise it is the root mean square error.
-        """
-        problem, records = self.problem, self.problem.records
-        if not isinstance(problem.loss, LogLikelihood):
-            return self.rms
-        predicted = problem.simulate(self.trained).y
-        levels = problem.loss.levels(predicted, records.y, records.sigma, records.weight)
-        return dict(zip(problem.targets, levels.tolist(), strict=True))
-
-    @property
-    def delays(self) -> dict[str, float]:
-        """The delays of inputs and targets in seconds, trained or given."""
-        found = self.problem.assemble(self.trained)
-        return {n: float(found[delay_of(n)]) for n in self.problem.timing.delays}
-
-    @property
-    def lags(self) -> dict[str, float]:
-        """The time constants of targets' sensors in seconds, trained or given."""
-        found = self.problem.assemble(self.trained)
-        return {n: float(found[lag_of(n)]) for n in self.problem.timing.lags}
-
-    @property
-    def score(self) -> float:
-        """The loss by which the best was chosen: over the held-out samples, else over the whole record."""
-        return self.loss if self.validation_loss is None else self.validation_loss
-
-    def confidence(self, record: str | None = None) -> Confidence:
-        """How well the records determine the learned laws and the trained parameters; computed when first asked for.
-
-        Arguments:
-            record: what this record alone determines; by default all together.
-
-        Raises:
-            TrainingError: for a name that is not a record, or if the model diverges over a record.
-        """
-        if record not in self._confidences:
-            problem = self.problem if record is None else self._alone(record)
-            self._confidences[record] = confidence(problem, self.trained, self.arguments)
-        return self._confidences[record]
-
-    @cached_property
-    def _confidences(self) -> dict[str | None, Confidence]:
-        return {}
-
-    def _alone(self, record: str) -> Problem:
-        """The problem in which one record alone counts."""
-        known = self.problem.records
-        if record not in known.names:
-            raise TrainingError(f"There is no record '{record}': {nearest(record, known.names)}")
-        counts = (known.of == known.names.index(record))[:, None]
-        return replace(
-            self.problem,
-            records=replace(known, weight=jnp.where(counts, known.weight, 0.0)),
-            prior=None,
-        )
 
     def profile(
         self, parameter: str, points: int = 21, width: float = 3.0, level: float = 0.95
@@ -335,28 +172,6 @@ class Fit:
         """
         return self.predict(data, x0, params=params, conformal=conformal).errors
 
-    def residuals(self, record: str | None = None) -> tuple[Residuals, ...]:
-        """The residuals of every target: over one record, or over all of them.
-
-        Raises:
-            TrainingError: for a name that is not a record.
-        """
-        if record is not None and record not in self.records:
-            raise TrainingError(f"There is no record '{record}': {nearest(record, self.records)}")
-        chosen = list(self.records.values()) if record is None else [self.records[record]]
-        return residuals_of(chosen)
-
-    @cached_property
-    def before(self) -> dict[str, RecordFit]:
-        """The records before training, as `records`."""
-        start = self.problem.start()
-        return of_records(self.problem, start, self.problem.simulate(start))
-
-    def samples(self, network: str, most: int = 400) -> Float[np.ndarray, " n_samples"]:
-        """Some of the values that a network's first argument had over the record, at most so many."""
-        values = self.arguments[self._known(network)][:, 0]
-        return values[:: max(1, len(values) // most)]
-
     def distill(self, network: str, sigmas: float = 2.0, **options: Any) -> Distilled:
         """A short formula for a learned law of one variable, over ``mean ± sigmas · σ`` of its argument in training.
 
@@ -365,16 +180,8 @@ class Fit:
             sigmas: how far the formula reaches to either side.
             options: further arguments of `acausal.distill`.
         """
-        low, high = self.seen[self._known(network)].interval(sigmas)
+        low, high = self.seen[self.need_network(network)].interval(sigmas)
         return distill(self.params[network], float(low[0]), float(high[0]), **options)
-
-    def _known(self, network: str) -> str:
-        """The name of a trained network; any other name is refused with a sentence."""
-        if network not in self.seen:
-            raise TrainingError(
-                f"There is no trained network '{network}': {nearest(network, self.seen)}"
-            )
-        return network
 
     def report(
         self, path: str | Path, title: str = "Training", *, profiles: Sequence[Profile] = ()
@@ -398,53 +205,7 @@ class Fit:
 
     def page_content(self, title: str = "", profiles: Sequence[Profile] = ()) -> PageContent:
         """All that the page of the training shows; arguments as of `report`."""
-        trained = ", ".join((*self.seen, *self.modifiers))
-        end = ", ended by the user" if self.interrupted else ""
-        lead = (
-            f"{trained} trained on {self.samples_trained} samples of {', '.join(self.problem.targets)} in "
-            f"{self.seconds:.3g} s, {self.history.epochs} updates{end}."
-        )
-        lead += "" if self.verdict is None else f" The model {self.verdict}"
-        return fit_content(self, self.before, title or "Training", lead, self._losses(), profiles)
-
-    def _losses(self) -> list[tuple[str, str, str]]:
-        """Losses before and after, in rows."""
-        rows = [("loss over the record", f"{self.loss_before:.4g}", f"{self.loss:.4g}")]
-        for before in self.history.validation_loss[:1, 1]:
-            rows.append(
-                ("loss over what is held out", f"{before:.4g}", f"{self.validation_loss:.4g}")
-            )
-        return rows
-
-    def with_bands(self, bands: Mapping[str, Band]) -> dict[str, LearnedLaw]:
-        """Learned laws as reports show them: over their arguments in training, in the quantity that the model has."""
-        packed = self.system.pack(self.params)
-
-        def law(name: str, band: Band) -> LearnedLaw:
-            found = labels(self.system, name, packed)
-            argument = found.arguments[0] if found.arguments else "argument"
-            return LearnedLaw(
-                band.times(found.factor),
-                self.seen[name],
-                self.samples(name),
-                argument,
-                found.result,
-                found.factor,
-            )
-
-        return {name: law(name, band) for name, band in bands.items()}
-
-    @property
-    def ranges(self) -> dict[str, tuple[tuple[float, float], ...]]:
-        """By network, the least and the greatest value of each argument in one simulation of every record.
-
-        `export` takes them as ``ranges``. A network that was called with values that are not finite has none.
-        """
-        return {
-            name: tuple(zip(seen.min(axis=0).tolist(), seen.max(axis=0).tolist(), strict=True))
-            for name, seen in self.arguments.items()
-            if np.isfinite(seen).all()
-        }
+        return fit_content(self, self.verdict, title or "Training", profiles)
 
     def export(
         self,
@@ -483,68 +244,10 @@ class Fit:
         return remove_offset(self.params, tuple(self.seen))
 
     def _repr_html_(self) -> str:
-        written, params = self.problem.modifiers.written, self.problem.assemble(self.trained)
-        losses = [("loss over the record", self.loss_before, self.loss)]
-        for before in self.history.validation_loss[:1, 1].tolist():
-            losses.append(("loss over what is held out", before, self.validation_loss or np.nan))
-        parameters = [
-            (
-                n,
-                f"{float(params[n]):.6g} {unit}".removesuffix(" 1"),
-                written(n, change, "+.3g", unit),
-            )
-            for n, change in self.modifiers.items()
-            for unit in [self.problem.unit(n)]
-        ]
-        end = ", ended by the user" if self.interrupted else ""
-        return fit_view(
-            f"Fit of {', '.join((*self.seen, *self.modifiers))}",
-            f"{self.samples_trained} samples, {self.history.epochs} updates in {self.seconds:.3g} s{end}; "
-            f"best after update {self.best_epoch}",
-            losses,
-            self.rms,
-            {n: self.system.unit(n) for n in self.problem.targets},
-            parameters,
-            next(iter(self.records.values())),
-            self.history,
-        )
-
-    def _times(self) -> str:
-        """What the time was spent on; the parts add up."""
-        each, epochs = self.seconds_per_epoch, self.history.epochs
-        rest = max(self.seconds - self.compile_seconds - each * epochs, 0.0)
-        return (
-            f"{self.compile_seconds:.3g} s to compile, {each * epochs:.3g} s for {epochs} epochs of "
-            f"{each * 1e3:.3g} ms, {rest:.3g} s for the rest"
-        )
+        return fit_view(self)
 
     def __repr__(self) -> str:
-        times = self.problem.timing
-        changes = ", ".join(
-            f"{n} {value:+.3f}" for n, value in self.modifiers.items() if n not in times.values
-        )
-        late = [f"{delay_of(n)} {value:.4g} s" for n, value in self.delays.items()]
-        late += [f"{lag_of(n)} {value:.4g} s" for n, value in self.lags.items()]
-        end = " (interrupted)" if self.interrupted else ""
-        lines = [
-            f"Fit of {', '.join((*self.seen, *self.modifiers))}{end}",
-            f"  loss      {self.loss_before:.4g} before, {self.loss:.4g} after epoch {self.best_epoch}",
-            f"  time      {self.seconds:.3g} s: {self._times()}",
-        ]
-        if self.validation_loss is not None:
-            lines.insert(2, f"  held out  {self.validation_loss:.4g}")
-        lines += [f"  modifiers {changes}"] if changes else []
-        lines += [] if self.starts is None else [f"  starts    {self.starts.summary()}"]
-        lines += [f"  times     {', '.join(late)}"] if late else []
-        found = found_starts(self.problem)
-        lines += [f"  x0        found: {found}"] if found else []
-        lines += [f"  stages    {self.stages_summary()}"] if self.stages else []
-        lines += [] if self.verdict is None else [f"  verdict   {self.verdict}"]
-        diverged = self.history.divergences
-        lines += (
-            [f"  diverged  in {len(diverged)} epochs, see history.divergences"] if diverged else []
-        )
-        return "\n".join(lines)
+        return fit_text(self, self.stages_summary(), self.verdict)
 
 
 def _of_held_out(problem: Problem, trainable: Trainable) -> dict[str, RecordFit]:
@@ -576,7 +279,7 @@ def result(
         best_epoch=best.epoch,
         records=of_records(problem, best.trainable, best.simulated),
         held_out={} if held is None else _of_held_out(held.problem, best.trainable),
-        modifiers={n: float(value) for n, value in changes_of(problem, best.trainable).items()},
+        modifiers={n: float(value) for n, value in problem.changes(best.trainable).items()},
         arguments=arguments,
         seen={n: Seen(a.mean(axis=0), a.std(axis=0)) for n, a in arguments.items()},
         history=history,

@@ -1,4 +1,4 @@
-"""Several starting points of the trained parameters: where they are, and what each of them reached."""
+"""Several starting points of the trained parameters: where they are, which go on, and what each of them reached."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
@@ -25,6 +26,13 @@ ALIKE = 0.01
 
 SMALL = 1e-4
 """or by less than this part of the lowest loss before training."""
+
+FIRST, SECOND = 0.3, 0.6
+"""The part of all updates after which a quarter of the starts goes on, and then a quarter of these."""
+
+QUARTER = 4
+FEWEST = 2
+"""At least so many go on to the end, as long as there are so many."""
 
 
 @dataclass(frozen=True)
@@ -196,3 +204,48 @@ def starts_of(problem: Problem, starts: Sequence[Trainable], trained: Sequence[T
         updates=np.array([t.history.epochs for t in trained]),
         finished=np.array([t.finished for t in trained]),
     )
+
+
+class Rung(NamedTuple):
+    """A moment at which only the best go on.
+
+    Attributes:
+        at: planned updates until then.
+        keep: how many go on.
+    """
+
+    at: int
+    keep: int
+
+
+class Halving(NamedTuple):
+    """Successive halving: all trainings make a few updates, the best go on, and the best of these to the end.
+
+    K. Jamieson, A. Talwalkar: Non-stochastic Best Arm Identification and Hyperparameter Optimization, AISTATS 2016.
+    Here a quarter goes on in place of a half, since good starts differ from others by more than the noise of a score.
+    Without rungs, all go on.
+
+    Because a training that goes on can only get better, those that go on are always the best of all.
+    """
+
+    rungs: tuple[Rung, ...] = ()
+
+    def survivors(self, scores: Sequence[float], done: int) -> list[int]:
+        """The trainings that go on after so many planned updates, in order."""
+        keep = min((r.keep for r in self.rungs if r.at <= done), default=len(scores))
+        return sorted(sorted(range(len(scores)), key=scores.__getitem__)[:keep])
+
+    def until_next(self, done: int) -> float:
+        """How many updates there are until the next moment; infinite after the last."""
+        return min((r.at - done for r in self.rungs if r.at > done), default=math.inf)
+
+
+def halving(starts: int, updates: int) -> Halving:
+    """The plan for some starts and updates; for one start there is nothing to choose."""
+    rungs: list[Rung] = []
+    keep = starts
+    for part in (FIRST, SECOND):
+        keep = max(FEWEST, math.ceil(keep / QUARTER))
+        if keep < (rungs[-1].keep if rungs else starts):
+            rungs.append(Rung(max(1, math.ceil(part * updates)), keep))
+    return Halving(tuple(rungs))

@@ -7,12 +7,13 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import NamedTuple
 
+import numpy as np
 import optax
 
 from acausal.errors import TrainingError
-from acausal.training.objective.equation_error import EquationError, equation_error
+from acausal.training.history import History
+from acausal.training.objective.equation_error import equation_error
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import changes_of
 from acausal.training.objective.whole_record import (
     gauss_newton,
     over_whole_record,
@@ -28,6 +29,9 @@ from acausal.training.optimizers.lbfgs import lbfgs
 from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer
 from acausal.training.options import FitOptions
+
+DIVERGED = 1e3
+"""A sequence whose normalised error is larger has diverged."""
 
 EVALUATIONS = 10
 """Evaluations over the whole record in each leg, by default."""
@@ -70,7 +74,7 @@ class Leg(NamedTuple):
     """
 
     stage: Stage
-    objective: Problem | EquationError
+    objective: Problem
     trainer: Trainer
     epochs: int
     evaluate_every: int
@@ -95,7 +99,7 @@ class _Kind(NamedTuple):
         evaluate: computes the derivatives that the optimizer needs.
     """
 
-    objective: Callable[[Problem], Problem | EquationError]
+    objective: Callable[[Problem], Problem]
     optimizer: Callable[[], optax.GradientTransformation] | None
     evaluate: Evaluate = with_gradient
 
@@ -115,24 +119,22 @@ def stages(options: FitOptions) -> tuple[Stage, ...]:
     return tuple(Stage(name, count, name.replace("_", " ")) for name, count in parts)
 
 
-def legs(
-    problem: Problem, planned: Sequence[Stage], options: FitOptions, limit: float
-) -> tuple[Leg, ...]:
-    """The legs of a training; a sequence with a loss above the limit has diverged.
+def legs(problem: Problem, planned: Sequence[Stage], options: FitOptions) -> tuple[Leg, ...]:
+    """The legs of a training.
 
     Raises:
         TrainingError: for an optimizer or a problem that a leg cannot have.
     """
-    return tuple(_leg(problem, stage, options, limit) for stage in planned)
+    return tuple(_leg(problem, stage, options) for stage in planned)
 
 
-def _objective(stage: Stage, problem: Problem) -> Problem | EquationError:
+def _objective(stage: Stage, problem: Problem) -> Problem:
     if stage.rows is None:
         return KINDS[stage.kind].objective(problem)
     return over_windows(problem, stage.rows)
 
 
-def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> Leg:
+def _leg(problem: Problem, stage: Stage, options: FitOptions) -> Leg:
     epochs, kind = stage.epochs, KINDS[stage.kind]
     if stage.descent:
         chosen = lbfgs()
@@ -145,7 +147,8 @@ def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> L
                 "L-BFGS compares losses of the same data, and every batch holds others: take the whole "
                 "record (sequence_length=None), or strategy=('sequences', 'whole_record') with another optimizer."
             )
-    trainer = Trainer(optax.with_extra_args_support(chosen), limit, changes_of, kind.evaluate)
+    limit = DIVERGED if options.loss == "nrmse" else math.inf  # of a user's loss nothing is known
+    trainer = Trainer(optax.with_extra_args_support(chosen), limit, Problem.changes, kind.evaluate)
     every = options.evaluate_every
     if every is None:
         every = max(1, epochs // EVALUATIONS)
@@ -156,3 +159,37 @@ def _leg(problem: Problem, stage: Stage, options: FitOptions, limit: float) -> L
 def default_optimizer(epochs: int) -> optax.GradientTransformation:
     """Adam, its rate falling from 0.01 to 0.0001 as a cosine over the epochs."""
     return optax.adam(optax.cosine_decay_schedule(1e-2, epochs, 1e-2))
+
+
+class StageResult(NamedTuple):
+    """What a stage reached.
+
+    Attributes:
+        title: what it did.
+        loss: the lowest over the whole record among its evaluations.
+        updates: that it made.
+    """
+
+    title: str
+    loss: float
+    updates: int
+
+
+def stage_results(
+    history: History, legs: Sequence[Leg], linear: float | None
+) -> tuple[StageResult, ...]:
+    """The stages that a training has gone through.
+
+    Arguments:
+        history, legs: of the training.
+        linear: the loss of the linear laws that it started from, if there are any.
+    """
+    found = [] if linear is None else [StageResult("linear law", linear, 0)]
+    epochs, losses = history.full_loss.T
+    for i, leg in enumerate(legs):
+        own = np.flatnonzero(history.part == i)
+        if len(own):
+            inside = (epochs > own[0]) & (epochs <= own[-1] + 1)
+            loss = float(np.min(losses[inside], initial=np.inf))
+            found.append(StageResult(leg.stage.title, loss, len(own)))
+    return tuple(found)

@@ -27,35 +27,29 @@ from acausal.modeling import names_in
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic
-from acausal.training.auto.verdict import stage_results
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
-from acausal.training.halving import halving
 from acausal.training.happened import grazing
-from acausal.training.log_progress import log_progress
-from acausal.training.loop import train
+from acausal.training.logs import log_progress
 from acausal.training.member import Best, Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
-from acausal.training.objective.losses import nrmse
-from acausal.training.objective.noise import noise_loss
+from acausal.training.objective.losses import noise_loss, nrmse
 from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.trainable import Trainable, changes_of
+from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
 from acausal.training.progress import display
 from acausal.training.rejections import SHORTER_STEPS
 from acausal.training.result import Fit, result
-from acausal.training.starts import spread_starts, starts_of
-from acausal.training.strategy import Leg, legs, stages
+from acausal.training.starts import halving, spread_starts, starts_of
+from acausal.training.strategy import Leg, legs, stage_results, stages
+from acausal.training.training_run import TrainingRun
 
 if TYPE_CHECKING:
     from acausal.system import System
 
 LOGGER = logging.getLogger(__name__)
-
-DIVERGED = 1e3
-"""A sequence whose normalised error is larger has diverged."""
 
 EXACT = 1e-100
 """A loss at which a model follows its record to roundoff, so that nothing needs to change."""
@@ -122,19 +116,17 @@ def prepare(
     kept = split(records, options.validation)
     names = names_in(targets, "targets")
     check_records(options.x0, (*records, *(kept.held or {})))
-    chosen = None
+    from_data = None
     if options.automatic:
-        with (
-            warnings.catch_warnings()
-        ):  # what there is to warn of, the problem of the training says again
+        with warnings.catch_warnings():  # the problem of the training warns again
             warnings.simplefilter("ignore")
-            chosen = automatic(system, kept.training, names, starts, options)
-        options, starts = chosen.options, list(chosen.params)
+            from_data = automatic(system, kept.training, names, starts, options)
+        options, starts = from_data.options, list(from_data.params)
     problem = build_problem(system, kept.training, names, dict(starts[0]), options)
     held = hold_out(problem, kept, options.x0)
-    planned = stages(options) if chosen is None else chosen.stages
-    plan = legs(problem, planned, options, _limit_of(options))
-    return Training(problem, kept.training, held, plan, options, seeds, starts, chosen)
+    planned = stages(options) if from_data is None else from_data.stages
+    plan = legs(problem, planned, options)
+    return Training(problem, kept.training, held, plan, options, seeds, starts, from_data)
 
 
 def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:
@@ -155,11 +147,9 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     if training.automatic is not None and options.starts == 1:
         starts = [training.automatic.begin(problem, start) for start in starts]
     keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
-    identity = (
-        {}
-        if options.checkpoint is None
-        else fingerprint(problem, plan, seeds, starts[1:], held, training.records)
-    )
+    identity: dict[str, str] = {}
+    if options.checkpoint is not None:
+        identity = fingerprint(problem, plan, seeds, starts[1:], held, training.records)
     path, stored = _checkpoint(options, identity)
     what = ", ".join((*problem.networks, *problem.modifiers.names))
     LOGGER.info(
@@ -171,8 +161,10 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
         checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
     ):
         observers = (show, log_progress, *options.all_observers)
-        chosen = halving(options.starts, epochs)
-        trained = train(problem, starts, plan, keys, observers, keep, stored, held, chosen)
+        ends = halving(options.starts, epochs)
+        trained = TrainingRun(problem, plan, keys, observers, keep, held, ends).train(
+            starts, stored
+        )
     for one in trained:
         LOGGER.info(
             "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
@@ -184,34 +176,27 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
-    settings = [{"seed": str(seed), **options.described()} for seed in seeds]
-    chosen = training.automatic
-    linear = None if chosen is None or chosen.linear is None else chosen.linear.loss
-    not_laws = None if chosen is None else chosen.not_laws
+    from_data, described = training.automatic, options.described()
+    linear = None if from_data is None or from_data.linear is None else from_data.linear.loss
     return tuple(
         result(
             own,
             one,
             judged or held,
             spread,
-            said,
+            {"seed": str(seed), **described},
             stage_results(one.history, plan, linear),
-            not_laws,
+            None if from_data is None else from_data.not_laws,
         )
-        for own, one, said in zip(problems, trained, settings, strict=True)
+        for own, one, seed in zip(problems, trained, seeds, strict=True)
     )
 
 
 def _trained_numbers(options: FitOptions) -> tuple[str, ...]:
     """The parameters that are trained beside networks."""
-    own = options.modifiers
-    named = () if own is None or isinstance(own, Iterator) else tuple(own)
+    moved = options.modifiers
+    named = () if moved is None or isinstance(moved, Iterator) else tuple(moved)
     return (*named, *(options.per_record or ()))
-
-
-def _limit_of(options: FitOptions) -> float:
-    """The loss above which a sequence has diverged; of a user's loss nothing is known."""
-    return DIVERGED if options.loss == "nrmse" else np.inf
 
 
 def _from(problem: Problem, params: Mapping[str, Any]) -> Problem:
@@ -288,7 +273,7 @@ def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[s
         yield (
             f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
         )
-    changes = changes_of(problem, trained.best.trainable)
+    changes = problem.changes(trained.best.trainable)
     yield from problem.modifiers.at_limit(changes, problem.unit).values()
 
 

@@ -10,12 +10,27 @@ import acausal as ac
 from acausal.analysis import arguments, calls, labels
 from acausal.codegen import Values
 from acausal.components import neural, translational as tl
-from acausal.networks.trainable import networks
+from acausal.networks import law_at
+from acausal.networks.in_params import networks
 from tests.support.oscillator import learned
 
 
 def count(module):
     return sum(a.size for a in jax.tree.leaves(eqx.filter(module, eqx.is_inexact_array)))
+
+
+class Spring(eqx.Module):
+    """A module of a user, with a field that is called as the law of an energy is."""
+
+    law: float
+
+    def __call__(self, x: Any) -> Any:
+        return self.law * x
+
+
+def test_the_law_of_a_module_with_a_field_of_that_name_is_the_module():
+    found = law_at(Spring(2.0), np.array([1.0, 2.0]), np.zeros(0))
+    np.testing.assert_array_equal(found, [2.0, 4.0])
 
 
 def test_the_papers_network():

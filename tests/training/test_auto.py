@@ -21,7 +21,7 @@ from acausal.networks import (
     with_scales,
 )
 from acausal.training.build_problem import build_problem
-from acausal.training.objective.noise import noise_of
+from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
 from benchmarks.by_default import NOISE, PROBLEMS, by_default, fresh_error, law_error, record
 from tests.support.slow import some_slow

@@ -27,7 +27,7 @@ from acausal.data import tensors
 from acausal.files import Lock
 from acausal.training import checkpoint as checkpoints
 from acausal.training.fingerprint import digest, program
-from acausal.training.history import Log
+from acausal.training.history import TrainingLog
 from acausal.training.objective.records import Places
 from tests.support.interrupted import EPOCHS, train
 from tests.support.oscillator import learned, plain, record
@@ -320,7 +320,7 @@ def test_two_trainings_with_one_checkpoint_are_refused(tmp_path: Path):
 
 
 def snapshots() -> tuple[checkpoints.Snapshot, checkpoints.Logs]:
-    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
+    log = TrainingLog(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
     return checkpoints.Snapshot(0, 0, None, (), 0, 0.0, 0.0, 0.0), (log.rows(),)
 
 

@@ -15,7 +15,7 @@ from scipy.signal import lfilter
 import acausal as ac
 from acausal.components import translational as tl
 from acausal.training.uncertainty.confidence import TAKEN
-from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
+from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
 from acausal.training.uncertainty.residuals import Piece, residuals
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
 from tests.support.oscillator import Oscillator, learned, plain, record
@@ -110,7 +110,7 @@ def test_samples_that_are_alike_count_for_less_and_unknown_starts_make_less_sure
 
 def covariance_of(J: np.ndarray, samples: float) -> np.ndarray:
     """Of numbers that one record has in common with others."""
-    return posterior_covariance([Blocks(J, J[:, :0])], samples).common
+    return posterior_covariance([RecordJacobian(J, J[:, :0])], samples).common
 
 
 def test_a_covariance_keeps_its_digits():

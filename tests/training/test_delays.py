@@ -15,7 +15,7 @@ from acausal.data import deviation_from_line
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.intervals import interval
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.sensors import Rows, delayed
+from acausal.training.objective.sensors import SensorRows, delayed
 from acausal.training.options import FitOptions
 from tests.support.oscillator import force, plain
 
@@ -166,7 +166,7 @@ def test_a_delay_looks_at_its_own_record_alone() -> None:
     for tau in (0.0, 0.07, 0.2, -0.04):
         at = jnp.clip(t - tau, t[first], t[last])
         exact = jnp.where(t < 1, at**2, 7 + (at - 5) ** 2)
-        found = delayed(y, Rows(t, h, first, last), jnp.asarray(tau))
+        found = delayed(y, SensorRows(t, h, first, last), jnp.asarray(tau))
         np.testing.assert_allclose(found, exact, atol=1e-12)
 
 

@@ -17,7 +17,7 @@ import pytest
 
 import acausal as ac
 from acausal.training.build_problem import build_problem
-from acausal.training.objective.trainable import changes_of
+from acausal.training.objective.problem import Problem
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.options import FitOptions
 from tests.support.oscillator import learned, record
@@ -81,7 +81,7 @@ def test_members_side_by_side_find_the_same():
     problem = build_problem(
         system, {"record": data}, ("mass.a",), params[0], FitOptions(modifiers=["mass.m"])
     )
-    trainer = Trainer(ac.lbfgs(), 1e3, changes_of)
+    trainer = Trainer(ac.lbfgs(), 1e3, Problem.changes)
     trainables = [replace(problem, params=own).start() for own in params]
     keys = [jax.random.key(seed) for seed in SEEDS[:2]]
     states = [begin(trainer, one, key) for one, key in zip(trainables, keys, strict=True)]

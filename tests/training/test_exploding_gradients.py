@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.training.history import EVALUATIONS, Log
+from acausal.training.history import EVALUATIONS, TrainingLog
 from acausal.training.objective.records import Places
 from tests.support.friction import sticking
 
@@ -61,7 +61,7 @@ def test_a_training_that_finds_nothing_is_told_of_its_steps():
 
 
 def test_logs_of_earlier_versions_are_continued():
-    log = Log(Places(np.arange(3.0), np.zeros(3, int), ("record",)), (), ())
+    log = TrainingLog(Places(np.arange(3.0), np.zeros(3, int), ("record",)), (), ())
     columns = {n: np.zeros(2, int) for n in ("diverged", "first", "rejected")}
     columns = {**columns, "loss": np.ones(2), "seconds": np.ones(2), EVALUATIONS: np.zeros((0, 3))}
     log.go_on(columns | {"rejected": np.zeros(2, bool)})

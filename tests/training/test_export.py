@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.training.model_card import markdown
+from acausal.training.presentation.model_card import markdown
 from tests.support.exported_c import need_compiler
 from tests.support.oscillator import learned, record
 

@@ -10,9 +10,9 @@ from acausal.simulation.fixed_steps import integrate
 from acausal.training.build_problem import build_problem
 from acausal.training.objective import losses
 from acausal.training.objective.modifiers import modifiers
+from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Context
 from acausal.training.objective.sequences import Sequences
-from acausal.training.objective.trainable import changes_of
 from acausal.training.optimizers.trainer import Trainer, advance, begin, evaluate_healthy
 from acausal.training.options import FitOptions
 from tests.support.oscillator import force, learned, plain, record
@@ -317,7 +317,7 @@ def test_the_good_sequences_give_the_gradient_they_give_alone():
     """With a bad sequence in the batch, the update is that of the others."""
     data = broken(slice(400, 500))
     posed = problem(data=data, batch_size=3)
-    trainer = Trainer(optax.with_extra_args_support(optax.sgd(1.0)), 1e3, changes_of)
+    trainer = Trainer(optax.with_extra_args_support(optax.sgd(1.0)), 1e3, Problem.changes)
     state = begin(trainer, posed.start(), jax.random.key(0))
     bad = eqx.tree_at(
         lambda b: b.start, posed.draw(jax.random.key(0)), jnp.asarray([100, 450, 700])
@@ -391,7 +391,7 @@ def test_a_rejected_update_leaves_everything_as_it_was():
         return jnp.where(near, jnp.sqrt(jnp.maximum(m - 2.0, 0.0)), 0.0)
 
     posed = problem(plain(), modifiers=["mass.m"], regularizers=(poison,))
-    trainer = Trainer(optax.with_extra_args_support(optax.adam(0.1)), 1e3, changes_of)
+    trainer = Trainer(optax.with_extra_args_support(optax.adam(0.1)), 1e3, Problem.changes)
     state = begin(trainer, posed.start(), jax.random.key(0))
     after, log = advance(posed, trainer, state, jnp.asarray(1))
     assert bool(log.rejected[0])

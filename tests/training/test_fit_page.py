@@ -10,8 +10,9 @@ import pytest
 
 import acausal as ac
 from acausal.reporting import Plot, Text
-from acausal.training.page_records import record_blocks
-from acausal.training.record_fit import RecordFit, out_of_range
+from acausal.training.presentation.page_records import record_blocks
+from acausal.training.record_fit import RecordFit
+from acausal.training.trained_model import out_of_range
 from tests.support.hybrid_training import Convection, Zone, learned_losses
 
 

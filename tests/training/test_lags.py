@@ -7,14 +7,14 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import acausal as ac
-from acausal.training.objective.sensors import Rows, lagged
+from acausal.training.objective.sensors import SensorRows, lagged
 from tests.support.oscillator import plain, record
 
 T = jnp.asarray([0.0, 0.1, 0.25, 0.3, 0.7, 2.0, 2.1, 2.4, 2.45])
 FIRST = jnp.asarray([0] * 5 + [5] * 4)
 LAST = jnp.asarray([4] * 5 + [8] * 4)
 H = jnp.asarray([0.1, 0.15, 0.05, 0.4, 0.4, 0.1, 0.3, 0.05, 0.05])
-ROWS = Rows(T, H, FIRST, LAST)
+ROWS = SensorRows(T, H, FIRST, LAST)
 Y = jnp.asarray([1.0, 2.0, -1.0, 0.0, 3.0, -4.0, -4.0, 2.0, 1.0])
 
 
@@ -65,7 +65,7 @@ def test_a_lag_is_found_and_one_that_is_not_there_goes_away() -> None:
     data = record(cubic=0.0, end=8.0)
     t, a = data.time, data.signals["mass.a"]
     h = float(t[1] - t[0])
-    rows = Rows(
+    rows = SensorRows(
         jnp.asarray(t), jnp.asarray(h), jnp.zeros(len(t), int), jnp.full(len(t), len(t) - 1)
     )
     slow = lagged(jnp.asarray(a), rows, jnp.asarray(0.03), jnp.full(len(t), a[0]))

@@ -3,8 +3,7 @@
 import pytest
 
 from acausal.training.history import Divergence
-from acausal.training.notebook_display import NotebookDisplay, bar, in_notebook
-from acausal.training.reported import Progress
+from acausal.training.progress import NotebookDisplay, Progress, bar, in_notebook
 
 
 def report(epoch: int, *divergences: Divergence, events: int | None = None) -> Progress:

@@ -16,11 +16,10 @@ import pytest
 import acausal as ac
 from acausal.components import translational as tl
 from acausal.training.build_problem import build_problem
-from acausal.training.halving import Halving, Rung, halving
-from acausal.training.objective.trainable import changes_of
+from acausal.training.objective.problem import Problem
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.options import FitOptions
-from acausal.training.starts import Starts, spread_starts
+from acausal.training.starts import Halving, Rung, Starts, halving, spread_starts
 from tests.support import oscillator
 from tests.training.test_checkpoint import stop
 
@@ -200,7 +199,7 @@ def test_starts_are_trained_on_side_by_side_as_one_after_the_other():
     params = {**system().parameters(), "spring.c": 12.5}
     data = {"a": record().for_system(system())}
     problem = build_problem(system(), data, ("mass.s",), params, options)
-    trainer = Trainer(optax.with_extra_args_support(optax.adam(0.01)), np.inf, changes_of)
+    trainer = Trainer(optax.with_extra_args_support(optax.adam(0.01)), np.inf, Problem.changes)
     begun = [begin(trainer, one, jax.random.key(0)) for one in spread_starts(problem, 3, 0)]
     state = jax.tree.map(lambda *rows: jnp.stack(rows), *begun)
     active = jnp.array([True, False, True])

@@ -14,12 +14,12 @@ import pytest
 
 import acausal as ac
 from acausal.training.build_problem import build_problem
-from acausal.training.history import Log
+from acausal.training.history import TrainingLog
 from acausal.training.objective.records import Places
 from acausal.training.objective.sequences import Batch
 from acausal.training.objective.smoothing import rate, smoothed
 from acausal.training.objective.whole_record import over_whole_record
-from acausal.training.optimizers.gradients import Evaluated
+from acausal.training.optimizers.gradients import LossDerivatives
 from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer, advance, begin
 from acausal.training.options import FitOptions
@@ -123,7 +123,7 @@ def test_lbfgs_survives_a_trial_that_fails(value: bool):
     trainer = Trainer(ac.lbfgs(), 1e3, lambda objective, x: {})
     state = begin(trainer, jnp.asarray(0.95), jax.random.key(0))
     state, rows = advance(Valley(1.004, value), trainer, state, jnp.asarray(20))
-    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
+    log = TrainingLog(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
     assert log.add(rows, 20, 0.0, 1.0) == []
     assert int(state.rejected) == 0
     assert float(state.optimizer.point[0]) == pytest.approx(1.0, abs=1e-9)
@@ -141,16 +141,18 @@ def test_trials_that_gauss_newton_turns_down_are_no_divergence(times: float):
     """Where the model is so curved that the first step leads beyond where it has a loss."""
     start = jnp.asarray([1.0 + np.sqrt(times**2 - 1)])
 
-    def evaluate(objective: Any, x: Any, batch: Any) -> Evaluated:
+    def evaluate(objective: Any, x: Any, batch: Any) -> LossDerivatives:
         slope = (x - 1) / jnp.sqrt(1 + (x - 1) ** 2)
         loss = jnp.where(x > -50, jnp.sqrt(1 + (x - 1) ** 2), jnp.inf)
         none = jnp.zeros(1, bool)
-        return Evaluated(loss, {}, loss[0], slope, none, (1 / (1 + (x - 1) ** 2) ** 1.5)[None])
+        return LossDerivatives(
+            loss, {}, loss[0], slope, none, (1 / (1 + (x - 1) ** 2) ** 1.5)[None]
+        )
 
     trainer = Trainer(levenberg_marquardt(), 1e3, lambda objective, x: {}, evaluate)
     state = begin(trainer, start, jax.random.key(0))
     state, rows = advance(Valley(np.inf, True), trainer, state, jnp.asarray(60))
-    log = Log(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
+    log = TrainingLog(Places(np.zeros(1), np.zeros(3, int), ("record",)), (), ())
     made = int(state.epoch)
     assert log.add(rows, made, 0.0, 1.0) == []
     history = log.history()

@@ -8,10 +8,11 @@ from acausal.data.readers.data_frame import (
     data_frame as data_frame,
     frame_units as frame_units,
     is_data_frame as is_data_frame,
+    need_unique as need_unique,
     read_parquet as read_parquet,
     read_runs as read_runs,
 )
-from acausal.data.readers.files import files as files
+from acausal.data.readers.many_files import files as files
 from acausal.data.readers.mat_file import read_mat as read_mat
 from acausal.data.readers.mdf_file import read_mdf as read_mdf
 from acausal.data.readers.table import (

@@ -39,9 +39,7 @@ def read_data_frame(frame: object, selection: Selection, source: str = "") -> Ta
     if not is_data_frame(frame):
         raise DataError(f"from_dataframe needs a pandas DataFrame, not {shown(frame)}.")
     what = source or "The data frame"
-    if not frame.columns.is_unique:
-        doubled = frame.columns[frame.columns.duplicated()][0]
-        raise DataError(f"{what} has two columns '{doubled}'.")
+    need_unique(frame, what)
     texts = [name for name in frame.columns if isinstance(name, str)]
     if len(texts) < len(frame.columns):
         odd = next(name for name in frame.columns if not isinstance(name, str))
@@ -57,6 +55,13 @@ def read_data_frame(frame: object, selection: Selection, source: str = "") -> Ta
     unit_of_time = units.pop(selection.time, units.pop("time", None))
     units |= {"time": unit_of_time} if unit_of_time is not None else {}
     return selection.table(seconds(time), signals, units, source)
+
+
+def need_unique(frame: DataFrame, what: str) -> None:
+    """Refuse a data frame with two columns of one name."""
+    if not frame.columns.is_unique:
+        doubled = frame.columns[frame.columns.duplicated()][0]
+        raise DataError(f"{what} has two columns '{doubled}'.")
 
 
 def read_runs(frame: object, selection: Selection, source: str = "") -> Table | dict[str, Table]:

@@ -14,9 +14,9 @@ import numpy as np
 from acausal.data import Data
 from acausal.networks import Affine, Scales, Shape, lacks_scales, linear_shape, with_scales
 from acausal.training.auto.linear_start import LinearStart, linear_module, linear_start
-from acausal.training.auto.steps import Step, chosen_steps, tried_steps
+from acausal.training.auto.step_choice import StepChoice, chosen_steps, tried_steps
 from acausal.training.build_problem import build_problem, trained_networks
-from acausal.training.objective.noise import noise_loss
+from acausal.training.objective.losses import noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
@@ -108,13 +108,13 @@ def automatic(
     part = _part(records, MOST)
     base = replace(options, sequence_length=None, epochs=None)
 
-    def problem_of(data: dict[str, Data], step: Step, x0: Any = None) -> Problem:
+    def problem_of(data: dict[str, Data], step: StepChoice, x0: Any = None) -> Problem:
         own = step.of(base, data)
         own = own if x0 is None else replace(own, x0=x0)
         return build_problem(system, data, targets, {**params[0], **linear}, own)
 
     level = EXPLAINS * np.sqrt(len(targets))
-    step, start, explains = Step(None), None, False
+    step, start, explains = StepChoice(None), None, False
     for trial in tried_steps(options):
         found = _start(problem_of(part, trial), shapes)
         if start is None or found.loss < 0.8 * start.loss:

@@ -166,10 +166,8 @@ class _Points:
         """Of up to `BATCH` points: losses, gradients, Hessians."""
         count = len(points)
         filled = np.stack([*points, *[points[-1]] * (BATCH - count)])
-        evaluate = _evaluate if self.forward else _losses
-        loss, gradient, hessian = map(
-            np.asarray, evaluate(self.objective, self.batch, jnp.asarray(filled))
-        )
+        found = _evaluate(self.objective, self.batch, jnp.asarray(filled), self.forward)
+        loss, gradient, hessian = map(np.asarray, found)
         sound = np.isfinite(loss)
         if self.forward:
             sound &= np.isfinite(hessian).all(axis=(1, 2)) & np.isfinite(gradient).all(axis=1)
@@ -178,28 +176,18 @@ class _Points:
 
 @eqx.filter_jit
 def _evaluate(
-    objective: Problem, batch: Any, points: Float[Array, "n P"]
+    objective: Problem, batch: Any, points: Float[Array, "n P"], forward: bool
 ) -> tuple[Array, Array, Array]:
+    """Losses, gradients and Hessians; the derivatives are zero for steps that have none in forward mode."""
     _, unravel = ravel_pytree(objective.start())
 
     def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
+        if not forward:
+            loss = total(objective, unravel(point), batch)[0]
+            return loss, jnp.zeros_like(point), jnp.zeros((point.size, point.size))
         found = with_gauss_newton_hessian(objective, unravel(point), batch)
         assert found.hessian is not None
         return found.total, ravel_pytree(found.gradient)[0], found.hessian
-
-    return jax.vmap(one)(points)
-
-
-@eqx.filter_jit
-def _losses(
-    objective: Problem, batch: Any, points: Float[Array, "n P"]
-) -> tuple[Array, Array, Array]:
-    """The same without derivatives, for steps that have none in forward mode."""
-    _, unravel = ravel_pytree(objective.start())
-
-    def one(point: Float[Array, " P"]) -> tuple[Array, Array, Array]:
-        loss = total(objective, unravel(point), batch)[0]
-        return loss, jnp.zeros_like(point), jnp.zeros((point.size, point.size))
 
     return jax.vmap(one)(points)
 

@@ -1,23 +1,19 @@
-"""What came of a training: its stages, and whether it explains the records down to their noise."""
+"""The verdict on a training: whether it explains the records down to their noise."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
 from acausal.simulation import EXPLICIT
-from acausal.training.auto.steps import LEAST, SHARE, difference
-from acausal.training.history import History
-from acausal.training.objective.losses import LOSSES
-from acausal.training.objective.noise import noise_loss
+from acausal.training.auto.step_choice import LEAST, SHARE, difference
+from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
-from acausal.training.strategy import Leg
-from acausal.training.uncertainty.residuals import Residuals
+from acausal.training.trained_model import TrainedModel
 
 DOWN_TO = 1.15
 """A loss of up to so many times that of the noise is down to the noise,"""
@@ -29,62 +25,12 @@ MEAN = 0.95
 """A loss of this part of the targets' deviation is no better than their mean."""
 
 
-class StageResult(NamedTuple):
-    """What a stage reached.
-
-    Attributes:
-        title: what it did.
-        loss: the lowest over the whole record among its evaluations.
-        updates: that it made.
-    """
-
-    title: str
-    loss: float
-    updates: int
-
-
-def stage_results(
-    history: History, legs: Sequence[Leg], linear: float | None
-) -> tuple[StageResult, ...]:
-    """The stages that a training has gone through.
-
-    Arguments:
-        history, legs: of the training.
-        linear: the loss of the linear laws that it started from, if there are any.
-    """
-    found = [] if linear is None else [StageResult("linear law", linear, 0)]
-    epochs, losses = history.full_loss.T
-    for i, leg in enumerate(legs):
-        own = np.flatnonzero(history.part == i)
-        if len(own):
-            inside = (epochs > own[0]) & (epochs <= own[-1] + 1)
-            loss = float(np.min(losses[inside], initial=np.inf))
-            found.append(StageResult(leg.stage.title, loss, len(own)))
-    return tuple(found)
-
-
 def step_error(problem: Problem, trainable: Trainable, simulated: Simulated) -> float | None:
     """How much twice as many steps change the predictions, as the loss counts it; ``None`` for adaptive steps."""
     if not isinstance(problem.solver, EXPLICIT) or problem.system.events is not None:
         return None
     fine = replace(problem, substeps=2 * problem.substeps).simulate(trainable)
     return difference(problem, np.asarray(simulated.y), np.asarray(fine.y))
-
-
-class _Fit(Protocol):
-    @property
-    def problem(self) -> Problem: ...
-    @property
-    def loss(self) -> float: ...
-    @property
-    def modifiers(self) -> Mapping[str, float]: ...
-    @property
-    def arguments(self) -> Mapping[str, Float[np.ndarray, "n_calls n_arguments"]]: ...
-    @property
-    def step_error(self) -> float | None: ...
-    @property
-    def not_laws(self) -> Sequence[str]: ...
-    def residuals(self) -> tuple[Residuals, ...]: ...
 
 
 class Verdict(NamedTuple):
@@ -106,7 +52,7 @@ class Verdict(NamedTuple):
         return " ".join(self.sentences)
 
 
-def verdict(fit: _Fit) -> Verdict | None:
+def verdict(fit: TrainedModel) -> Verdict | None:
     """The verdict on a fit; ``None`` where the loss is not a normalised root mean square."""
     problem = fit.problem
     if problem.loss is not LOSSES["nrmse"]:
@@ -143,7 +89,7 @@ def verdict(fit: _Fit) -> Verdict | None:
     return Verdict(good, fit.loss, noise, (first, *others, *_ranges(fit)))
 
 
-def _left(fit: _Fit) -> Iterator[str]:
+def _left(fit: TrainedModel) -> Iterator[str]:
     """What residuals follow."""
     if not np.isfinite(fit.loss):
         return
@@ -157,7 +103,7 @@ def _left(fit: _Fit) -> Iterator[str]:
             yield f"The residuals of {each.target} are not white, up to a correlation of {largest:.2g}."
 
 
-def _ranges(fit: _Fit) -> Iterator[str]:
+def _ranges(fit: TrainedModel) -> Iterator[str]:
     """Between what values laws were seen."""
     for name, seen in fit.arguments.items():
         if seen.size and np.isfinite(seen).all():

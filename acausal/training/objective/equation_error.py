@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 import equinox as eqx
@@ -12,7 +13,6 @@ from jaxtyping import Array, Float, Int, PRNGKeyArray
 
 from acausal.codegen import Values
 from acausal.errors import TrainingError, listing
-from acausal.training.objective.modifiers import Modifiers
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
 from acausal.training.objective.sequences import Batch
@@ -23,30 +23,19 @@ SAMPLES = 5000
 """The most samples of the records that count; they are evenly spread."""
 
 
-class EquationError(eqx.Module):
+class EquationError(Problem):
     """The loss of targets that are observed in the measured states and inputs, sample by sample.
 
     It costs next to nothing and gives a good start, but it is biased by the noise that remains in the states. It
     depends only on what determines targets at an instant (an acceleration depends on a force; a position does not).
 
-    Attributes:
-        problem: the model and the data.
+    Attributes, besides those of `Problem`:
         rows: indices of the samples that count.
         x: the states there, smoothed.
     """
 
-    problem: Problem
     rows: Int[Array, " n_rows"]
     x: Float[Array, "n_rows n_states"]
-
-    @property
-    def modifiers(self) -> Modifiers:
-        """The parameters that are trained."""
-        return self.problem.modifiers
-
-    def start(self) -> Trainable:
-        """What is trained, where training starts."""
-        return self.problem.start()
 
     def draw(self, key: PRNGKeyArray) -> Batch:
         """All samples, whatever the key."""
@@ -54,30 +43,19 @@ class EquationError(eqx.Module):
 
     def losses(self, trainable: Trainable, batch: Batch) -> Float[Array, " 1"]:
         """The loss over all samples."""
-        p = self.problem
-        packed = p.pack(p.assemble(trainable), trainable)
-        records = p.records
-        steps = p.steps(packed, self.rows)
+        packed, records = self.pack(self.assemble(trainable), trainable), self.records
+        steps = self.steps(packed, self.rows)
         y, weight, of = (a[self.rows] for a in (records.y, records.weight, records.of))
 
         def at(t: Array, x: Array, u: Array, record: Array) -> Float[Array, " n_targets"]:
-            return p.system.read(p.targets, Values(t, x, u, p.packed_of(packed, record)))
+            return self.system.read(self.targets, Values(t, x, u, self.packed_of(packed, record)))
 
-        return p.compare_some(jax.vmap(at)(steps.t, self.x, steps.inputs.start, of), y, weight)[
-            None
-        ]
+        seen = jax.vmap(at)(steps.t, self.x, steps.inputs.start, of)
+        return self.compare_some(seen, y, weight)[None]
 
     def entry(self, best: Trainable) -> Trainable:
         """What another part of the training has found, as a start of this one."""
         return best
-
-    def weighed(self, loss: Float[Array, ""], trainable: Trainable) -> Float[Array, ""]:
-        """The loss, and what is known without data."""
-        return self.problem.weighed(loss, trainable)
-
-    def penalties(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
-        """What every regularizer adds to the loss."""
-        return self.problem.penalties(trainable)
 
 
 def equation_error(problem: Problem) -> EquationError:
@@ -105,7 +83,8 @@ def equation_error(problem: Problem) -> EquationError:
     known = np.flatnonzero(np.isfinite(states).all(axis=1) & np.asarray(problem.records.sampled))
     spread = np.linspace(0, len(known) - 1, min(len(known), SAMPLES)).astype(int)
     rows = known[np.unique(spread)]
-    objective = EquationError(problem, jnp.asarray(rows), jnp.asarray(states[rows]))
+    own = {field.name: getattr(problem, field.name) for field in fields(problem)}
+    objective = EquationError(**own, rows=jnp.asarray(rows), x=jnp.asarray(states[rows]))
     unseen = _unseen(objective)
     if unseen:
         raise TrainingError(
@@ -130,7 +109,7 @@ def _smoothed(
 
 def _unseen(objective: EquationError) -> list[str]:
     """Networks and parameters that the loss does not depend on."""
-    start = objective.problem.start()
+    start = objective.start()
     batch = objective.draw(jax.random.key(0))
     gradient = eqx.filter_jit(jax.grad(lambda tree: objective.losses(tree, batch)[0]))(start)
     parts: dict[str, Any] = {**gradient.networks, **gradient.modifiers}

@@ -167,14 +167,13 @@ def over(
     system = problem.system
     starts = first_states(system, data, x0, trained=False)
     records, substeps = lay_out(
+        system,
         data,
-        system.inputs,
         problem.targets,
-        None,
         problem.longest_step,
-        solver=problem.solver,
-        timing=problem.timing,
-        held=system.held_inputs,
+        problem.solver,
+        problem.timing,
+        states=False,
         measured=measured,
     )
     records = problem.weighting.apply(records)

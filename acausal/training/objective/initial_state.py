@@ -30,7 +30,7 @@ KINDS = ("data", "model", "steady", "fit", "auto")
 GIVEN, MODEL, STEADY, FIT = range(4)
 
 
-class Start(NamedTuple):
+class RecordStart(NamedTuple):
     """Where a record starts.
 
     Attributes:
@@ -152,14 +152,14 @@ def by_record(records: Mapping[str, Data], x0: InitialState) -> list[OfRecord]:
     return [own[n] for n in records]
 
 
-def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
+def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> RecordStart:
     measured = np.array([data[n][0] if n in data.signals else np.nan for n in system.states], float)
     if isinstance(x0, str) and x0 not in ("data", "auto"):
         if x0 not in KINDS:
             raise DataError(f"x0='{x0}' is not an initial state: {nearest(x0, KINDS)}")
         if x0 == "fit" and not trained:
-            return Start(MODEL, measured)
-        return Start(KINDS.index(x0), np.full(len(system.states), np.nan))
+            return RecordStart(MODEL, measured)
+        return RecordStart(KINDS.index(x0), np.full(len(system.states), np.nan))
     given = system.initializer.by_state({} if isinstance(x0, str) else x0)
     for name, value in given.items():
         if not is_number(value):
@@ -167,10 +167,10 @@ def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Start:
     state = np.array([given.get(n, v) for n, v in zip(system.states, measured, strict=True)], float)
     unknown = [n for n, v in zip(system.states, state, strict=True) if np.isnan(v)]
     if unknown and x0 != "data":
-        return Start(MODEL, state)
+        return RecordStart(MODEL, state)
     if unknown:
         raise DataError(
             f"The data lack {listing(unknown)}, with which the record starts: "
             f"leave out x0='data' to have them found, or give x0={{'{unknown[0]}': ...}}."
         )
-    return Start(GIVEN, state)
+    return RecordStart(GIVEN, state)

@@ -16,7 +16,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from acausal.data import FRACTIONS, Signal, deviation_from_line
+from acausal._jax import array
+from acausal.data import FRACTIONS, Signal, deviation_from_line, polynomial_coefficients
 from acausal.errors import TrainingError
 from acausal.simulation import (
     Parts,
@@ -170,23 +171,11 @@ class DelayedInputs(eqx.Module):
                 at = [low + node * (high - low) for node in nodes]
                 columns.append([on_curve(*ends, curve, s) for s in at])
         start, end = (jnp.stack([c[k] for c in columns], axis=-1) for k in (0, -1))
-        curves = [_coefficients(self.fractions, c[0], c[-1], c[1:-1]) for c in columns]
-        return Samples(start, end, (), jnp.stack(curves, axis=-1) if self.fractions else None)
-
-
-def _coefficients(
-    fractions: tuple[float, ...],
-    start: Float[Array, "*n"],
-    end: Float[Array, "*n"],
-    values: Sequence[Float[Array, "*n"]],
-) -> Float[Array, "*n n_fractions"]:
-    """Coefficients for `deviation_from_line` of the polynomial through both ends and some values in between."""
-    if not values:
-        return jnp.zeros((*start.shape, 0))
-    p = np.asarray(fractions)
-    inverse = np.linalg.inv((p * (1 - p))[:, None] * p[:, None] ** np.arange(len(p)))
-    line = start[..., None] + (end - start)[..., None] * p
-    return (jnp.stack(values, axis=-1) - line) @ inverse.T
+        if not self.fractions:
+            return Samples(start, end)
+        inner = jnp.stack([jnp.stack(c[1:-1], axis=-1) for c in columns], axis=-2)
+        curves = polynomial_coefficients(start, end, inner, self.fractions)
+        return Samples(start, end, (), jnp.moveaxis(curves, 0, -2))
 
 
 NOTHING_DELAYED = DelayedInputs((), (), (), (), 0)
@@ -263,23 +252,15 @@ def _pieces(signals: Sequence[TimeFunction]) -> Pieces:
     tables = [_table(s) for s in signals]
     counts = np.array([len(ts) for ts, _, _ in tables])
     ends = np.cumsum(counts)
-    samples = [s for _, _, s in tables]
-    curved = next((s.coefficients for s in samples if s.coefficients is not None), None)
-    coefficients = None
-    if curved is not None:
-        straight = [np.zeros((len(s.start), curved.shape[1], 1)) for s in samples]
-        rows = [
-            z if s.coefficients is None else s.coefficients
-            for s, z in zip(samples, straight, strict=True)
-        ]
-        coefficients = jnp.concatenate(rows)[:, :, 0].T
+    samples = end_to_end([s for _, _, s in tables])
+    curves = samples.coefficients
     even = all(isinstance(s, Signal) and s.uniform for s in signals)
     return Pieces(
         jnp.asarray(np.concatenate([ts for ts, _, _ in tables])),
         jnp.asarray(np.concatenate([widths for _, widths, _ in tables])),
-        jnp.concatenate([s.start[:, 0] for s in samples]),
-        jnp.concatenate([s.end[:, 0] for s in samples]),
-        coefficients,
+        samples.start[:, 0],
+        samples.end[:, 0],
+        None if curves is None else curves[:, :, 0].T,
         jnp.asarray(ends - counts),
         jnp.asarray(ends - 1),
         jnp.asarray([widths[1] for _, widths, _ in tables]) if even else None,
@@ -296,17 +277,26 @@ def _table(function: TimeFunction) -> tuple[np.ndarray, np.ndarray, Samples]:
         widths = np.full(len(widths), (ts[-1] - ts[0]) / len(widths))
     held = 0.0 if function.derivative else 1.0
     before, after = held * inner.start[:1], held * inner.end[-1:]
-    coefficients = inner.coefficients
-    if coefficients is not None:
-        nothing = jnp.zeros_like(coefficients[:1])
-        coefficients = jnp.concatenate([nothing, coefficients, nothing])
     return (
         np.concatenate([[ts[0] - widths[0]], ts]),
         np.concatenate([widths[:1], widths, widths[-1:]]),
-        Samples(
-            jnp.concatenate([before, inner.start, after]),
-            jnp.concatenate([before, inner.end, after]),
-            (),
-            coefficients,
-        ),
+        end_to_end([Samples(before, before), inner, Samples(after, after)]),
     )
+
+
+def end_to_end(parts: Sequence[Samples]) -> Samples:
+    """Inputs over steps that follow each other; where some are curved, the others are lines."""
+    if len(parts) == 1:
+        return parts[0]
+    start, end = (
+        array(np.concatenate(sides))
+        for sides in zip(*((p.start, p.end) for p in parts), strict=True)
+    )
+    curved = next((p.coefficients for p in parts if p.coefficients is not None), None)
+    if curved is None:
+        return Samples(start, end)
+    filled = [
+        np.zeros((len(p.start), *curved.shape[1:])) if p.coefficients is None else p.coefficients
+        for p in parts
+    ]
+    return Samples(start, end, (), array(np.concatenate(filled)))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -23,10 +23,13 @@ from acausal.simulation import (
     inner_fractions,
     polynomials_over_steps,
 )
-from acausal.training.objective.input_delays import delayed_inputs
+from acausal.training.objective.input_delays import delayed_inputs, end_to_end
 from acausal.training.objective.records import Records
 from acausal.training.objective.smoothing import rate
 from acausal.training.objective.timing import Timing
+
+if TYPE_CHECKING:
+    from acausal.system import System
 
 ALIKE = 1e-6
 """Sample times that differ by less than this part count as equal."""
@@ -45,31 +48,30 @@ class Grid(NamedTuple):
 
 
 def lay_out(
+    system: System,
     data: Mapping[str, Data],
-    inputs: tuple[str, ...],
     targets: tuple[str, ...],
-    states: tuple[str, ...] | None,
-    longest: float | None = None,
+    longest: float | None,
+    solver: Scheme | Adaptive,
+    timing: Timing,
     *,
-    solver: Scheme | Adaptive | None = None,
-    timing: Timing | None = None,
-    held: Set[str] = frozenset(),
+    states: bool = True,
     measured: bool = True,
-    rates: Mapping[str, tuple[str, int]] | None = None,
+    differentiated: bool = False,
 ) -> tuple[Records, int]:
     """`Records` of some signals of the data, in the model's units; and how many steps there are from row to row.
 
     Rows are samples where these are evenly spaced; otherwise rows are added until no step is too long.
 
     Arguments:
+        system: the model, whose states may be missing in some records.
         data: by name.
-        inputs, targets, states: names of signals; states may be missing in some records.
-        longest: step in seconds; by default steps go from sample to sample.
-        solver: of the steps, and
-        timing: the delays, where inputs are delayed.
-        held: inputs that keep each sample until the next, unless a record says otherwise.
+        targets: names of signals.
+        longest: step in seconds; ``None`` for steps from sample to sample.
+        solver: of the steps; ``timing``: the delays of inputs.
+        states: whether measured states are laid out, too.
         measured: whether the data need samples of every target.
-        rates: by state that no record need have, the one that is differentiated in its place, and a sign.
+        differentiated: whether a speed that no record has is the rate of a position.
 
     Raises:
         DataError: for a signal that is missing.
@@ -79,9 +81,10 @@ def lay_out(
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     present = {n for d in data.values() for n in d.signals}
-    lacking = {n: of for n, of in (rates or {}).items() if n not in present}
+    rates = system.rates_among_states if differentiated else {}
+    lacking = {n: of for n, of in rates.items() if n not in present}
     rows = [
-        _rows(d, g, inputs, targets, states, held, measured, lacking)
+        _rows(system, d, g, targets, states, measured, lacking)
         for d, g in zip(data.values(), grids, strict=True)
     ]
     counts = np.array([len(g.t) for g in grids])
@@ -92,7 +95,7 @@ def lay_out(
     steps = Steps(
         array(np.concatenate([g.t for g in grids])),
         array(np.concatenate(lengths) if even is None else even),
-        _joined([r.inputs for r in rows]),
+        end_to_end([r.inputs for r in rows]),
     )
     missing = np.isnan(y)
     empty = [n for n, column in zip(targets, missing.T, strict=True) if column.all()]
@@ -112,18 +115,12 @@ def lay_out(
         sampled=array(np.concatenate([g.sampled for g in grids]), bool),
         names=tuple(data),
     )
-    if timing is not None and solver is not None:
-        late = delayed_inputs(
-            inputs,
-            [r.functions for r in rows],
-            timing,
-            inner_fractions(solver, substeps),
-        )
-        records = replace(records, delayed=late)
-    return records, substeps
+    functions = [r.functions for r in rows]
+    late = delayed_inputs(system.inputs, functions, timing, inner_fractions(solver, substeps))
+    return replace(records, delayed=late), substeps
 
 
-class _Rows(NamedTuple):
+class _RecordRows(NamedTuple):
     """The rows of one record; NaN where nothing is measured."""
 
     y: Float[np.ndarray, "n n_targets"]
@@ -133,24 +130,23 @@ class _Rows(NamedTuple):
 
 
 def _rows(
+    system: System,
     data: Data,
     grid: Grid,
-    inputs: tuple[str, ...],
     targets: tuple[str, ...],
-    states: tuple[str, ...] | None,
-    held: Set[str],
+    states: bool,
     measured: bool,
     rates: Mapping[str, tuple[str, int]],
-) -> _Rows:
+) -> _RecordRows:
     def at_rows(columns: Float[np.ndarray, "n_samples n_names"]) -> Float[np.ndarray, "n n_names"]:
         rows = np.full((len(grid.t), columns.shape[1]), np.nan)
         rows[grid.sampled] = columns
         return rows
 
     span = float(grid.t[0]), float(grid.t[-1])
-    functions = functions_of_time(inputs, data, span, held=held)
+    functions = functions_of_time(system.inputs, data, span, held=system.held_inputs)
     inner = polynomials_over_steps(functions, grid.t)
-    names = states or ()
+    names = system.states if states else ()
     nothing = np.full(len(data), np.nan)
 
     def state(name: str) -> Float[np.ndarray, " n_samples"]:
@@ -164,7 +160,7 @@ def _rows(
         y = data.columns(targets, "a target of the training")
     else:
         y = np.stack([data.signals.get(n, nothing) for n in targets], axis=1)
-    return _Rows(
+    return _RecordRows(
         at_rows(y),
         at_rows(np.stack(x, axis=1)),
         _with_last(inner, functions, grid.t[-1:]),
@@ -177,31 +173,10 @@ def _with_last(
 ) -> Samples:
     """The inputs with one more step at the end, over which they stay as they are there; those that are held jump."""
     jump = np.array([isinstance(f, Signal) and f.jumps for f in functions], bool)
-    sides = np.asarray(inner.start), np.asarray(inner.end)
-    last = sides[1][-1:]
+    last = np.asarray(inner.end)[-1:]
     if jump.any():
         last = np.where(jump, np.asarray(evaluate_all(functions, array(until))), last)
-    start, end = (array(np.concatenate([side, last])) for side in sides)
-    if inner.coefficients is None:
-        return Samples(start, end)
-    curved = np.asarray(inner.coefficients)
-    return Samples(start, end, (), array(np.concatenate([curved, np.zeros_like(curved[:1])])))
-
-
-def _joined(parts: list[Samples]) -> Samples:
-    """The inputs of all records end to end."""
-    if len(parts) == 1:
-        return parts[0]
-    sides = zip(*((p.start, p.end) for p in parts), strict=True)
-    start, end = (array(np.concatenate(side)) for side in sides)
-    curved = next((p.coefficients for p in parts if p.coefficients is not None), None)
-    if curved is None:
-        return Samples(start, end)
-    filled = [
-        np.zeros((len(p.start), *curved.shape[1:])) if p.coefficients is None else p.coefficients
-        for p in parts
-    ]
-    return Samples(start, end, (), array(np.concatenate(filled)))
+    return end_to_end([inner, Samples(array(last), array(last))])
 
 
 def _grid(samples: Float[np.ndarray, " n"], longest: float | None) -> Grid:

@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
+from acausal.data import noise_level
 from acausal.errors import TrainingError, nearest
 from acausal.training.objective.error_laws import LAWS, ErrorLaw
+from acausal.training.objective.records import Records
 
 Loss = Callable[..., Float[Array, ""]]
 """(predicted, measured, sigma, weight) -> scalar, for M points of k targets; a user's own may leave out the weight."""
@@ -47,6 +50,20 @@ def mean_of(terms: Float[Array, "M k"], weight: Float[Array, "M k"]) -> Float[Ar
 def root(square: Float[Array, ""]) -> Float[Array, ""]:
     """A square root whose derivative at zero is finite."""
     return jnp.sqrt(jnp.maximum(square, jnp.finfo(square.dtype).tiny))
+
+
+def noise_of(records: Records) -> Float[np.ndarray, " n_targets"]:
+    """By target, the standard deviation of white noise in its samples; at most, where there is other noise."""
+    measured, of = records.measured, np.asarray(records.of)
+    pieces = [measured[of == k] for k in range(records.count)]
+    return np.array(
+        [noise_level([piece[:, i] for piece in pieces]) for i in range(measured.shape[1])]
+    )
+
+
+def noise_loss(records: Records) -> float:
+    """The loss of a model that leaves nothing but this noise, for losses that are root mean squares."""
+    return float(np.sqrt(np.sum((noise_of(records) / np.asarray(records.sigma)) ** 2)))
 
 
 def number(what: str, function: Callable[..., object], *arguments: object) -> Float[Array, ""]:

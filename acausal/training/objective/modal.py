@@ -14,11 +14,10 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Float
 
 from acausal.codegen import Values
-from acausal.errors import TrainingError, nearest
-from acausal.training.objective.regularizers import Context, Trajectory
+from acausal.training.objective.regularizers import Context, Trajectory, named
 
 TINY = 1e-12
 """The smallest eigenvalue [1/s], or scalar product of eigenvectors, that is used as a divisor."""
@@ -47,7 +46,8 @@ class Modal(eqx.Module):
     def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""
         assert context.trajectory is not None
-        kept = _rows(self.states, context.trajectory.system.states)
+        states = context.trajectory.system.states
+        kept = np.array([states.index(n) for n in named("state", self.states, states)])
         A = jacobians(params, context.trajectory, self.points, self.reach)
         re, im = jax.vmap(eigenvalues)(A[:, kept][:, :, kept])
         return self.weight * jnp.mean(jnp.sum(self.excess(re, im) ** 2, axis=-1))
@@ -145,10 +145,3 @@ def _eig(A: Float[Array, "n n"]) -> tuple[Array, Array, Array]:
 
 def _size(re: Array, im: Array) -> Array:
     return jnp.sqrt(re**2 + im**2 + TINY**2)
-
-
-def _rows(chosen: tuple[str, ...] | None, states: tuple[str, ...]) -> Int[np.ndarray, " n_chosen"]:
-    for name in chosen or ():
-        if name not in states:
-            raise TrainingError(f"A regularizer names the state '{name}': {nearest(name, states)}")
-    return np.array([states.index(n) for n in (states if chosen is None else chosen)])

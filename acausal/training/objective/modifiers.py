@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any, Protocol, cast
+from typing import Any, ClassVar, cast
 
 import equinox as eqx
 import jax
@@ -38,59 +39,42 @@ Number = Any
 """A float, or a scalar array where JAX traces."""
 
 
-class Modifier(Protocol):
-    """How a parameter p may change."""
+class Modifier(ABC):
+    """How a parameter p may change.
 
-    @property
-    def unit(self) -> str:
-        """What changes are counted in: ``"%"`` of p, or nothing, in the unit of p."""
-        ...
+    Attributes:
+        unit: what changes are counted in: ``"%"`` of p, or nothing, in the unit of p.
+    """
 
+    unit: ClassVar[str] = ""
+
+    @abstractmethod
     def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """The change of a parameter that began at a value, for a free variable."""
-        ...
 
     def changed(self, value: Number, change: Number) -> Number:
-        """The parameter after a change."""
-        ...
+        """The parameter after a change: ``(1 + change) p`` of one that is relative, else ``p + change``."""
+        return (1 + change) * value if self.unit else value + change
 
     def prior_deviation(self, value: float) -> float:
-        """The prior standard deviation of the change."""
-        ...
+        """The prior standard deviation of the change; of one that is relative, the whole parameter."""
+        return 1.0
 
+    @abstractmethod
     def free(self, value: float, share: float) -> float:
         """The free variable below which a share of starting points lies, for a share in (0, 1)."""
-        ...
 
     def limit(self, value: float, change: float) -> float | None:
         """The limit that this change has practically reached, or ``None``."""
-        ...
+        return None
 
+    @abstractmethod
     def refusal(self, value: float) -> str | None:
         """Why a parameter cannot change this way, and what to do instead; ``None`` if it can."""
-        ...
 
 
 @dataclass(frozen=True)
-class _Relative:
-    unit = "%"
-
-    def changed(self, value: Number, change: Number) -> Number:
-        """``(1 + change) p``."""
-        return (1 + change) * value
-
-
-@dataclass(frozen=True)
-class _Absolute:
-    unit = ""
-
-    def changed(self, value: Number, change: Number) -> Number:
-        """``p + change``."""
-        return value + change
-
-
-@dataclass(frozen=True)
-class Factor(_Relative):
+class Factor(Modifier):
     """``p̃ = (1 + γ tanh δ) p``, the paper's (7) and (8): the change is relative, and smaller than γ.
 
     Attributes:
@@ -98,14 +82,11 @@ class Factor(_Relative):
     """
 
     gamma: float
+    unit: ClassVar[str] = "%"
 
     def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """``γ tanh δ``."""
         return self.gamma * jnp.tanh(delta)
-
-    def prior_deviation(self, value: float) -> float:
-        """The whole parameter, whatever γ."""
-        return 1.0
 
     def free(self, value: float, share: float) -> float:
         """Starting points are spread evenly over the range."""
@@ -125,7 +106,7 @@ class Factor(_Relative):
 
 
 @dataclass(frozen=True)
-class Shift(_Absolute):
+class Shift(Modifier):
     """A parameter moves by a sum, ``p̃ = p + scale · δ``, also from zero, and without a bound.
 
     Attributes:
@@ -146,10 +127,6 @@ class Shift(_Absolute):
         """Starting points are normally distributed, with the scale as standard deviation."""
         return float(ndtri(share))
 
-    def limit(self, value: float, change: float) -> float | None:
-        """There is none."""
-        return None
-
     def refusal(self, value: float) -> str | None:
         """A scale that is not a positive and finite number."""
         if _is_real(self.scale) and 0 < self.scale < np.inf:
@@ -160,7 +137,7 @@ class Shift(_Absolute):
 
 
 @dataclass(frozen=True)
-class Bounded(_Absolute):
+class Bounded(Modifier):
     """A parameter stays between bounds whatever the training does; one of them may be infinite.
 
     Between two bounds it moves along a logistic curve, ``p̃ = low + (high − low) / (1 + e^−(δ₀ + δ))``; beyond one, by a
@@ -225,7 +202,7 @@ class Bounded(_Absolute):
 
 
 @dataclass(frozen=True)
-class Free(_Relative):
+class Free(Modifier):
     """A parameter is free within the bounds that it declares: a positive one by any factor.
 
     It moves as `Bounded` does, or as a `Shift` by its own size where it declares no bounds; the change is relative.
@@ -236,6 +213,7 @@ class Free(_Relative):
 
     low: float
     high: float
+    unit: ClassVar[str] = "%"
 
     def _within(self, value: Number) -> Bounded | Shift:
         free = np.isinf(self.low) and np.isinf(self.high)
@@ -244,10 +222,6 @@ class Free(_Relative):
     def change(self, value: Scalar, delta: Scalar) -> Scalar:
         """That of `Bounded` or `Shift`, over the parameter."""
         return self._within(value).change(value, delta) / value
-
-    def prior_deviation(self, value: float) -> float:
-        """The whole parameter."""
-        return 1.0
 
     def free(self, value: float, share: float) -> float:
         """As of `Bounded` or `Shift`."""

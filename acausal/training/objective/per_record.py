@@ -42,15 +42,12 @@ class PerRecord(eqx.Module):
         """What is trained, where training starts."""
         return {n: jnp.zeros(records) for n in self.names}
 
-    def deviations(self, moves: Mapping[str, Float[Array, " R"]]) -> dict[str, Float[Array, " R"]]:
-        """The deviation of every record from the common value, by parameter."""
-        return {n: s * moves[n] for n, s in zip(self.names, self.scale, strict=True)}
-
     def values(
         self, params: Mapping[str, Any], moves: Mapping[str, Float[Array, " R"]]
     ) -> dict[str, Float[Array, " R"]]:
         """The value of every record, by parameter."""
-        return {n: params[n] + d for n, d in self.deviations(moves).items()}
+        rows = zip(self.names, self.scale, strict=True)
+        return {n: params[n] + scale * moves[n] for n, scale in rows}
 
     def packed(
         self, system: System, params: Mapping[str, Any], moves: Mapping[str, Float[Array, " R"]]

@@ -6,15 +6,15 @@ functions of their first argument, whatever the networks behind them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from acausal.errors import TrainingError, nearest
+from acausal.networks import law_at
 
 if TYPE_CHECKING:
     from acausal.training.objective.regularizers import Network
@@ -67,15 +67,6 @@ class Prior(eqx.Module):
     def log_prior(self, params: Mapping[str, Any]) -> Float[Array, ""]:
         """Minus the logarithm of the density, up to a constant, counted as the samples are."""
         return 0.5 * self.alike * jnp.sum(self.misfit(params) ** 2)
-
-
-def law_at(
-    network: Network, points: Float[Array, " points"], rest: Float[Array, " n_rest"]
-) -> Float[Array, " points"]:
-    """The law of a network, or the derivative of an energy, over its first argument."""
-    law: Callable[..., Array] = getattr(network, "law", network)
-    found = jax.vmap(lambda v: law(v, *rest))(points)
-    return found if found.ndim == 1 else found[:, 0]
 
 
 class _Knowing(Protocol):

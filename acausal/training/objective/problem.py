@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import equinox as eqx
 import jax
@@ -25,9 +25,6 @@ from acausal.training.objective.sharding import shard
 from acausal.training.objective.simulator import PackedRecords, Simulator
 from acausal.training.objective.trainable import Simulated, Trainable
 from acausal.training.objective.weighting import Weighting
-
-if TYPE_CHECKING:
-    pass
 
 
 class Problem(Simulator):
@@ -126,6 +123,10 @@ class Problem(Simulator):
     def model_params(self, trainable: Trainable) -> dict[str, Any]:
         """The same without delays and lags: the parameters of the model."""
         return self.timing.split(self.assemble(trainable))[0]
+
+    def changes(self, trainable: Trainable) -> dict[str, Float[Array, ""]]:
+        """The changes of the trained parameters, each as its modifier counts them."""
+        return self.modifiers.changes(trainable.modifiers)
 
     def unit(self, name: str) -> str:
         """The unit of something that is trained."""

@@ -77,7 +77,7 @@ class ZeroCrossing(eqx.Module):
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""
-        names = _chosen(self.networks, context)
+        names = named("network", self.networks, context.networks)
         terms = [self._at_zero(name, params[name], context) for name in names]
         return self.weight * _sum(terms)
 
@@ -110,7 +110,7 @@ class SmallCorrection(eqx.Module):
 
     def __call__(self, params: Mapping[str, Any], context: Context) -> Float[Array, ""]:
         """The penalty."""
-        names = _chosen(self.networks, context)
+        names = named("network", self.networks, context.networks)
         return self.weight * _sum([_mean_square(params[n], context.arguments[n]) for n in names])
 
 
@@ -123,13 +123,16 @@ def _mean_square(network: Network, arguments: Float[Array, "N n_arguments"]) -> 
     return jnp.mean((force / output_scale(network)) ** 2)
 
 
-def _chosen(networks: tuple[str, ...] | None, context: Context) -> tuple[str, ...]:
-    for name in networks or ():
-        if name not in context.networks:
-            raise TrainingError(
-                f"A regularizer names the network '{name}': {nearest(name, context.networks)}"
-            )
-    return context.networks if networks is None else networks
+def named(kind: str, chosen: tuple[str, ...] | None, known: tuple[str, ...]) -> tuple[str, ...]:
+    """The networks or states that a regularizer names; by default all.
+
+    Raises:
+        TrainingError: for another name.
+    """
+    for name in chosen or ():
+        if name not in known:
+            raise TrainingError(f"A regularizer names the {kind} '{name}': {nearest(name, known)}")
+    return known if chosen is None else chosen
 
 
 def label(regularizer: Regularizer) -> str:

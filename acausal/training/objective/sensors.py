@@ -26,7 +26,7 @@ Times = Mapping[str, Float[Array, ""]]
 """Delays and time constants in seconds, by name."""
 
 
-class Rows(NamedTuple):
+class SensorRows(NamedTuple):
     """The rows at which outputs are predicted.
 
     Attributes:
@@ -67,7 +67,7 @@ class Sensors(eqx.Module):
         if not (self.delays or self.lags):
             return y
         steps, of = records.steps, records.of
-        rows = Rows(steps.t, steps.h, records.first[of], records.last[of])
+        rows = SensorRows(steps.t, steps.h, records.first[of], records.last[of])
         return self._seen(y, rows, times, y[rows.first])
 
     def over_window(
@@ -87,7 +87,7 @@ class Sensors(eqx.Module):
             return y, window.weight
         steps, record = window.steps, records.of[start]
         last = jnp.minimum(records.last[record] - start, len(y) - 1)
-        rows = Rows(steps.t, steps.h, jnp.zeros_like(last), last)
+        rows = SensorRows(steps.t, steps.h, jnp.zeros_like(last), last)
         within = start > records.first[record]
         known = within & (window.weight[0] > 0)
         initial = jnp.where(known, window.y[0], y[0])
@@ -101,7 +101,7 @@ class Sensors(eqx.Module):
     def _seen(
         self,
         y: Float[Array, "n n_targets"],
-        rows: Rows,
+        rows: SensorRows,
         times: Times,
         initial: Float[Array, "n n_targets"],
     ) -> Float[Array, "n n_targets"]:
@@ -114,7 +114,7 @@ class Sensors(eqx.Module):
 
 
 def lagged(
-    y: Float[Array, " n"], rows: Rows, T: Float[Array, ""], initial: Float[Array, " n"]
+    y: Float[Array, " n"], rows: SensorRows, T: Float[Array, ""], initial: Float[Array, " n"]
 ) -> Float[Array, " n"]:
     """``T dz/dt = y - z`` for a y that is linear over each row, from an initial value at the first row of a record.
 
@@ -140,7 +140,7 @@ def lagged(
     return y + jax.lax.associative_scan(after, (factor, added))[1]
 
 
-def delayed(y: Float[Array, " n"], rows: Rows, tau: Float[Array, ""]) -> Float[Array, " n"]:
+def delayed(y: Float[Array, " n"], rows: SensorRows, tau: Float[Array, ""]) -> Float[Array, " n"]:
     """``y(t - tau)`` by cubic interpolation; before a record's first row and after its last one y is held."""
     t, h, first, last = rows
     first, last = (jnp.broadcast_to(end, t.shape) for end in (first, last))

@@ -16,12 +16,12 @@ FOLLOWS = 10.0
 """A model before training tells how large its states are as long as its targets are not so many deviations off."""
 
 
-def found_starts(problem: Problem) -> str:
-    """A clause on the states whose starts the training has found, and near what; empty where there are none."""
+def found_starts(problem: Problem, records: slice = slice(None)) -> str:
+    """A clause on the states whose starts were found for some records, and near what; empty where there are none."""
     if problem.start_prior is None:
         return ""
-    found = np.asarray(problem.start_prior.scale) > 0
-    measured = np.isfinite(np.asarray(problem.first_states.given))
+    found = np.asarray(problem.start_prior.scale)[records] > 0
+    measured = np.isfinite(np.asarray(problem.first_states.given)[records])
     clauses: list[str] = []
     for rows, where in ((found & measured, "measured"), (found & ~measured, "model's")):
         states = [problem.system.states[i] for i in np.unique(np.nonzero(rows)[1])]

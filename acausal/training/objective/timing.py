@@ -64,6 +64,13 @@ class Lag:
     train: bool = True
 
 
+GIVEN_AS: dict[str, tuple[type[Delay] | type[Lag], str]] = {
+    "delay": (Delay, "seconds, or ac.Delay(...) to train them"),
+    "lag": (Lag, "a time constant in seconds, or ac.Lag(...) to train it"),
+}
+"""What a time is given as, besides a number, and the same in words."""
+
+
 @dataclass(frozen=True)
 class Time(Bounded):
     """A time between bounds; that it becomes zero is no limit, but a result."""
@@ -135,8 +142,8 @@ def timing(
             if name not in known:
                 kinds = "input or target" if what == "delays" else "target"
                 raise TrainingError(f"{what}: there is no {kinds} '{name}': {nearest(name, known)}")
-    named = {delay_of(n): _delay(n, value, limit) for n, value in late.items()}
-    named |= {lag_of(n): _lag(n, value, limit) for n, value in slow.items()}
+    named = {delay_of(n): _time("delay", n, value, limit) for n, value in late.items()}
+    named |= {lag_of(n): _time("lag", n, value, limit) for n, value in slow.items()}
     starts = {n: jnp.asarray(value, float) for n, (value, _) in named.items()}
     trained = {n: kind for n, (_, kind) in named.items() if kind is not None}
     found = Timing(starts, tuple(late), tuple(slow), tuple(trained))
@@ -152,30 +159,15 @@ def _measured(name: str) -> str:
     return name
 
 
-def _delay(name: str, given: object, limit: float) -> tuple[float, Modifier | None]:
+def _time(kind: str, name: str, given: object, limit: float) -> tuple[float, Modifier | None]:
+    """Where a delay or lag starts, and how it may move."""
+    of_kind, mend = GIVEN_AS[kind]
     if is_number(given):
-        given = Delay(float(cast(Any, given)), train=False)
-    if not isinstance(given, Delay):
-        raise TrainingError(
-            f"delays: '{name}' has {shown(given)}; give seconds, or ac.Delay(...) to train them."
-        )
-    return _time(f"The delay of '{name}'", given.start, given.min, given.max, limit, given.train)
-
-
-def _lag(name: str, given: object, limit: float) -> tuple[float, Modifier | None]:
-    if is_number(given):
-        given = Lag(float(cast(Any, given)), train=False)
-    if not isinstance(given, Lag):
-        raise TrainingError(
-            f"lags: '{name}' has {shown(given)}; give a time constant in seconds, or ac.Lag(...) to train it."
-        )
-    return _time(f"The lag of '{name}'", given.T, 0.0, given.max, limit, given.train)
-
-
-def _time(
-    what: str, start: float, low: float, high: float | None, limit: float, train: bool
-) -> tuple[float, Modifier | None]:
-    """Where a time starts, and how it may move."""
+        given = of_kind(float(cast(Any, given)), train=False)
+    if not isinstance(given, of_kind):
+        raise TrainingError(f"{kind}s: '{name}' has {shown(given)}; give {mend}.")
+    what, train, high = f"The {kind} of '{name}'", given.train, given.max
+    start, low = (given.T, 0.0) if isinstance(given, Lag) else (given.start, given.min)
     if high is None:
         high = max(limit, 2 * start if is_number(start) else 0.0)
     if not all(is_number(v) and math.isfinite(v) for v in (start, low, high)):
@@ -187,7 +179,7 @@ def _time(
             f"{what} has bounds from {low:g} to {high:g} s; the lower one comes first."
         )
     if not train:
-        if start < 0 and what.startswith("The lag"):
+        if start < 0 and kind == "lag":
             raise TrainingError(f"{what} is {start:g} s; a time constant is not negative.")
         return float(start), None
     if not low <= start <= high or low == high:

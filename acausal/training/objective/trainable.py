@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import equinox as eqx
 from jaxtyping import Array, Float
 
 from acausal.simulation import Log
-from acausal.training.objective.modifiers import Modifiers
 
 
 class Trainable(eqx.Module):
@@ -44,17 +42,3 @@ class Simulated(NamedTuple):
     x: Float[Array, "N n_states"]
     y: Float[Array, "N n_targets"]
     log: Log | None = None
-
-
-class WithModifiers(Protocol):
-    """An objective that trains parameters."""
-
-    @property
-    def modifiers(self) -> Modifiers:
-        """The parameters that are trained."""
-        ...
-
-
-def changes_of(objective: WithModifiers, trainable: Trainable) -> Mapping[str, Float[Array, ""]]:
-    """The changes of the trained parameters, each as its modifier counts them."""
-    return objective.modifiers.changes(trainable.modifiers)

@@ -9,7 +9,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jax.flatten_util import ravel_pytree
-from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
+from jaxtyping import Array, Bool, Float, PRNGKeyArray, PyTree
 
 from acausal._jax import value_and_jacobian
 
@@ -20,34 +20,14 @@ about one."""
 Scalar = Float[Array, ""]
 
 
-class WeightedBatch(Protocol):
-    """Sequences of a record."""
-
-    @property
-    def nudge(self) -> Float[Array, "batch n_states"] | None:
-        """Zeros that are added to the state at each sequence's start, if there is one."""
-        ...
-
-    def nudged(self, nudge: Float[Array, "batch n_states"] | None) -> WeightedBatch:
-        """The batch with other starts."""
-        ...
-
-    @property
-    def start(self) -> Int[Array, " batch"]:
-        """Index of each sequence's first sample."""
-        ...
-
-    @property
-    def weight(self) -> Float[Array, " batch"]:
-        """Weight of each sequence."""
-        ...
-
-
 class Objective(Protocol):
-    """What an optimizer can minimise: a pytree with pure functions. A trainable is a pytree of its own."""
+    """What an optimizer can minimise: a pytree with pure functions. A trainable is a pytree of its own.
+
+    `predictions`, `compare` and `curvature` are of whole records, and give the Gauss-Newton Hessian.
+    """
 
     def draw(self, key: PRNGKeyArray) -> PyTree:
-        """A batch."""
+        """Some sequences with weights and starts, such as `acausal.training.objective.sequences.Batch`."""
         ...
 
     def losses(self, trainable: PyTree, batch: PyTree) -> Float[Array, " batch"]:
@@ -61,10 +41,6 @@ class Objective(Protocol):
     def penalties(self, trainable: PyTree) -> dict[str, Scalar]:
         """Terms that are added, by name."""
         ...
-
-
-class LeastSquares(Objective, Protocol):
-    """An objective that compares predictions of a whole record, so that it has a Gauss-Newton Hessian."""
 
     def predictions(self, trainable: PyTree) -> Float[Array, "n_models n_samples n_targets"]:
         """The predictions of every model that counts."""
@@ -81,7 +57,7 @@ class LeastSquares(Objective, Protocol):
         ...
 
 
-class Evaluated(eqx.Module):
+class LossDerivatives(eqx.Module):
     """Losses of a batch, and the derivatives of their mean by what is trained.
 
     Attributes:
@@ -101,12 +77,12 @@ class Evaluated(eqx.Module):
     hessian: Float[Array, "P P"] | None = None
 
 
-Evaluate = Callable[..., Evaluated]
+Evaluate = Callable[..., LossDerivatives]
 """(objective, trainable, batch) -> losses and derivatives."""
 
 
 def total(
-    objective: Objective, trainable: PyTree, batch: WeightedBatch
+    objective: Objective, trainable: PyTree, batch: PyTree
 ) -> tuple[Scalar, tuple[Float[Array, " batch"], dict[str, Scalar]]]:
     """The total to minimise; and the losses and penalties in it."""
     losses = objective.losses(trainable, batch)
@@ -115,7 +91,7 @@ def total(
     return loss + _sum(penalties), (losses, penalties)
 
 
-def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch) -> Evaluated:
+def with_gradient(objective: Objective, trainable: PyTree, batch: PyTree) -> LossDerivatives:
     """The gradient alone, in reverse mode."""
     evaluate = jax.value_and_grad(
         lambda moved: total(objective, moved[0], batch.nudged(moved[1])), has_aux=True
@@ -125,12 +101,12 @@ def with_gradient(objective: Objective, trainable: PyTree, batch: WeightedBatch)
     exploded = jnp.zeros(losses.shape, bool)
     if by_start is not None:
         exploded = ~jnp.isfinite(by_start).all(axis=1)
-    return Evaluated(losses, penalties, value, gradient, exploded)
+    return LossDerivatives(losses, penalties, value, gradient, exploded)
 
 
 def with_gauss_newton_hessian(
-    objective: LeastSquares, trainable: PyTree, batch: WeightedBatch
-) -> Evaluated:
+    objective: Objective, trainable: PyTree, batch: PyTree
+) -> LossDerivatives:
     """The gradient, and the Hessian for predictions that are linear in what is trained, in forward mode.
 
     This is the Hessian of Gauss and Newton. A loss ℓ counts as ½ℓ², over ℓ. For root mean squares this is a sum of
@@ -160,7 +136,7 @@ def with_gauss_newton_hessian(
     value = loss + _sum(penalties)
     exploded = ~(jnp.max(jnp.abs(gradient)) < EXPLODED * jnp.maximum(value, 1.0))
     gradient = jnp.where(exploded, jnp.nan, gradient)
-    return Evaluated(mean[None], penalties, value, unravel(gradient), exploded[None], hessian)
+    return LossDerivatives(mean[None], penalties, value, unravel(gradient), exploded[None], hessian)
 
 
 def _weighed(
@@ -182,7 +158,7 @@ def _weighed(
 
 
 def _of_loss(
-    objective: LeastSquares,
+    objective: Objective,
     predicted: Float[Array, "n_samples n_targets"],
     jacobian: Float[Array, "P n_samples n_targets"],
 ) -> tuple[Scalar, Float[Array, " P"], Float[Array, "P P"]]:

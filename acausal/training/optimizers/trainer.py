@@ -21,7 +21,7 @@ from jaxtyping import Array, Bool, Float, Int, PRNGKeyArray, PyTree
 from acausal.training.optimizers.descent import Descent
 from acausal.training.optimizers.gradients import (
     Evaluate,
-    Evaluated,
+    LossDerivatives,
     Objective,
     total,
     with_gradient,
@@ -51,7 +51,7 @@ class State(eqx.Module):
     key: PRNGKeyArray
 
 
-class Entry(eqx.Module):
+class UpdateLog(eqx.Module):
     """The log of an update; with a leading axis, of many.
 
     Attributes:
@@ -132,8 +132,8 @@ def advance(
     until: Int[Array, ""],
     *,
     active: Bool[Array, " trainings"] | None = None,
-    side_by_side: bool = False,
-) -> tuple[State, Entry]:
+    side_by_side: bool | None = None,
+) -> tuple[State, UpdateLog]:
     """Do updates until ``until`` of them are done, at most `UPDATES_PER_CALL`, or until the optimizer has converged.
 
     Arguments:
@@ -142,20 +142,23 @@ def advance(
         state: of one training, or of several with a leading axis.
         until: updates, the same for all of them.
         active: of several trainings, those that go on; by default all. Those that have converged stay as they are.
-        side_by_side: whether to map over several trainings, which is faster on an accelerator. A CPU is faster with
-            one after the other, because networks with different weights are many small matrix products.
+        side_by_side: whether to map over several trainings, which is faster on an accelerator and done there by
+            default. A CPU is faster with one after the other, because networks with different weights are many small
+            matrix products.
 
     Returns:
         The new state, and a log with room for `UPDATES_PER_CALL` entries of which the first are filled; where there
         are several trainings, their axis is the second one.
     """
+    if side_by_side is None:
+        side_by_side = jax.default_backend() != "cpu"
 
-    def alone(state: State) -> tuple[State, Entry]:
+    def alone(state: State) -> tuple[State, UpdateLog]:
         return _update(objective, trainer, state)
 
     going = jnp.ones(state.epoch.shape, bool) if active is None else active
 
-    def unless_over(row: tuple[State, Bool[Array, ""]]) -> tuple[State, Entry]:
+    def unless_over(row: tuple[State, Bool[Array, ""]]) -> tuple[State, UpdateLog]:
         state, goes_on = row
         _, entry = jax.eval_shape(alone, state)
         nothing = jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), entry)
@@ -163,7 +166,7 @@ def advance(
             goes_on & ~converged(state), alone, lambda state: (state, nothing), state
         )
 
-    def of_all(state: State) -> tuple[State, Entry]:
+    def of_all(state: State) -> tuple[State, UpdateLog]:
         over_rows = jax.vmap(unless_over) if side_by_side else partial(jax.lax.map, unless_over)
         return over_rows((state, going))
 
@@ -172,20 +175,20 @@ def advance(
     _, shapes = jax.eval_shape(update, state)
     log = jax.tree.map(lambda s: jnp.zeros((UPDATES_PER_CALL, *s.shape), s.dtype), shapes)
 
-    def body(carry: tuple[State, Entry]) -> tuple[State, Entry]:
+    def body(carry: tuple[State, UpdateLog]) -> tuple[State, UpdateLog]:
         state, log = carry
         row = jnp.max(state.epoch) - first
         state, entry = update(state)
         return state, jax.tree.map(lambda rows, new: rows.at[row].set(new), log, entry)
 
-    def is_on(carry: tuple[State, Entry]) -> Bool[Array, ""]:
+    def is_on(carry: tuple[State, UpdateLog]) -> Bool[Array, ""]:
         state, _ = carry
         return (jnp.max(state.epoch) < until) & (going & ~converged(state)).any()
 
     return jax.lax.while_loop(is_on, body, (state, log))
 
 
-def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State, Entry]:
+def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State, UpdateLog]:
     drawn = objective.draw(jax.random.fold_in(state.key, state.epoch))
     batch, found, bad, exploded = evaluate_healthy(objective, trainer, state.trainable, drawn)
     derivatives = found.gradient, found.hessian
@@ -207,7 +210,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
     accepted = _finite(moved) & (usable | turned_down)
     trainable, optimizer = _select(accepted, (moved, optimizer), (state.trainable, state.optimizer))
     rejected = jnp.where(accepted, 0, state.rejected + 1)
-    entry = Entry(
+    entry = UpdateLog(
         jnp.average(found.losses, weights=batch.weight),
         found.penalties,
         trainer.log(objective, state.trainable),
@@ -222,7 +225,7 @@ def _update(objective: Objective, trainer: Trainer, state: State) -> tuple[State
 
 def evaluate_healthy(
     objective: Objective, trainer: Trainer, trainable: PyTree, batch: PyTree
-) -> tuple[PyTree, Evaluated, Bool[Array, " batch"], Int[Array, ""]]:
+) -> tuple[PyTree, LossDerivatives, Bool[Array, " batch"], Int[Array, ""]]:
     """Losses and derivatives of the sequences that do not diverge.
 
     Besides, their batch; a mask of those that do; and how many of these have a finite loss, so that only their gradient
@@ -232,21 +235,21 @@ def evaluate_healthy(
     a healthy batch costs nothing extra.
     """
 
-    def evaluate(batch: PyTree) -> Evaluated:
+    def evaluate(batch: PyTree) -> LossDerivatives:
         return trainer.evaluate(objective, trainable, batch)
 
     if batch.start.shape[0] == 1:
         found = evaluate(batch)
         return batch, found, _diverged(found, trainer), _exploded(found, trainer)
 
-    def again(carry: tuple[PyTree, Evaluated, Array, Array, Array]) -> Bool[Array, ""]:
+    def again(carry: tuple[PyTree, LossDerivatives, Array, Array, Array]) -> Bool[Array, ""]:
         _, found, bad, _, count = carry
         new = _diverged(found, trainer)
         return (count == 0) | ((count == 1) & new.any() & ~bad.all())
 
     def body(
-        carry: tuple[PyTree, Evaluated, Array, Array, Array],
-    ) -> tuple[PyTree, Evaluated, Array, Array, Array]:
+        carry: tuple[PyTree, LossDerivatives, Array, Array, Array],
+    ) -> tuple[PyTree, LossDerivatives, Array, Array, Array]:
         batch, _, bad, exploded, count = carry
         batch = jax.tree.map(
             lambda new, old: jnp.where(bad.any(), new, old), batch.without(bad), batch
@@ -259,7 +262,7 @@ def evaluate_healthy(
     zeros = jnp.zeros(batch.start.shape)
     penalties = jax.tree.map(jnp.zeros_like, jax.eval_shape(objective.penalties, trainable))
     none, zero = zeros > 0, jnp.zeros((), int)
-    empty = Evaluated(
+    empty = LossDerivatives(
         zeros, penalties, jnp.zeros(()), jax.tree.map(jnp.zeros_like, trainable), none
     )
     first = batch, empty, none, zero, zero
@@ -274,11 +277,11 @@ def _turned_down(optimizer: PyTree, value: Float[Array, ""]) -> Bool[Array, ""]:
     return jnp.isfinite(optimizer.value) & (optimizer.value != value)
 
 
-def _diverged(found: Evaluated, trainer: Trainer) -> Bool[Array, " batch"]:
+def _diverged(found: LossDerivatives, trainer: Trainer) -> Bool[Array, " batch"]:
     return ~(found.losses <= trainer.limit) | found.exploded
 
 
-def _exploded(found: Evaluated, trainer: Trainer) -> Int[Array, ""]:
+def _exploded(found: LossDerivatives, trainer: Trainer) -> Int[Array, ""]:
     """How many sequences have a finite loss, but no finite gradient."""
     return (found.exploded & (found.losses <= trainer.limit)).sum()
 

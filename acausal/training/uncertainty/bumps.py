@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jax.scipy.special import erf
+from jax.typing import ArrayLike
 from jaxtyping import Array, Float
 
-from acausal.networks import EnergyLaw, kept_promises, law_of, rise_of
+from acausal.networks import EnergyLaw, WithLaw, kept_promises, law_of, rise_of
+from acausal.training.objective.problem import Problem
 from acausal.training.objective.regularizers import Network
 
 BUMPS, SIGMAS = 12, 3.0
 """Bumps of each law, evenly over so many sigmas of its inputs to either side."""
 
 
-class Bumped(eqx.Module):
+class Bumped(WithLaw):
     """A network whose law may change by bumps of its first argument, ``F(x) + Σ a_k φ_k(x)``, and keeps its promises.
 
     A bump is ``exp(−(x − c_k)²/2w²)``. Where the law is zero at zero it is multiplied with ``1 − exp(−x²/2h²)``; where
@@ -43,9 +47,10 @@ class Bumped(eqx.Module):
         shapes = self.areas if isinstance(self.net, EnergyLaw) else self.bumps
         return self.net(*inputs) + jnp.sum(self.heights * shapes(inputs[0]))
 
-    def law(self, *inputs: Float[Array, ""]) -> Float[Array, ""]:
+    def law(self, *inputs: ArrayLike) -> Float[Array, ""]:
         """The law."""
-        return law_of(self.net)(*inputs) + jnp.sum(self.heights * self.bumps(inputs[0]))
+        bumps = self.bumps(jnp.asarray(inputs[0]))
+        return law_of(self.net)(*inputs) + jnp.sum(self.heights * bumps)
 
     def bumps(self, x: Float[Array, ""]) -> Float[Array, " n_bumps"]:
         """The bumps at x."""
@@ -92,3 +97,18 @@ def bumped_law(network: Network, seen: Float[np.ndarray, "n_calls n_arguments"])
     mirrored = -1 if "odd" in kept else 1 if "even" in kept else 0
     hole = jnp.minimum(width, rise_of(network)) if "zero" in kept and mirrored >= 0 else None
     return Bumped(network, jnp.zeros(BUMPS), jnp.asarray(centres), width, hole, mirrored)
+
+
+def with_changes(
+    problem: Problem,
+    params: Mapping[str, Any],
+    bumped: Mapping[str, Bumped],
+    changes: Float[Array, " n"],
+) -> dict[str, Any]:
+    """Parameters after changes: heights of the bumps of all laws, then the changes of trained parameters."""
+    laws = {
+        name: replace(law, heights=changes[k * BUMPS : (k + 1) * BUMPS])
+        for k, (name, law) in enumerate(bumped.items())
+    }
+    moved = dict(zip(problem.modifiers.names, changes[BUMPS * len(laws) :], strict=True))
+    return problem.modifiers.changed({**params, **laws}, moved)

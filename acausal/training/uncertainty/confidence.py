@@ -24,15 +24,15 @@ from jaxtyping import Array, Bool, Float
 
 from acausal._jax import value_and_jacobian
 from acausal.errors import TrainingError
-from acausal.networks import bounds_of, kept_promises, law_of, output_scale
+from acausal.networks import bounds_of, kept_promises, law_at, output_scale
 from acausal.training.objective.error_laws import LogLikelihood
-from acausal.training.objective.prior import LawPrior, Prior, law_at
+from acausal.training.objective.prior import LawPrior, Prior
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.records import Records
-from acausal.training.objective.trainable import Trainable, changes_of
-from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law
+from acausal.training.objective.trainable import Trainable
+from acausal.training.uncertainty.bumps import BUMPS, Bumped, Network, bumped_law, with_changes
 from acausal.training.uncertainty.confidence_view import confidence_view
-from acausal.training.uncertainty.elimination import Blocks, posterior_covariance
+from acausal.training.uncertainty.record_elimination import RecordJacobian, posterior_covariance
 from acausal.training.uncertainty.residuals import correlation_time, unexplained
 from acausal.training.uncertainty.step_error import largest_move, step_error
 from acausal.training.uncertainty.tangents import correlation_with, law_directions
@@ -217,18 +217,14 @@ def confidence(
     bounds = np.cumsum([0, *(n for n, _ in ways)]).tolist()
 
     def changed(z: Float[Array, " n"]) -> tuple[Trainable, dict[str, Any]]:
-        bumps, changes, own, along = jnp.split(scale * z, ends)
+        changes, own, along = jnp.split(scale * z, ends[1:])
         nets = {
-            n: replace(
-                bumped[n],
-                net=params[n] if move is None else move(along[a:b]),
-                heights=bumps[k * BUMPS : (k + 1) * BUMPS],
-            )
-            for k, (n, (_, move), (a, b)) in enumerate(
-                zip(laws, ways, itertools.pairwise(bounds), strict=True)
+            n: law if move is None else replace(law, net=move(along[a:b]))
+            for (n, law), (_, move), (a, b) in zip(
+                bumped.items(), ways, itertools.pairwise(bounds), strict=True
             )
         }
-        new = problem.modifiers.changed({**params, **nets}, dict(zip(names, changes, strict=True)))
+        new = with_changes(problem, params, nets, changes)
         return _moved(problem, trainable, own), new
 
     scale = jnp.asarray(np.concatenate([deviations, own, np.ones(bounds[-1])]))
@@ -246,7 +242,7 @@ def confidence(
     weighted = sensitivity[..., :count]
     along = sensitivity[..., count + alone :].reshape(left.size, bounds[-1])
     blocks = [
-        Blocks(*(s.reshape(w.shape[0] * w.shape[1], s.shape[-1]) for s in (w, o)))
+        RecordJacobian(*(s.reshape(w.shape[0] * w.shape[1], s.shape[-1]) for s in (w, o)))
         for w, o in zip(
             *(
                 np.split(s, np.asarray(problem.records.first)[1:])
@@ -309,14 +305,14 @@ def _earlier(
     problem: Problem,
     changed: Callable[[Float[Array, " n"]], tuple[Trainable, dict[str, Any]]],
     count: int,
-    like: Blocks,
-) -> list[Blocks]:
+    like: RecordJacobian,
+) -> list[RecordJacobian]:
     """What the training knew before, as one more record; none if that is nothing."""
     if (prior := problem.prior) is None:
         return []
     jacobian = jax.jit(jax.jacfwd(lambda z: prior.misfit(changed(z)[1])))(jnp.zeros(count))
     rows = np.asarray(jacobian)[:, : like.common.shape[1]]
-    return [Blocks(rows, np.zeros((len(rows), like.own.shape[1])))]
+    return [RecordJacobian(rows, np.zeros((len(rows), like.own.shape[1])))]
 
 
 def _as_prior(
@@ -352,7 +348,7 @@ def _about(
     taken: Bool[np.ndarray, " n_parameters"],
 ) -> tuple[str, ...]:
     """How well each parameter is known, one sentence each; `summary` speaks of those that a law can take."""
-    at_limit = problem.modifiers.at_limit(changes_of(problem, trainable), problem.unit)
+    at_limit = problem.modifiers.at_limit(problem.changes(trainable), problem.unit)
 
     def one(name: str, sigma: float, prior: float) -> str:
         if name in at_limit:
@@ -466,14 +462,13 @@ def _band(
 ) -> Band:
     x = np.linspace(float(bumped.centres[0]), float(bumped.centres[-1]), BAND_POINTS)
     rest = seen[:, 1:].mean(axis=0)
-    law = jax.vmap(lambda v: law_of(network)(v, *rest))(jnp.asarray(x))
     shapes = np.asarray(jax.vmap(bumped.bumps)(jnp.asarray(x)))
     variance = np.einsum("pk,kl,pl->p", shapes, covariance, shapes)
-    law, kept = np.asarray(law), kept_promises(network)
+    kept = kept_promises(network)
     sign = np.sign(x) if "passive" in kept and "energy" not in kept else 0.0
     return Band(
         x,
-        law if law.ndim == 1 else law[:, 0],
+        np.asarray(law_at(network, x, rest)),
         np.sqrt(np.maximum(variance, 0.0)),
         1.0 if "positive" in kept else sign,
         bounds_of(network),

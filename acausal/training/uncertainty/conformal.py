@@ -20,7 +20,7 @@ from acausal.training.uncertainty.residuals import correlation_time
 
 
 @dataclass(frozen=True, eq=False)
-class Prediction:
+class ConformalBand:
     """A target over the time of a record, predicted in one simulation of it.
 
     Attributes:
@@ -61,11 +61,11 @@ class Conformal:
         self,
         data: Data | Mapping[str, ArrayLike],
         x0: InitialState = "auto",
-    ) -> dict[str, Prediction]:
+    ) -> dict[str, ConformalBand]:
         """The targets over another record, by name; arguments as those of `Fit.conformal`."""
         ((time, y, _),) = predicted(self.problem, self.trained, data, x0)
         return {
-            name: Prediction(time, y[:, i] - width, y[:, i], y[:, i] + width)
+            name: ConformalBand(time, y[:, i] - width, y[:, i], y[:, i] + width)
             for i, (name, width) in enumerate(self.width.items())
         }
 

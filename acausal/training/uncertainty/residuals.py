@@ -151,21 +151,17 @@ def correlation_time(values: Float[np.ndarray, " N"]) -> float:
 
     ``1 + 2 Σ ρ_k``, up to the first autocorrelation that is not positive.
     """
-    rho = _correlation(values, values, len(values) - 1)[len(values) :]
+    rho = _together([values], [values], len(values) - 1)[len(values) :]
     return float(1 + 2 * np.sum(rho * np.cumprod(rho > 0)))
-
-
-def _correlation(
-    a: Float[np.ndarray, " N"], b: Float[np.ndarray, " N"], lags: int
-) -> Float[np.ndarray, " 2*lags+1"]:
-    """The correlation of a with earlier b, at the lags −lags to lags; 0 where one of them is constant."""
-    return _together([a], [b], lags)
 
 
 def _together(
     a: Sequence[Float[np.ndarray, " n"]], b: Sequence[Float[np.ndarray, " n"]], lags: int
 ) -> Float[np.ndarray, " 2*lags+1"]:
-    """The same over several records, each about its own mean."""
+    """The correlation of a with earlier b at the lags −lags to lags, over records, each about its own mean.
+
+    It is 0 where one of them is constant.
+    """
     total, squares = np.zeros(2 * lags + 1), np.zeros(2)
     for left, right in zip(a, b, strict=True):
         left, right = left - left.mean(), right - right.mean()

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from acausal.simulation import Adaptive
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
-from acausal.training.uncertainty.elimination import Blocks
+from acausal.training.uncertainty.record_elimination import RecordJacobian
 
 PARTS = 2
 """Steps in the place of each, whose predictions count as exact."""
@@ -30,7 +30,7 @@ def step_error(problem: Problem, trainable: Trainable) -> Float[np.ndarray, "N n
     return np.asarray(finer.simulate(trainable).y) - known
 
 
-def largest_move(blocks: Sequence[Blocks], error: Float[np.ndarray, " rows"]) -> float:
+def largest_move(blocks: Sequence[RecordJacobian], error: Float[np.ndarray, " rows"]) -> float:
     """By how many standard deviations an error of the predictions moves what all records have in common, at most.
 
     Arguments:

@@ -15,8 +15,8 @@ from acausal.reporting import Block, Curve, Plot, Role, Text, broken_at_gaps, ke
 from acausal.simulation import Solution
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
-from acausal.training.page_subject import Trained
 from acausal.training.record_fit import RecordFit
+from acausal.training.trained_model import TrainedModel
 
 RECORDS_SHOWN, POINTS, ALL_POINTS = 8, 10_000, 40_000
 """Records that are drawn, points in a plot, and points in all plots."""
@@ -25,7 +25,7 @@ FAR = 20
 """What is farther from a plot than so many times its height is no number of it."""
 
 
-def runs_of(fit: Trained) -> dict[str, Solution]:
+def runs_of(fit: TrainedModel) -> dict[str, Solution]:
     """The first record, simulated before and after training; what diverges is left out."""
     problem = fit.problem
     states = {"before training": problem.start(), "after training": fit.trained}
@@ -53,7 +53,7 @@ def _run(problem: Problem, trainable: Trainable) -> Solution:
 
 
 def record_blocks(
-    fit: Trained,
+    fit: TrainedModel,
     records: Mapping[str, RecordFit],
     before: Mapping[str, RecordFit],
     of: str = "",

@@ -18,7 +18,6 @@ import numpy as np
 from acausal.analysis import labels
 from acausal.errors import shown
 from acausal.networks import promises_of
-from acausal.training.objective.timing import delay_of, lag_of
 from acausal.training.record_fit import RecordFit
 from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Confidence
@@ -142,13 +141,9 @@ def _network(fit: TrainedModel, name: str, confidence: Confidence | None) -> dic
 
 
 def _parameter(fit: TrainedModel, name: str, confidence: Confidence | None) -> dict[str, Any]:
-    own = name in fit.params
-    late = {delay_of(n): v for n, v in fit.delays.items()} | {
-        lag_of(n): v for n, v in fit.lags.items()
-    }
     return {
-        "value": float(fit.params[name]) if own else late.get(name),
-        "unit": fit.system.unit(name) if own else "s" * (name in late),
+        "value": float(fit.problem.assemble(fit.trained)[name]),
+        "unit": fit.problem.unit(name),
         "change": fit.modifiers[name],
         "one sigma": None if confidence is None else confidence.parameters.get(name),
     }

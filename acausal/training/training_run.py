@@ -11,21 +11,19 @@ from statistics import fmean as mean
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Int, PRNGKeyArray
+from jaxtyping import Array, Bool, PRNGKeyArray
 
 from acausal.training.checkpoint import Keep, Snapshot, Stored, StoredBest
-from acausal.training.halving import ALL, Halving
 from acausal.training.history import Divergence
 from acausal.training.member import Best, Member, Trained, stacked, unstacked
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.sharding import of_first_process, on_default_device, replicate
 from acausal.training.objective.trainable import Trainable
-from acausal.training.optimizers.gradients import Objective
 from acausal.training.optimizers.trainer import (
     UPDATES_PER_CALL,
-    Entry,
     State,
+    UpdateLog,
     advance,
     begin,
     candidates,
@@ -34,79 +32,24 @@ from acausal.training.optimizers.trainer import (
 )
 from acausal.training.progress import Observer, Progress
 from acausal.training.rejections import check_rejections
+from acausal.training.starts import Halving
 from acausal.training.strategy import Leg
 
 REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
 
 
-def train(
-    problem: Problem,
-    starts: Sequence[Trainable],
-    legs: Sequence[Leg],
-    keys: Sequence[PRNGKeyArray],
-    observers: Sequence[Observer],
-    keep: Keep = lambda snapshot, rows: None,
-    stored: Stored | None = None,
-    held: HeldOut | None = None,
-    halving: Halving = ALL,
-) -> tuple[Trained, ...]:
-    """Train leg by leg, each from the best state of the one before, until the last one ends or the user interrupts.
-
-    Several trainings of one problem share one program. A leg ends when it has ended for all of them.
+class TrainingRun:
+    """Trainings of one problem that run in one program: leg by leg, each from the best state of the one before.
 
     Arguments:
         problem: evaluated over the whole record; the best evaluation is chosen where nothing is held out.
-        starts: where each training begins.
-        legs: what to minimise and how.
+        legs: what to minimise and how. A leg ends when it has ended for all trainings.
         keys: sources of all batches, one for each training.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
         keep: called with all that is needed to continue, before the first update and after every few.
-        stored: the checkpoint to continue from; by default, training starts anew.
         held: what is held out; the best is the one with the lowest loss over it.
         halving: which trainings go on to the end.
-
-    Raises:
-        TrainingError: if `REJECTIONS` updates in a row had to be rejected.
-        DataError: if the checkpoint belongs to another training.
-    """
-    run = _Run(problem, legs, keys, observers, keep, held, halving)
-    interrupted = False
-    if stored is None:
-        run.candidates = (replicate(stacked(starts), problem.mesh),)
-        run.evaluate()
-        first, state = 0, None
-    else:
-        first, state = run.resume(stored, starts)
-    try:
-        for i in range(first, len(legs)):
-            if state is None and run.can_skip(i):
-                continue
-            run.follow(i, run.enter(i) if state is None else state)
-            state = None
-    except KeyboardInterrupt:
-        interrupted = True
-        run.evaluate()
-    seconds = time.perf_counter() - run.began
-    ends = unstacked(run.candidates[0], len(run.members))
-    rows = zip(run.members, ends, run.finished, strict=True)
-    return tuple(
-        Trained(
-            m.best,
-            end,
-            m.log.history(),
-            seconds,
-            run.compiling,
-            run.updating,
-            interrupted,
-            finished and not interrupted,
-        )
-        for m, end, finished in rows
-    )
-
-
-class _Run:
-    """Trainings while they run.
 
     Attributes:
         candidates: for the best: what is trained, and what else the optimizer knows.
@@ -138,10 +81,48 @@ class _Run:
         self.going = list(range(len(keys)))
         self.converged = [False] * len(keys)
 
-    @property
-    def finished(self) -> list[bool]:
-        """Which trainings have converged in the last leg, or go on to its end."""
-        return [k in self.going or c for k, c in enumerate(self.converged)]
+    def train(self, starts: Sequence[Trainable], stored: Stored | None) -> tuple[Trained, ...]:
+        """Train until the last leg ends or the user interrupts.
+
+        Arguments:
+            starts: where each training begins.
+            stored: the checkpoint to continue from; ``None`` to start anew.
+
+        Raises:
+            TrainingError: if `REJECTIONS` updates in a row had to be rejected.
+            DataError: if the checkpoint belongs to another training.
+        """
+        interrupted = False
+        if stored is None:
+            self.candidates = (replicate(stacked(starts), self.mesh),)
+            self.evaluate()
+            first, state = 0, None
+        else:
+            first, state = self.resume(stored, starts)
+        try:
+            for i in range(first, len(self.legs)):
+                if state is None and self.can_skip(i):
+                    continue
+                self.follow(i, self.enter(i) if state is None else state)
+                state = None
+        except KeyboardInterrupt:
+            interrupted = True
+            self.evaluate()
+        seconds = time.perf_counter() - self.began
+        times = seconds, self.compiling, self.updating
+        return tuple(
+            Trained(
+                member.best,
+                end,
+                member.log.history(),
+                *times,
+                interrupted,
+                finished=not interrupted and (k in self.going or self.converged[k]),
+            )
+            for k, (member, end) in enumerate(
+                zip(self.members, unstacked(self.candidates[0], len(self.members)), strict=True)
+            )
+        )
 
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
         """Restore a training; returns its leg and the trainer's state."""
@@ -197,7 +178,9 @@ class _Run:
             clock = time.perf_counter()
             # This compiles, and makes no update.
             until = jnp.max(state.epoch)
-            jax.block_until_ready(_advance(objective, leg, state, until, self._active()))
+            jax.block_until_ready(
+                advance(objective, leg.trainer, state, until, active=self._active())
+            )
             self.compiling += time.perf_counter() - clock
         size = 1
         while (done := self.done - self.before) < leg.epochs and not self._is_over(leg, state):
@@ -208,7 +191,7 @@ class _Run:
             until = replicate(jnp.asarray(done + count, int), self.mesh)
             before = state
             state, entries = jax.block_until_ready(
-                _advance(objective, leg, state, until, self._active())
+                advance(objective, leg.trainer, state, until, active=self._active())
             )
             ended = time.perf_counter()
             count = max(epochs_of(state)) - done
@@ -257,7 +240,7 @@ class _Run:
         return jnp.zeros(len(self.members), bool).at[np.asarray(self.going)].set(True)
 
     def _log(
-        self, before: State, state: State, entries: Entry, started: float, ended: float
+        self, before: State, state: State, entries: UpdateLog, started: float, ended: float
     ) -> list[Divergence]:
         """Log some updates; returns what diverged."""
         size, new = len(self.members), []
@@ -303,15 +286,3 @@ class _Run:
             or self.members[k].gained_less(leg.stage.gain)
             for k in self.going
         )
-
-
-def _advance(
-    objective: Objective,
-    leg: Leg,
-    state: State,
-    until: Int[Array, ""],
-    active: Bool[Array, " trainings"] | None,
-) -> tuple[State, Entry]:
-    on_accelerator = jax.default_backend() != "cpu"
-    trainer = leg.trainer
-    return advance(objective, trainer, state, until, active=active, side_by_side=on_accelerator)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeGuard
 
 import equinox as eqx
 import jax
@@ -13,24 +13,20 @@ from jaxtyping import Array
 from acausal.data import Signal
 from acausal.errors import DataError
 from acausal.modeling import names_in
-from acausal.networks.energy import Levelled
+from acausal.networks.energy_parts import Levelled
+from acausal.networks.law_parts import OffsetCorrected
 from acausal.networks.scaled import EnergyLaw
-from acausal.networks.zero import OffsetCorrected
-
-
-def modules(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
-    """The modules (networks, tables) among a model's parameters, by name."""
-    return {name: leaf for name, leaf in params.items() if isinstance(leaf, eqx.Module)}
 
 
 def networks(params: Mapping[str, Any]) -> dict[str, eqx.Module]:
     """The modules that can be trained: those with floating-point arrays other than a time base or table."""
-    return {name: module for name, module in modules(params).items() if _trainable(module)}
+    return {name: leaf for name, leaf in params.items() if _trainable(leaf)}
 
 
-def _trainable(module: eqx.Module) -> bool:
-    arrays = jax.tree.leaves(eqx.filter(module, eqx.is_inexact_array))
-    return bool(arrays) and not isinstance(module, Signal)
+def _trainable(module: Any) -> TypeGuard[eqx.Module]:
+    if not isinstance(module, eqx.Module) or isinstance(module, Signal):
+        return False
+    return bool(jax.tree.leaves(eqx.filter(module, eqx.is_inexact_array)))
 
 
 def remove_offset(

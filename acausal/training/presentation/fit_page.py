@@ -2,115 +2,97 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from acausal.pages import (
-    Known,
-    Law,
-    component_cards,
-    labelled,
-    schematic,
-    summary,
-)
+from acausal.pages import Known, labelled
 from acausal.reporting import (
     Block,
     Curve,
     PageContent,
     Plot,
     Profiled,
-    Tab,
     Table,
     Text,
     table,
     thinned,
-    titled_sections,
 )
+from acausal.training.auto.verdict import Verdict
 from acausal.training.history import History
-from acausal.training.page_laws import SURE, law_blocks
-from acausal.training.page_records import record_blocks, runs_of
-from acausal.training.page_subject import Trained
-from acausal.training.record_fit import RecordFit, out_of_range
+from acausal.training.presentation.fit_view import loss_rows, parameter_rows
+from acausal.training.presentation.page_laws import Sections, content_with_laws
+from acausal.training.presentation.page_records import record_blocks, runs_of
+from acausal.training.trained_model import TrainedModel, out_of_range
 from acausal.training.uncertainty.confidence import Confidence
 from acausal.training.uncertainty.residuals import Residuals
 
 LOSSES = 2000
 """Losses that are drawn."""
 
+NOT_SURE = "The trained model diverges over the record; what it has learned cannot be assessed."
+
 DIVERGENCES_SHOWN = 50
 """Divergences that are listed."""
 
 
 def fit_content(
-    fit: Trained,
-    before: Mapping[str, RecordFit],
-    title: str,
-    lead: str,
-    losses: Sequence[tuple[str, str, str]],
-    profiles: Sequence[Profiled] = (),
+    fit: TrainedModel, verdict: Verdict | None, title: str, profiles: Sequence[Profiled] = ()
 ) -> PageContent:
     """All that the page of a training shows.
 
     Arguments:
-        fit: the result. before: the records before training.
-        title, lead: headline, and a sentence below it.
-        losses: rows of a table: what, before, after.
+        fit: the result. verdict: on it.
+        title: headline.
         profiles: to show whether parameters are identifiable.
     """
     sure = fit.confidence() if np.isfinite(fit.loss) else None
-    laws = (
-        {}
-        if sure is None
-        else {n: law_blocks(fit, n, law) for n, law in fit.with_bands(sure.laws).items()}
-    )
+    rows = parameter_rows(fit, sure)
     known = Known(
         fit.system.pack(fit.params),
-        changes=_changes(fit, sure),
+        changes={name: (change, deviation) for name, _, change, deviation in rows},
         runs=runs_of(fit),
         over=f"Over the record '{next(iter(fit.records))}', before and after training.",
-        laws=[Law(n, tuple(blocks)) for n, blocks in laws.items()],
     )
     remarks = {n: out_of_range(record, fit) for n, record in fit.held_out.items()}
-    parts: dict[str, Mapping[str, Sequence[Block | None]]] = {
+    losses = [(what, f"{before:.4g}", f"{after:.4g}") for what, before, after in loss_rows(fit)]
+    header = ("parameter", "value", "change", "one sigma")
+    tabs: dict[str, Sections] = {
         "Records": {
-            "Measured and simulated": list(record_blocks(fit, fit.records, before)),
+            "Measured and simulated": list(record_blocks(fit, fit.records, fit.before)),
             "Held out": list(record_blocks(fit, fit.held_out, {}, "held out, ", remarks)),
         },
-        "Laws": {"Learned laws": [Text(SURE), *(b for blocks in laws.values() for b in blocks)] if laws else []},
         "Training": {
             "Losses": [table(("figure", "before", "after"), losses), *_losses(fit)],
             "Stages": _stages(fit),
-            "Trained parameters": _parameters(fit, sure),
+            "Trained parameters": [table(header, rows)] if rows else [],
             "Parameters of records": [_own(fit, sure)],
         },
         "Trust": {
-            "How sure it is": [Text(s) for s in _sentences(sure)],
+            "How sure it is": [Text(s) for s in ([NOT_SURE] if sure is None else sure.summary())],
             "Profiles": [block for p in profiles for block in _profile(p)],
             "Residuals": [] if sure is None else [b for r in fit.residuals() for b in _residuals(r)],
             "What diverged": list(_diverged(fit.history)),
         },
     }  # fmt: skip
-    tabs = [Tab(name, titled_sections(blocks)) for name, blocks in parts.items()]
-    return PageContent(
-        title,
-        lead,
-        schematic(fit.system.model),
-        component_cards(fit.system, known),
-        tuple(tab for tab in tabs if tab.sections),
-        f"{fit.system.flat.name}: {summary(fit.system)}",
+    lead = (
+        f"{', '.join((*fit.seen, *fit.modifiers))} trained on {fit.samples_trained} samples of "
+        f"{', '.join(fit.problem.targets)} in {fit.seconds:.3g} s, {fit.history.epochs} updates"
+        f"{', ended by the user' * fit.interrupted}."
     )
+    lead += "" if verdict is None else f" The model {verdict}"
+    return content_with_laws(fit, title, lead, known, {} if sure is None else sure.laws, tabs)
 
 
 # -- training ------------------------------------------------------------------------------------------------
 
 
-def _stages(fit: Trained) -> list[Block]:
+def _stages(fit: TrainedModel) -> list[Block]:
     rows = [(s.title, f"{s.loss:.4g}", str(s.updates)) for s in fit.stages]
     return [table(("stage", "loss reached", "updates"), rows)] if rows else []
 
 
-def _losses(fit: Trained) -> Iterable[Block]:
+def _losses(fit: TrainedModel) -> Iterable[Block]:
     """The losses and the changes of parameters over the updates, and what several starts reached."""
     history = fit.history
     curves = [
@@ -139,29 +121,7 @@ def _losses(fit: Trained) -> Iterable[Block]:
         yield table(fit.starts.header, fit.starts.rows())
 
 
-def _changes(fit: Trained, sure: Confidence | None) -> dict[str, tuple[str, str]]:
-    """The change of every trained parameter and its standard deviation, as texts."""
-    written, unit = fit.problem.modifiers.written, fit.problem.unit
-    return {
-        name: (
-            written(name, change, "+.3g", unit(name)),
-            "" if sure is None else written(name, sure.parameters[name], ".2g", unit(name)),
-        )
-        for name, change in fit.modifiers.items()
-    }
-
-
-def _parameters(fit: Trained, sure: Confidence | None) -> list[Block]:
-    """Value, change and standard deviation of every trained parameter."""
-    params, unit = fit.problem.assemble(fit.trained), fit.problem.unit
-    rows = [
-        (n, f"{float(params[n]):.6g} {unit(n)}".removesuffix(" 1"), *texts)
-        for n, texts in _changes(fit, sure).items()
-    ]
-    return [table(("parameter", "value", "change", "one sigma"), rows)] if rows else []
-
-
-def _own(fit: Trained, sure: Confidence | None) -> Table | None:
+def _own(fit: TrainedModel, sure: Confidence | None) -> Table | None:
     """The parameters that differ between records."""
     names = fit.problem.per_record.names
     if not names or sure is None:
@@ -175,14 +135,6 @@ def _own(fit: Trained, sure: Confidence | None) -> Table | None:
 
 
 # -- trust ---------------------------------------------------------------------------------------------------
-
-
-def _sentences(sure: Confidence | None) -> list[str]:
-    if sure is None:
-        return [
-            "The trained model diverges over the record; what it has learned cannot be assessed."
-        ]
-    return sure.summary()
 
 
 def _profile(profile: Profiled) -> Iterable[Block]:

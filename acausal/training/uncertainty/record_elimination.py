@@ -14,7 +14,7 @@ from jaxtyping import Float
 from scipy.linalg import solve_triangular
 
 
-class Blocks(NamedTuple):
+class RecordJacobian(NamedTuple):
     """The Jacobian of the predictions of one record, in standard deviations of the residuals.
 
     Attributes:
@@ -46,7 +46,7 @@ class Covariance(NamedTuple):
         return float(sum(known))
 
 
-def posterior_covariance(blocks: Sequence[Blocks], samples: float) -> Covariance:
+def posterior_covariance(blocks: Sequence[RecordJacobian], samples: float) -> Covariance:
     """The covariance of numbers, after their prior standard deviations of 1, from all records.
 
     Residuals are smaller than the noise, because the numbers follow a part of it: as many as the data determine.
@@ -57,10 +57,10 @@ def posterior_covariance(blocks: Sequence[Blocks], samples: float) -> Covariance
     """
     determined = covariance(blocks).determined
     grown = np.sqrt(max(samples / max(samples - determined, 1.0), 1.0))
-    return covariance([Blocks(b.common / grown, b.own / grown) for b in blocks])
+    return covariance([RecordJacobian(b.common / grown, b.own / grown) for b in blocks])
 
 
-def covariance(blocks: Sequence[Blocks]) -> Covariance:
+def covariance(blocks: Sequence[RecordJacobian]) -> Covariance:
     """``(JᵀJ + 1)⁻¹`` by QR decompositions: JᵀJ would lose twice as many digits."""
     triangles = [_triangle(b) for b in blocks]
     m = blocks[0].own.shape[1]
@@ -79,7 +79,7 @@ def covariance(blocks: Sequence[Blocks]) -> Covariance:
     return Covariance(common, tuple(own(t) for t in triangles), root)
 
 
-def _triangle(block: Blocks) -> Float[np.ndarray, "k m+n"]:
+def _triangle(block: RecordJacobian) -> Float[np.ndarray, "k m+n"]:
     """The triangle of a record's rows and the prior of its own numbers, which come first."""
     m, n = block.own.shape[1], block.common.shape[1]
     prior = np.concatenate([np.eye(m), np.zeros((m, n))], axis=1)

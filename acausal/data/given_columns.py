@@ -5,21 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
 from jaxtyping import Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import need_known
-from acausal.data.readers import Table, is_data_frame, seconds
+from acausal.data.readers import Table, is_data_frame, need_unique, seconds
 from acausal.data.samples import Place, check_samples, check_time_base, sample
 from acausal.data.time_bases import on_rows, union
 from acausal.errors import DataError, listing, nearest, shown
 from acausal.modeling import names_in
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 Missing = Literal["refuse", "nan"]
 """What a NaN among samples is: a mistake, or a missing sample."""
@@ -28,7 +25,7 @@ Columns: TypeAlias = dict[str, Float[np.ndarray, " n"]]
 
 
 @dataclass(frozen=True)
-class Measured:
+class GivenSignal:
     """A signal as measured: samples at times of its own, or (``times`` is None) at those of the record."""
 
     times: Float[np.ndarray, " n"] | None
@@ -99,20 +96,14 @@ def _by_name(signals: object) -> Mapping[str, Any]:
         DataError: for what has no names, and for a name that is not text, or that occurs twice.
     """
     if is_data_frame(signals):
-        return _frame_columns(signals)
+        need_unique(signals, "The data frame")
+        return {n: signals[n].to_numpy() for n in names_in(signals.columns, "signals")}
     if not isinstance(signals, Mapping):
         raise DataError(
             "The signals of a record have names: give ac.Data(time, {'mass.s': samples}), "
             f"not {_described(signals)}."
         )
     return {name: signals[name] for name in names_in(signals, "signals")}
-
-
-def _frame_columns(frame: DataFrame) -> Mapping[str, Any]:
-    if not frame.columns.is_unique:
-        doubled = frame.columns[frame.columns.duplicated()][0]
-        raise DataError(f"The data frame has two columns '{doubled}'.")
-    return {name: frame[name].to_numpy() for name in names_in(frame.columns, "signals")}
 
 
 def _times(given: ArrayLike, what: str, unit: str) -> Float[np.ndarray, " n"]:
@@ -140,11 +131,11 @@ def _copied(made: np.ndarray, *given: np.ndarray) -> np.ndarray:
     return np.array(made) if any(np.may_share_memory(made, a) for a in given) else made
 
 
-def _measured(name: str, given: Any, unit: str) -> Measured:
+def _measured(name: str, given: Any, unit: str) -> GivenSignal:
     """Samples, or a pair (times, samples), as arrays where they can be."""
     if not (isinstance(given, tuple) and len(given) == 2 and all(map(_is_vector, given))):
-        return Measured(None, _array(given))
-    return Measured(_times(given[0], f"'{name}'", unit), _array(given[1]))
+        return GivenSignal(None, _array(given))
+    return GivenSignal(_times(given[0], f"'{name}'", unit), _array(given[1]))
 
 
 def _is_vector(given: Any) -> bool:
@@ -161,7 +152,7 @@ def _array(given: Any) -> Any:
         return given
 
 
-def _check_times(ts: object, measured: Mapping[str, Measured]) -> None:
+def _check_times(ts: object, measured: Mapping[str, GivenSignal]) -> None:
     """Refuse signals without times, and times without signals."""
     without = [name for name, given in measured.items() if given.times is None]
     if ts is None and (without or not measured):
@@ -173,7 +164,7 @@ def _check_times(ts: object, measured: Mapping[str, Measured]) -> None:
         raise DataError("All signals have times of their own; leave out those of the record.")
 
 
-def _masks(given: object, measured: Mapping[str, Measured]) -> Mapping[str, np.ndarray]:
+def _masks(given: object, measured: Mapping[str, GivenSignal]) -> Mapping[str, np.ndarray]:
     """Which samples count, by the name of a signal.
 
     Raises:

@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
-from acausal.pages import Known, Law, component_cards, labelled, schematic, summary
+from acausal.pages import Known, labelled
 from acausal.reporting import (
     Block,
     Curve,
     PageContent,
     Plot,
-    Tab,
     Table,
-    Text,
     broken_at_gaps,
     kept_rows,
-    titled_sections,
 )
 from acausal.training.history import History
-from acausal.training.page_laws import SURE, law_blocks
-from acausal.training.page_records import RECORDS_SHOWN
-from acausal.training.page_subject import Trained
+from acausal.training.presentation.page_laws import Sections, content_with_laws
+from acausal.training.presentation.page_records import RECORDS_SHOWN
 from acausal.training.record_fit import RecordFit
+from acausal.training.trained_model import TrainedModel
 from acausal.training.uncertainty.confidence import Band
 
 POINTS = 4000
@@ -29,11 +26,11 @@ POINTS = 4000
 
 
 def several_content(
-    fit: Trained,
+    fit: TrainedModel,
     title: str,
     lead: str,
     overview: Table,
-    records: Mapping[str, Sequence[Block]],
+    records: Sections,
     laws: Mapping[str, Band],
     histories: Mapping[str, History],
     parameters: Table | None,
@@ -49,23 +46,13 @@ def several_content(
         histories: by training.
         parameters: that were trained.
     """
-    known = {name: law_blocks(fit, name, law) for name, law in fit.with_bands(laws).items()}
-    parts: dict[str, Mapping[str, Sequence[Block | None]]] = {
+    tabs: dict[str, Sections] = {
         "Result": {"": [overview], "Trained parameters": [parameters]},
         "Records": records,
-        "Laws": {"Learned laws": [Text(SURE), *(b for law in known.values() for b in law)] if known else []},
         "Training": {"Losses": [_losses(histories)]},
-    }  # fmt: skip
-    tabs = [Tab(name, titled_sections(blocks)) for name, blocks in parts.items()]
-    told = Known(fit.system.pack(fit.params), laws=[Law(n, tuple(b)) for n, b in known.items()])
-    return PageContent(
-        title,
-        lead,
-        schematic(fit.system.model),
-        component_cards(fit.system, told),
-        tuple(tab for tab in tabs if tab.sections),
-        f"{fit.system.flat.name}: {summary(fit.system)}",
-    )
+    }
+    known = Known(fit.system.pack(fit.params))
+    return content_with_laws(fit, title, lead, known, laws, tabs)
 
 
 def _losses(histories: Mapping[str, History]) -> Plot:

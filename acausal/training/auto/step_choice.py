@@ -25,7 +25,7 @@ FINEST = 32
 """Steps between two samples at most."""
 
 
-class Step(NamedTuple):
+class StepChoice(NamedTuple):
     """How a training integrates.
 
     Attributes:
@@ -47,20 +47,24 @@ class Step(NamedTuple):
         return replace(options, solver=self.solver, dt=dt)
 
 
-def tried_steps(options: FitOptions) -> Iterator[Step]:
+def tried_steps(options: FitOptions) -> Iterator[StepChoice]:
     """The steps with which a start is sought, until one explains something."""
     given = (options.solver, options.rtol, options.atol)
     if any(value is not None for value in given):
-        yield Step(None)
+        yield StepChoice(None)
         return
-    yield Step("rk4")
+    yield StepChoice("rk4")
     if options.dt is None:
-        yield Step("kvaerno3")
+        yield StepChoice("kvaerno3")
 
 
 def chosen_steps(
-    step: Step, problem: Problem, trainable: Trainable, noise: float | None, options: FitOptions
-) -> Step:
+    step: StepChoice,
+    problem: Problem,
+    trainable: Trainable,
+    noise: float | None,
+    options: FitOptions,
+) -> StepChoice:
     """The steps whose error is small enough, for some state of the training."""
     if step.solver is None or options.dt is not None or not isinstance(problem.substeps, int):
         return step
@@ -74,14 +78,14 @@ def chosen_steps(
     if error > allowed:
         parts = int(np.ceil((error / allowed) ** (1 / order)))
         parts = min(1 << (parts - 1).bit_length(), FINEST)
-        return Step(step.solver, parts, error / parts**order)
+        return StepChoice(step.solver, parts, error / parts**order)
     if len(problem.records) >= MANY // 4 and step.solver == "rk4" and options.dt is None:
         heun = for_fixed_steps(solver_named("heun", fixed=False), problem.dtype)
         rough = difference(
             problem, np.asarray(replace(problem, solver=heun).simulate(trainable).y), fine
         )
         if rough <= allowed:
-            return Step("heun", 1, rough)
+            return StepChoice("heun", 1, rough)
     return step._replace(error=error)
 
 

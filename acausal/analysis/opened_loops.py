@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
+import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Float
 
-from acausal.analysis.linearization import Linearization, linearize
-from acausal.analysis.operating_point import OperatingPoint
+from acausal.analysis.linearization import Linearization, Where, linearize, point_of
 from acausal.errors import need_compiled
 from acausal.modeling import names_in
 
@@ -57,11 +57,7 @@ class OpenLoop:
 def open_loop(
     system: System,
     points: str | Sequence[str],
-    x: Mapping[str, ArrayLike]
-    | Float[ArrayLike, " n_states"]
-    | OperatingPoint
-    | Literal["steady"]
-    | None = None,
+    x: Where = None,
     *,
     inputs: Mapping[str, Any] | Float[ArrayLike, " n_inputs"] | None = None,
     params: Params | None = None,
@@ -83,21 +79,15 @@ def open_loop(
     points = names_in(points, "points")
     opened, sources = system.opened(points)
     names = (*opened.states, *opened.inputs)
-    if isinstance(x, OperatingPoint):
-        params, t = x.values.packed if params is None else params, x.time if t is None else t
-        inputs, x = x.u if inputs is None else inputs, x.x
-    t = 0.0 if t is None else t
-    packed, given = system.pack(params), system.inputs_at(t, inputs, None)
-    state = system.initial_state(packed, x, inputs=given, t0=t)
-    at = system.read(names, system.values(t, state, given, packed))
-    known = dict(zip(names, at, strict=True))
+    at = point_of(system, x, None, inputs, params, t)
+    known = dict(zip(names, system.read(names, at), strict=True))
     found = linearize(
         opened,
         {n: known[n] for n in opened.states},
         inputs={n: known[n] for n in opened.inputs},
         outputs=sources,
-        params=params,
-        t=t,
+        params=at.packed,
+        t=float(np.asarray(at.t)),
     )
     columns = jnp.array([opened.inputs.index(name) for name in points])
     return OpenLoop(replace(found, B=found.B[:, columns], D=found.D[:, columns], inputs=points))

@@ -1,0 +1,1 @@
+"""What trainings show: pages, views in a notebook, the model card beside an exported model."""

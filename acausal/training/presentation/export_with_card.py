@@ -1,0 +1,77 @@
+"""Write a trained model for other tools, with a model card beside it."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import acausal.export as export
+from acausal.errors import DataError, nearest, user_level
+from acausal.files import need_path, new_file, write_files
+from acausal.training.presentation.model_card import facts, markdown
+from acausal.training.trained_model import TrainedModel
+from acausal.training.uncertainty.confidence import Confidence
+
+FORMS = {
+    ".fmu": "fmu",
+    ".c": "c",
+    ".onnx": "onnx",
+    ".jax": "stablehlo",
+    ".mlir": "stablehlo",
+    ".mlirbc": "stablehlo",
+    ".mo": "modelica",
+}
+"""By the ending of the path, the function of `acausal.export`."""
+
+WITH_RANGES = ("fmu", "c")
+"""Forms that tell when a network leaves its range."""
+
+
+def export_with_card(
+    fit: TrainedModel,
+    path: str | Path,
+    confidence: Confidence | None,
+    notes: Mapping[str, object] | None,
+    overwrite: bool,
+    options: Mapping[str, Any],
+) -> Path:
+    """Write one file and its card; arguments as of `Fit.export`.
+
+    Raises:
+        DataError: for an unknown ending, a file that exists, or as the function for this form does.
+    """
+    target = need_path(path, "fit.export")
+    if target.suffix not in FORMS:
+        raise DataError(
+            f"fit.export: there is no form '{target.suffix}'; {nearest(target.suffix, FORMS)}"
+        )
+    cards = [target.with_name(target.name + ending) for ending in (".md", ".json")]
+    for card in (target, *cards):
+        new_file(card, "fit.export", overwrite, need_folder=False)
+    if late := [*fit.delays.items(), *fit.lags.items()]:
+        told = ", ".join(f"'{name}' by {seconds:.4g} s" for name, seconds in late)
+        warnings.warn(
+            f"fit.export: delays and lags lie outside the model, so '{target.name}' does not have them; where it is "
+            f"used, delay {told}.",
+            stacklevel=user_level(),
+        )
+    function = FORMS[target.suffix]
+    files = _write(fit, target, function, {**options, "overwrite": overwrite})
+    found = facts(fit, files, function, {**options}, confidence, notes or {})
+    write_files({cards[0]: markdown(found), cards[1]: json.dumps(found, indent=2) + "\n"})
+    return target
+
+
+def _write(
+    fit: TrainedModel, path: Path, function: str, options: dict[str, Any]
+) -> tuple[Path, ...]:
+    """The files that were written, the one of the path first."""
+    if function in WITH_RANGES:
+        options = {"ranges": fit.ranges, **options}
+    write: Any = getattr(export, function)
+    if function == "c":
+        return write(fit.system, path.parent, fit.params, **{"name": path.stem, **options})[::-1]
+    return (write(fit.system, path, fit.params, **options),)
