@@ -27,6 +27,7 @@ from acausal.modeling import names_in
 from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic
+from acausal.training.auto.step_choice import finer_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.fingerprint import fingerprint
 from acausal.training.happened import grazing
@@ -127,6 +128,53 @@ def prepare(
     planned = stages(options) if from_data is None else from_data.stages
     plan = legs(problem, planned, options)
     return Training(problem, kept.training, held, plan, options, seeds, starts, from_data)
+
+
+def train(
+    system: System,
+    data: RecordsLike,
+    targets: str | Sequence[str],
+    options: FitOptions,
+    *,
+    seeds: Sequence[int],
+    params: Sequence[Mapping[str, Any] | None],
+) -> tuple[Fit, ...]:
+    """`prepare` and `run`; and once more from there, where steps that were chosen err by more than they may.
+
+    Only networks go on: what parameters may change by counts from where they began.
+    """
+    training = prepare(system, data, targets, options, seeds=seeds, params=params)
+    fits = run(training)
+    problem, from_data = training.problem, training.automatic
+    given = (options.solver, options.rtol, options.atol, options.dt)
+    moving = (*problem.modifiers.names, *problem.per_record.names)
+    if from_data is None or moving or any(value is not None for value in given):
+        return fits
+    worst = max(fits, key=lambda fit: fit.step_error or 0.0)
+    if any(fit.interrupted for fit in fits) or worst.step_error is None:
+        return fits
+    finer = finer_steps(training.options, training.records, worst.step_error, worst.loss)
+    if finer is None:
+        return fits
+    kind = from_data.stages[-1].kind
+    LOGGER.info(
+        "steps err by %.2g: on with %s, dt = %.3g s", worst.step_error, finer.solver, finer.dt
+    )
+    again = replace(finer, strategy=kind, epochs=None, checkpoint=None, resume=False)
+    starts = [fit.params for fit in fits]
+    ends = run(prepare(system, data, targets, again, seeds=seeds, params=starts))
+    return tuple(
+        replace(
+            new,
+            stages=(
+                *old.stages,
+                *(s._replace(title=f"{s.title}, finer steps") for s in new.stages),
+            ),
+        )
+        if np.isfinite(new.loss)
+        else old
+        for old, new in zip(fits, ends, strict=True)
+    )
 
 
 def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:

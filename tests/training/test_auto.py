@@ -1,5 +1,6 @@
 """A model, a record and no options: the law comes out, or the fit says that it did not."""
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
+from acausal.training.auto.step_choice import finer_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
@@ -109,6 +111,22 @@ def test_windows_begin_at_rates_of_positions_where_speeds_are_not_measured() -> 
     assert found is not None
     speed = np.asarray(data()["mass.v"])
     assert np.std(found[:, system.states.index("mass.v")] - speed) < 0.1 * np.std(speed)
+
+
+def test_steps_that_err_are_refined_and_implicit_where_too_many_were_needed() -> None:
+    records, chosen = {"run": data()}, FitOptions(solver="rk4")
+    assert finer_steps(chosen, records, error=9e-4, loss=0.01) is None
+    finer = finer_steps(
+        chosen, records, error=0.016, loss=0.01
+    )  # sixteen times too much: twice as many steps
+    assert finer is not None
+    assert (finer.solver, finer.dt) == ("rk4", pytest.approx(0.02 / 4))
+    finer = finer_steps(replace(chosen, solver="heun", dt=0.01), records, 0.0039, 0.01)
+    assert finer is not None
+    assert (finer.solver, finer.dt) == ("rk4", pytest.approx(0.02 / 8))
+    finer = finer_steps(chosen, records, error=1e4, loss=0.01)
+    assert finer is not None
+    assert (finer.solver, finer.dt) == ("kvaerno3", pytest.approx(0.02))
 
 
 def test_scales_go_along_in_files(tmp_path: Path) -> None:

@@ -42,9 +42,12 @@ class StepChoice(NamedTuple):
         """The options with these steps."""
         if self.solver is None:
             return options
-        usual = float(np.median(np.concatenate([np.diff(d.time) for d in data.values()])))
-        dt = options.dt if self.parts == 1 else usual / self.parts
+        dt = options.dt if self.parts == 1 else _sample_time(data) / self.parts
         return replace(options, solver=self.solver, dt=dt)
+
+
+def _sample_time(data: Mapping[str, Data]) -> float:
+    return float(np.median(np.concatenate([np.diff(d.time) for d in data.values()])))
 
 
 def tried_steps(options: FitOptions) -> Iterator[StepChoice]:
@@ -87,6 +90,29 @@ def chosen_steps(
         if rough <= allowed:
             return StepChoice("heun", 1, rough)
     return step._replace(error=error)
+
+
+def finer_steps(
+    options: FitOptions, data: Mapping[str, Data], error: float, loss: float
+) -> FitOptions | None:
+    """The options with finer steps, where those of a training err by more than they may; else ``None``.
+
+    A law is often steeper than the linear one along which steps were chosen. Where very many were needed, they are
+    implicit.
+
+    Arguments:
+        options: with the steps that were chosen. error: of these at the end of the training. loss: that it reached.
+    """
+    allowed = SHARE * max(loss, LEAST)
+    if options.solver not in ORDER or not allowed < error < np.inf:
+        return None
+    usual = _sample_time(data)
+    parts = 1 if options.dt is None else round(usual / options.dt)
+    more = 2 * (error / allowed) ** (1 / ORDER[options.solver])
+    finer = parts * (1 << (int(np.ceil(more)) - 1).bit_length())
+    implicit = finer > FINEST
+    solver = "kvaerno3" if implicit else "rk4" if options.solver == "heun" else options.solver
+    return replace(options, solver=solver, dt=usual / (parts if implicit else finer))
 
 
 def difference(problem: Problem, one: np.ndarray, other: np.ndarray) -> float:
