@@ -16,7 +16,7 @@ import numpy as np
 from jax.typing import ArrayLike
 from jaxtyping import Float
 
-from acausal import simulation
+import acausal.simulation as simulation
 from acausal._jax import is_number
 from acausal.control.goals import Goals, Limits, Weights
 from acausal.control.transcription import METHODS, Program, program

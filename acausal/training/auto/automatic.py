@@ -170,7 +170,7 @@ def _pieces(
     x = np.asarray(problem.records.x)
     cuts = [
         (name, k, x[row])
-        for i, (name, record) in enumerate(data.items())
+        for i, name in enumerate(data)
         for k, row in enumerate(problem.records.rows_of(i)[:-PIECE])
         if k % PIECE == 0 and np.isfinite(x[row]).all()
     ]

@@ -104,15 +104,16 @@ def finer_steps(
         options: with the steps that were chosen. error: of these at the end of the training. loss: that it reached.
     """
     allowed = SHARE * max(loss, LEAST)
-    if options.solver not in ORDER or not allowed < error < np.inf:
+    solver = str(options.solver)
+    if solver not in ORDER or not allowed < error < np.inf:
         return None
     usual = _sample_time(data)
     parts = 1 if options.dt is None else round(usual / options.dt)
-    more = 2 * (error / allowed) ** (1 / ORDER[options.solver])
+    more = 2 * (error / allowed) ** (1 / ORDER[solver])
     finer = parts * (1 << (int(np.ceil(more)) - 1).bit_length())
     implicit = finer > FINEST
-    solver = "kvaerno3" if implicit else "rk4" if options.solver == "heun" else options.solver
-    return replace(options, solver=solver, dt=usual / (parts if implicit else finer))
+    better = "kvaerno3" if implicit else "rk4" if solver == "heun" else solver
+    return replace(options, solver=better, dt=usual / (parts if implicit else finer))
 
 
 def difference(problem: Problem, one: np.ndarray, other: np.ndarray) -> float:
