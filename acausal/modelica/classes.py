@@ -46,6 +46,10 @@ class Entry:
                 return argument.modifier.value, node
         return self.declared.modifier.value, self.node
 
+    def wrong(self, reason: str) -> ModelicaError:
+        """The error at its declaration."""
+        return self.node.wrong(self.declared.at, reason, len(self.declared.name))
+
 
 @dataclass(eq=False)
 class View:
@@ -110,6 +114,14 @@ class ClassNode:
         """The error at a place in the file."""
         return self.source.wrong(at, reason, length)
 
+    def refused(self, reason: str) -> ModelicaError:
+        """The error at its name."""
+        return self.wrong(self.definition.at, reason, len(self.definition.name))
+
+    def twice(self, element: ClassDefinition | Declared) -> ModelicaError:
+        """The error for an element whose name another one has."""
+        return self.wrong(element.at, f"'{element.name}' is declared twice", len(element.name))
+
     # -- names ---------------------------------------------------------------------------------------
 
     @cached_property
@@ -118,9 +130,7 @@ class ClassNode:
         for element in self.definition.elements:
             if isinstance(element, ClassDefinition):
                 if element.name in found:
-                    raise self.wrong(
-                        element.at, f"'{element.name}' is declared twice", len(element.name)
-                    )
+                    raise self.twice(element)
                 found[element.name] = element
         return found
 
@@ -289,11 +299,7 @@ class ClassNode:
     @cached_property
     def _view(self) -> View:
         if self._viewed:
-            raise self.wrong(
-                self.definition.at,
-                f"'{self.definition.name}' extends itself",
-                len(self.definition.name),
-            )
+            raise self.refused(f"'{self.definition.name}' extends itself")
         self._viewed = True
         view, short = View(), self.definition.short
         for element in self.definition.elements:
@@ -303,9 +309,7 @@ class ClassNode:
                 case Declared():
                     known = view.entries.get(element.name)
                     if known is not None and known.node is self:
-                        raise self.wrong(
-                            element.at, f"'{element.name}' is declared twice", len(element.name)
-                        )
+                        raise self.twice(element)
                     modifiers = known.modifiers if known and not element.prefixes.redeclare else []
                     view.entries[element.name] = Entry(element, self, list(modifiers))
                 case ClassDefinition() if element.prefixes.redeclare:
