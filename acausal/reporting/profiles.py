@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting.axes import need_axes, new_axes
+from acausal.reporting.axes import one_axes
 from acausal.reporting.plot import LEARNED, TRUTH
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def plot_profile(profile: Profiled, axes: Any = None) -> Figure:
         profile: what to plot.
         axes: matplotlib axes; by default those of a new figure.
     """
-    ax = new_axes(NARROW)[0] if axes is None else need_axes(axes, "axes")
+    ax = one_axes(axes, NARROW, "axes")
     ax.plot(profile.values, profile.ratio, "o-", color=LEARNED[0], lw=1.2, ms=3)
     ax.axhline(profile.bound, color=TRUTH, lw=0.9, ls=":")
     ax.axvline(profile.value, color=TRUTH, lw=0.9, ls="--")
