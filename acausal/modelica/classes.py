@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any
 
 from acausal.errors import nearest, shortened
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Native, Predefined, Prefix, Value
+from acausal.modelica.meanings import Native, Predefined, Prefix
 from acausal.modelica.syntax import (
     Argument,
     ClassDefinition,
@@ -417,6 +417,3 @@ class Imported:
 
 
 PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"
-
-Found = ClassNode | Native | Predefined | Value | Prefix | Imported
-Finder = Callable[[Sequence[str]], tuple[Any, Sequence[str]]]

@@ -50,11 +50,6 @@ class Type:
             return self.node.definition.kind == "connector"
         return isinstance(self.native, type) and issubclass(self.native, Connector)
 
-    @property
-    def is_signal(self) -> bool:
-        """Whether this is a signal of a library."""
-        return self.native in (Input, Output)
-
 
 def type_of_declared(frame: Frame, declared: Declared) -> Type:
     """The type of a component.
