@@ -7,6 +7,8 @@ import math
 import warnings
 import zipfile
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from importlib.resources import files as package_files
 from io import BytesIO
 from pathlib import Path
@@ -138,8 +140,7 @@ def _content(
     platforms: Sequence[Platform] | None,
 ) -> dict[str, bytes]:
     """The FMU's files by their paths in it."""
-    scalars = fmi == "2.0"
-    interface = f"fmi{fmi[0]}"
+    scalars, interface = fmi == "2.0", f"fmi{fmi[0]}"
     templates = package_files("acausal.export.fmu_text")
     fixed = ("fmu_instance.h", f"{interface}_interface.h", f"{interface}_functions.c")
     sources = {f"{text.name}.h": header_in_c(text), f"{text.name}.c": source(text)}
@@ -148,30 +149,20 @@ def _content(
     found = variables(text, system, inputs, outputs, scalars)
     read = dependencies(text, system, found, np.zeros(0) if watch is None else watch.nodes)
     indicators = len(event_indicators(text))
-
-    def description(token: str) -> bytes:
-        return described(token).xml()
-
-    def described(token: str) -> Description:
-        return Description(
-            fmi, text.name, text.title, token, kinds, step, found, read, compiled, indicators,
-            _experiment(system),
-        )  # fmt: skip
-
+    without_token = Description(
+        fmi, text.name, text.title, "", kinds, step, found, read, compiled, indicators, _experiment(system)
+    )  # fmt: skip
     nominal = np.abs(system.reduced.nominal(system.reduced.states))
-
-    def header(token: str) -> str:
-        return model_header(text, token, step, kinds, scalars, nominal)
-
-    digest = hashlib.sha256(description(""))
-    for part in (header(""), *sources.values()):
+    header = partial(model_header, text, step=step, kinds=kinds, scalars=scalars, nominal=nominal)
+    digest = hashlib.sha256(without_token.xml())
+    for part in (header(token=""), *sources.values()):
         digest.update(part.encode())
-    token = f"{{{digest.hexdigest()[:32]}}}"
-    sources["fmu_model.h"] = header(token)
+    description = replace(without_token, token=f"{{{digest.hexdigest()[:32]}}}")
+    sources["fmu_model.h"] = header(token=description.token)
     about = (type(system.model).__doc__ or "").strip().partition("\n")[0]
     content = {
-        "modelDescription.xml": description(token),
-        "documentation/index.html": documentation(described(token), about),
+        "modelDescription.xml": description.xml(),
+        "documentation/index.html": documentation(description, about),
     }
     content |= {f"sources/{file}": data.encode() for file, data in sources.items()}
     if fmi == "3.0":

@@ -19,7 +19,7 @@ from acausal.system import System
 
 
 @dataclass(frozen=True)
-class Entry:
+class Stored:
     """A parameter, or an array of a network.
 
     Attributes:
@@ -57,19 +57,19 @@ class ParameterVector:
         return [(n, *eqx.partition(self.params[n], eqx.is_inexact_array)) for n in names]
 
     @cached_property
-    def entries(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[Stored, ...]:
         """All that the vector holds, in its order."""
         layout = self.system.layout
-        found: list[Entry] = []
+        found: list[Stored] = []
         for place in layout.order:
             declared = layout.model.layout.parameter_declaration(int(layout.free[place]))
             found.append(
-                Entry(layout.names[int(place)], len(found), (), declared.unit, declared.doc)
+                Stored(layout.names[int(place)], len(found), (), declared.unit, declared.doc)
             )
         first = len(found)
         for name, arrays, _ in self._modules:
             for path, leaf in jax.tree_util.tree_flatten_with_path(arrays)[0]:
-                entry = Entry(f"{name}{jax.tree_util.keystr(path)}", first, leaf.shape, "", "")
+                entry = Stored(f"{name}{jax.tree_util.keystr(path)}", first, leaf.shape, "", "")
                 found.append(entry)
                 first += entry.size
         return tuple(found)

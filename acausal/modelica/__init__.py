@@ -8,6 +8,7 @@ from acausal.modelica.build import Model as Model
 from acausal.modelica.grammar import parse as parse
 from acausal.modelica.load import load as load
 from acausal.modelica.tokens import (
+    KEYWORDS as KEYWORDS,
     ModelicaError as ModelicaError,
     Source as Source,
     read_source as read_source,

@@ -86,17 +86,11 @@ def class_of(node: ClassNode) -> type[Model]:
     if node.python is None:
         kind, view = node.definition.kind, node.view()
         if kind not in ("model", "block", "class", "record"):
-            raise node.wrong(
-                node.definition.at,
-                f"'{node.definition.name}' is a {kind}, not a model",
-                len(node.definition.name),
-            )
+            raise node.refused(f"'{node.definition.name}' is a {kind}, not a model")
         natives = [n.cls for n, _ in view.natives if is_component(n.cls)]
         if len(natives) < len(view.natives):
-            raise node.wrong(
-                node.definition.at,
-                f"'{node.definition.name}' extends a signal or a connector, and has more",
-                len(node.definition.name),
+            raise node.refused(
+                f"'{node.definition.name}' extends a signal or a connector, and has more"
             )
         bases = [
             b
@@ -193,7 +187,7 @@ class Build:
     def _refuse(self, reason: str) -> None:
         if self.above is not None and self.given:
             raise self.given[0].wrong(reason)
-        raise self.node.wrong(self.node.definition.at, reason, len(self.node.definition.name))
+        raise self.node.refused(reason)
 
     @property
     def _depth(self) -> int:
@@ -230,16 +224,14 @@ class Build:
             return of(self.component, name)
         if name in self._making:
             circle = " -> ".join([*self._making, name])
-            raise entry.node.wrong(
-                entry.declared.at, f"{circle}: each depends on the next", len(name)
-            )
+            raise entry.wrong(f"{circle}: each depends on the next")
         self._making[name] = None
         try:
             self._make(name, entry)
         except ModelicaError:
             raise
         except ModelError as error:
-            raise entry.node.wrong(entry.declared.at, str(error), len(name)) from None
+            raise entry.wrong(str(error)) from None
         finally:
             self._making.pop(name, None)
         return self.member(name)
@@ -248,9 +240,7 @@ class Build:
         declared, frame = entry.declared, self.frame(entry.node)
         if declared.prefixes.outer or declared.prefixes.inner:
             word = "outer" if declared.prefixes.outer else "inner"
-            raise entry.node.wrong(
-                declared.at, f"'{word}' is not supported; connect the parts", len(name)
-            )
+            raise entry.wrong(f"'{word}' is not supported; connect the parts")
         given = [
             *self.given,
             *(g for a, n in entry.modifiers for g in given_by([a], self.frame(n))),
@@ -281,7 +271,7 @@ class Build:
         except ModelicaError:
             raise
         except ModelError as error:
-            raise entry.node.wrong(entry.declared.at, str(error), len(name)) from None
+            raise entry.wrong(str(error)) from None
 
     def size(self, expression: Any, frame: Frame) -> int:
         """The size of an array."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,7 +10,7 @@ from typing import Any
 
 from acausal.errors import nearest, shortened
 from acausal.modelica.grammar import parse
-from acausal.modelica.meanings import Native, Predefined, Prefix, Value
+from acausal.modelica.meanings import Native, Predefined, Prefix
 from acausal.modelica.syntax import (
     Argument,
     ClassDefinition,
@@ -45,6 +45,10 @@ class Entry:
             if argument.name == self.declared.name and argument.modifier.value is not None:
                 return argument.modifier.value, node
         return self.declared.modifier.value, self.node
+
+    def wrong(self, reason: str) -> ModelicaError:
+        """The error at its declaration."""
+        return self.node.wrong(self.declared.at, reason, len(self.declared.name))
 
 
 @dataclass(eq=False)
@@ -110,6 +114,14 @@ class ClassNode:
         """The error at a place in the file."""
         return self.source.wrong(at, reason, length)
 
+    def refused(self, reason: str) -> ModelicaError:
+        """The error at its name."""
+        return self.wrong(self.definition.at, reason, len(self.definition.name))
+
+    def twice(self, element: ClassDefinition | Declared) -> ModelicaError:
+        """The error for an element whose name another one has."""
+        return self.wrong(element.at, f"'{element.name}' is declared twice", len(element.name))
+
     # -- names ---------------------------------------------------------------------------------------
 
     @cached_property
@@ -118,9 +130,7 @@ class ClassNode:
         for element in self.definition.elements:
             if isinstance(element, ClassDefinition):
                 if element.name in found:
-                    raise self.wrong(
-                        element.at, f"'{element.name}' is declared twice", len(element.name)
-                    )
+                    raise self.twice(element)
                 found[element.name] = element
         return found
 
@@ -289,11 +299,7 @@ class ClassNode:
     @cached_property
     def _view(self) -> View:
         if self._viewed:
-            raise self.wrong(
-                self.definition.at,
-                f"'{self.definition.name}' extends itself",
-                len(self.definition.name),
-            )
+            raise self.refused(f"'{self.definition.name}' extends itself")
         self._viewed = True
         view, short = View(), self.definition.short
         for element in self.definition.elements:
@@ -303,9 +309,7 @@ class ClassNode:
                 case Declared():
                     known = view.entries.get(element.name)
                     if known is not None and known.node is self:
-                        raise self.wrong(
-                            element.at, f"'{element.name}' is declared twice", len(element.name)
-                        )
+                        raise self.twice(element)
                     modifiers = known.modifiers if known and not element.prefixes.redeclare else []
                     view.entries[element.name] = Entry(element, self, list(modifiers))
                 case ClassDefinition() if element.prefixes.redeclare:
@@ -413,6 +417,3 @@ class Imported:
 
 
 PATH_HINT = "give the folder that has it by path=[...] or in MODELICAPATH"
-
-Found = ClassNode | Native | Predefined | Value | Prefix | Imported
-Finder = Callable[[Sequence[str]], tuple[Any, Sequence[str]]]

@@ -21,10 +21,6 @@ from acausal.modelica.syntax import (
 )
 from acausal.modelica.tokens import KEYWORDS, Tokens
 
-MAX_DEPTH = 60
-RELATIONS = frozenset(("<", "<=", ">", ">=", "==", "<>"))
-SUMS = frozenset(("+", "-", ".+", ".-"))
-PRODUCTS = frozenset(("*", "/", ".*", "./"))
 ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "a": "\a", "b": "\b", "f": "\f", "v": "\v"}
 CALLABLE = frozenset(("der", "initial", "pure"))
 """Keywords that are called as functions."""
@@ -33,25 +29,13 @@ CALLABLE = frozenset(("der", "initial", "pure"))
 class Expressions(Tokens):
     """Reads expressions."""
 
-    depth: int = 0
-
-    def deeper(self) -> None:
-        """Count a level.
-
-        Raises:
-            ModelicaError: beyond the limit.
-        """
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise self.wrong(f"nested more than {MAX_DEPTH} deep")
-
     def expression(self) -> Expression:
         """The lowest level: ``if``, or a range."""
         self.deeper()
         if self.texts[self.position] == "if":
             value = self._choice()
         else:
-            value = self._any()
+            value = self.disjunction()
             if self.texts[self.position] == ":":
                 value = self._range(value)
         self.depth -= 1
@@ -71,67 +55,17 @@ class Expressions(Tokens):
     def _range(self, first: Expression) -> Expression:
         at = self.at
         self.take(":")
-        second = self._any()
+        second = self.disjunction()
         if self.accept(":"):
-            return Range(first, second, self._any(), at)
+            return Range(first, second, self.disjunction(), at)
         return Range(first, None, second, at)
 
-    def _any(self) -> Expression:
-        value = self._all()
-        while self.texts[self.position] == "or":
-            at = self.at
-            self.position += 1
-            value = Operation("or", (value, self._all()), at)
-        return value
+    def operation(self, operator: str, place: int, *operands: Expression) -> Expression:
+        """The node of an operator."""
+        return Operation(operator, operands, self.starts[place])
 
-    def _all(self) -> Expression:
-        value = self._negation()
-        while self.texts[self.position] == "and":
-            at = self.at
-            self.position += 1
-            value = Operation("and", (value, self._negation()), at)
-        return value
-
-    def _negation(self) -> Expression:
-        if self.texts[self.position] == "not":
-            at = self.at
-            self.position += 1
-            return Operation("not", (self._relation(),), at)
-        return self._relation()
-
-    def _relation(self) -> Expression:
-        value = self._sum()
-        if self.texts[self.position] in RELATIONS:
-            at = self.at
-            return Operation(self.advance(), (value, self._sum()), at)
-        return value
-
-    def _sum(self) -> Expression:
-        if self.texts[self.position] in SUMS:
-            at = self.at
-            value: Expression = Operation(self.advance(), (self._product(),), at)
-        else:
-            value = self._product()
-        while self.texts[self.position] in SUMS:
-            at = self.at
-            value = Operation(self.advance(), (value, self._product()), at)
-        return value
-
-    def _product(self) -> Expression:
-        value = self._power()
-        while self.texts[self.position] in PRODUCTS:
-            at = self.at
-            value = Operation(self.advance(), (value, self._power()), at)
-        return value
-
-    def _power(self) -> Expression:
-        value = self._primary()
-        if self.texts[self.position] in ("^", ".^"):
-            at = self.at
-            return Operation(self.advance(), (value, self._primary()), at)
-        return value
-
-    def _primary(self) -> Expression:
+    def primary(self) -> Expression:
+        """The node of an operand."""
         text, at = self.texts[self.position], self.starts[self.position]
         first = text[:1]
         if first.isdigit() or (first == "." and len(text) > 1 and text[1].isdigit()):
@@ -151,7 +85,7 @@ class Expressions(Tokens):
             return self._array(at)
         if text == "[":
             self.position += 1
-            return self._matrix(at)
+            return Matrix(self.matrix(), at)
         if text == "end":
             self.position += 1
             return End(at)
@@ -300,12 +234,3 @@ class Expressions(Tokens):
             items.append(self._argument())
         self.take("}")
         return Array(items, at)
-
-    def _matrix(self, at: int) -> Expression:
-        rows: list[list[Expression]] = [[self.expression()]]
-        while self.peek in (",", ";"):
-            if self.advance() == ";":
-                rows.append([])
-            rows[-1].append(self.expression())
-        self.take("]")
-        return Matrix(rows, at)

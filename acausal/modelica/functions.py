@@ -157,10 +157,9 @@ class Interpreter(Evaluator):
             ModelicaError: for a function that is written in another language, or a loop without a known end.
         """
         definition, view, at = node.definition, node.view(), call.at
+        length = len(call.function.text)
         if self.frame.calls > MAX_CALLS:
-            raise self.wrong(
-                f"functions call each other more than {MAX_CALLS} deep", len(call.function.text)
-            )
+            raise self.wrong(f"functions call each other more than {MAX_CALLS} deep", length)
         external = definition.external
         if external is not None:
             given = [self.value(a) for a in call.arguments]
@@ -168,7 +167,7 @@ class Interpreter(Evaluator):
             if plain is None:
                 raise self.wrong(
                     f"'{call.function.text}' is written in another language; write it in Modelica",
-                    len(call.function.text),
+                    length,
                 )
             return [self._of_library(plain, external, given, {})]
         inputs = [n for n, e in view.entries.items() if e.declared.prefixes.causality == "input"]
@@ -176,14 +175,12 @@ class Interpreter(Evaluator):
         if len(call.arguments) > len(inputs):
             raise self.wrong(
                 f"{definition.name} takes {len(inputs)} arguments, not {len(call.arguments)}",
-                len(call.function.text),
+                length,
             )
         values = {n: self.value(a) for n, a in zip(inputs, call.arguments, strict=False)}
         for name, expression in call.named.items():
             if name not in inputs:
-                raise self.wrong(
-                    f"{definition.name} has no argument '{name}'", len(call.function.text)
-                )
+                raise self.wrong(f"{definition.name} has no argument '{name}'", length)
             values[name] = self.value(expression)
         self.at = at
         local: dict[str, Any] = {}
@@ -200,7 +197,7 @@ class Interpreter(Evaluator):
                     Frame(entry.node, None, local, frame.events, frame.calls)
                 ).value(expression)
             elif name in inputs:
-                raise self.wrong(f"{definition.name} needs '{name}'", len(call.function.text))
+                raise self.wrong(f"{definition.name} needs '{name}'", length)
             else:
                 local[name] = inner.empty(entry)
         for kind, statements, owner in view.sections:
@@ -211,11 +208,9 @@ class Interpreter(Evaluator):
         self.operations, self.statements = inner.operations, inner.statements
         for name in outputs:
             if local[name] is None or any(v is None for v in elements(local[name])):
-                raise self.wrong(
-                    f"{definition.name} does not assign '{name}'", len(call.function.text)
-                )
+                raise self.wrong(f"{definition.name} does not assign '{name}'", length)
         if not outputs:
-            raise self.wrong(f"{definition.name} has no result", len(call.function.text))
+            raise self.wrong(f"{definition.name} has no result", length)
         return [local[name] for name in outputs]
 
     def empty(self, entry: Entry) -> Any:

@@ -6,8 +6,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from acausal.errors import shortened
-from acausal.netlist import MAX_BYTES, NetlistError
+from acausal.netlist import MAX_BYTES, Grammar, NetlistError
 
 SPACE = r"(?:[\s\ufeff]+|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)*"
 TOKEN = re.compile(
@@ -89,18 +88,19 @@ def unquoted(text: str) -> str:
     return word if word.isidentifier() and word not in KEYWORDS | PREDEFINED else text
 
 
-class Tokens:
+class Tokens(Grammar):
     """The tokens of a text, and how far they are read.
 
     Attributes:
         texts, starts: of each token; the last is the end, with an empty text.
     """
 
+    end = "the end of the file"
+
     def __init__(self, source: Source) -> None:
         self.source = source
         self.texts: list[str] = []
         self.starts: list[int] = []
-        self.position = 0
         text, end = source.text, 0
         for found in iter(TOKEN.scanner(text).match, None):  # pyright: ignore[reportAttributeAccessIssue]
             self.texts.append(found[1])
@@ -115,36 +115,9 @@ class Tokens:
         self.starts.append(len(text.rstrip()))
 
     @property
-    def peek(self) -> str:
-        """The next token; empty at the end."""
-        return self.texts[self.position]
-
-    @property
     def at(self) -> int:
         """Where the next token begins."""
         return self.starts[self.position]
-
-    def advance(self) -> str:
-        """The next token, which is then read."""
-        self.position += 1
-        return self.texts[self.position - 1]
-
-    def accept(self, expected: str) -> bool:
-        """Read a token if it is the next."""
-        if self.texts[self.position] == expected:
-            self.position += 1
-            return True
-        return False
-
-    def take(self, expected: str) -> None:
-        """Read that token.
-
-        Raises:
-            ModelicaError: if another is next.
-        """
-        if self.texts[self.position] != expected:
-            raise self.wrong(f"'{expected}' expected, {self.found} found")
-        self.position += 1
 
     def identifier(self) -> str:
         """Read a name that is no keyword.
@@ -157,11 +130,6 @@ class Tokens:
             raise self.wrong(f"a name expected, {self.found} found")
         self.position += 1
         return unquoted(text) if text[0] == "'" else text
-
-    @property
-    def found(self) -> str:
-        """The next token, for a message."""
-        return f"'{shortened(self.peek, 40)}'" if self.peek else "the end of the file"
 
     def wrong(self, reason: str) -> ModelicaError:
         """The error at the next token."""

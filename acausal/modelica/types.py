@@ -50,11 +50,6 @@ class Type:
             return self.node.definition.kind == "connector"
         return isinstance(self.native, type) and issubclass(self.native, Connector)
 
-    @property
-    def is_signal(self) -> bool:
-        """Whether this is a signal of a library."""
-        return self.native in (Input, Output)
-
 
 def type_of_declared(frame: Frame, declared: Declared) -> Type:
     """The type of a component.
@@ -128,11 +123,7 @@ def connector_class(node: ClassNode) -> type[Connector]:
         bases = tuple(n.cls for n, _ in view.natives) or (Connector,)
         declared = {name: _variable(entry) for name, entry in view.entries.items()}
         if node.definition.expandable:
-            raise node.wrong(
-                node.definition.at,
-                "expandable connectors are not supported",
-                len(node.definition.name),
-            )
+            raise node.refused("expandable connectors are not supported")
         _check(node, view, declared)
         node.python = type(node.definition.name, bases, {**declared, "__module__": __name__})
     return cast("type[Connector]", node.python)
@@ -141,14 +132,10 @@ def connector_class(node: ClassNode) -> type[Connector]:
 def _check(node: ClassNode, view: View, declared: dict[str, Variable]) -> None:
     flows = sum(isinstance(v, Flow) for v in declared.values())
     if not declared and not view.natives:
-        raise node.wrong(
-            node.definition.at,
-            "a connector without variables is not supported",
-            len(node.definition.name),
-        )
+        raise node.refused("a connector without variables is not supported")
     if not view.natives and flows != len(declared) - flows:
         reason = f"a connector has as many flow variables as others, not {flows} and {len(declared) - flows}"
-        raise node.wrong(node.definition.at, reason, len(node.definition.name))
+        raise node.refused(reason)
 
 
 def _variable(entry: Entry) -> Variable:
@@ -158,9 +145,7 @@ def _variable(entry: Entry) -> Variable:
     prefixes = declared.prefixes
 
     def refuse(what: str) -> Exception:
-        return entry.node.wrong(
-            declared.at, f"{what} in a connector is not supported", len(declared.name)
-        )
+        return entry.wrong(f"{what} in a connector is not supported")
 
     if prefixes.connection == "stream":
         raise refuse("a stream variable")

@@ -57,9 +57,7 @@ def declare(
         _fixed(build, name, entry, found, mod, stated, sizes)
         return
     if found.predefined == "String":
-        raise entry.node.wrong(
-            entry.declared.at, "a text that changes with time is not supported", len(name)
-        )
+        raise entry.wrong("a text that changes with time is not supported")
     shape = tuple(_sizes(build, entry, mod.value, sizes))
     if found.native is not None and "unit" not in stated:
         stated["unit"] = ""
@@ -138,14 +136,14 @@ def _fixed(
         return
     given = value.value() if value is not None else _value(stated.get("start"))
     if given is None and (constant or not real):
-        raise entry.node.wrong(declared.at, f"'{name}' has no value; give one", len(name))
+        raise entry.wrong(f"'{name}' has no value; give one")
     if given is not None:
         given = _checked(build, name, entry, found, given, value)
     known = _sizes(build, entry, given, sizes)
     if known and given is not None:
         given = _spread(entry, name, given, known, value)
     elif isinstance(given, np.ndarray):
-        raise entry.node.wrong(declared.at, f"'{name}' is a single value, not an array", len(name))
+        raise entry.wrong(f"'{name}' is a single value, not an array")
     if constant or not real:
         build.made[name] = given
         return
@@ -202,11 +200,7 @@ def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]])
             continue
         given = value.value() if isinstance(value, Bound) else value
         if not isinstance(given, np.ndarray) or place >= given.ndim:
-            raise entry.node.wrong(
-                entry.declared.at,
-                "the size of this array is not known; give it a value",
-                len(entry.declared.name),
-            )
+            raise entry.wrong("the size of this array is not known; give it a value")
         found.append(given.shape[place])
     return found
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast
 
-from acausal.errors import ModelError, shortened
+from acausal.errors import ModelError, nearest, shortened
 from acausal.files import write_files
 
 MAX_BYTES = 100_000_000
@@ -105,6 +105,13 @@ def as_list(document: Mapping[str, Any], key: str, where: str) -> list[Any]:
     if not isinstance(value, list):
         raise NetlistError(f"{where}: '{key}' is a list, not {kind(value)}")
     return cast(list[Any], value)
+
+
+def need_keys(given: Iterable[str], known: Sequence[str], where: str, what: str = "key") -> None:
+    """Refuse a key, or an attribute, that is not known; the message names the nearest one."""
+    for key in given:
+        if key not in known:
+            raise NetlistError(f"{where}: unknown {what} '{shortened(key)}'; {nearest(key, known)}")
 
 
 def kind(value: Any) -> str:

@@ -24,7 +24,7 @@ NEAR, WITHIN, MODELICA, MENTIONED = 1, 2, 3, 4
 
 
 @dataclass(frozen=True)
-class Entry:
+class PublicClass:
     """A public class of a library.
 
     Attributes:
@@ -75,7 +75,7 @@ class Entry:
 class Found(Sequence[type[Component] | type[Connector]]):
     """Classes that `find` has found, the best first: ``found[0]`` is a class, and ``found`` prints a line for each."""
 
-    def __init__(self, entries: Sequence[Entry]) -> None:
+    def __init__(self, entries: Sequence[PublicClass]) -> None:
         self.entries = tuple(entries)
 
     @property
@@ -125,7 +125,7 @@ def find(text: str = "", *, unit: str | None = None) -> Found:
         if not isinstance(given, str):
             raise DataError(f"find: {argument}={shown(given)} is not a text.")
     words, wanted = text.split(), None if unit is None else re.sub(r"\s*[*·]\s*| +", ".", unit)
-    ranked: list[tuple[tuple[bool, int, str], Entry]] = []
+    ranked: list[tuple[tuple[bool, int, str], PublicClass]] = []
     for entry in entries(installed()):
         ranks = [entry.rank(word) for word in words]
         if None not in ranks and (wanted is None or wanted in entry.units):
@@ -135,9 +135,9 @@ def find(text: str = "", *, unit: str | None = None) -> Found:
 
 
 @cache
-def entries(libraries: Sequence[Library]) -> tuple[Entry, ...]:
+def entries(libraries: Sequence[Library]) -> tuple[PublicClass, ...]:
     """The public classes of some libraries, each once, under its shortest name."""
-    found: dict[type, Entry] = {}
+    found: dict[type, PublicClass] = {}
     for library in libraries:
         own = library.module.__name__
         modelica = library.written_names
@@ -153,7 +153,7 @@ def entries(libraries: Sequence[Library]) -> tuple[Entry, ...]:
                 ):
                     name = modelica.get(cls, "")
                     also = library.also_called.get(path, "")
-                    found[cls] = Entry(path, cls, name if "." in name else "", also)
+                    found[cls] = PublicClass(path, cls, name if "." in name else "", also)
     return tuple(found.values())
 
 

@@ -6,9 +6,9 @@ import re
 from collections.abc import Mapping
 from typing import Any, cast
 
-from acausal.errors import listing, nearest, shortened
+from acausal.errors import listing, shortened
 from acausal.modeling import KINDS, Discrete, Variable
-from acausal.netlist.file import NetlistError, kind, within
+from acausal.netlist.file import NetlistError, kind, need_keys, within
 from acausal.netlist.model import START_KEYS, Netlist, state as state_of
 from acausal.netlist.scope import Scope
 from acausal.netlist.statements import parse_statement
@@ -27,12 +27,7 @@ def declare(scope: Scope, name: str, raw: Any, where: str) -> None:
             f'{where}: a variable is an object of its attributes, such as {{"start": 0}}, not {kind(raw)}'
         )
     given = cast(Mapping[str, Any], raw)
-    known = (*START_KEYS, "unit", "discrete")
-    for key in given:
-        if key not in known:
-            raise NetlistError(
-                f"{where}: unknown attribute '{shortened(key)}'; {nearest(key, known)}"
-            )
+    need_keys(given, (*START_KEYS, "unit", "discrete"), where, "attribute")
     unit, of_kind = given.get("unit", ""), given.get("discrete")
     if not isinstance(unit, str):
         raise NetlistError(f"{where}.unit: a text is needed, not {kind(unit)}")

@@ -17,10 +17,11 @@ import sympy as sp
 from acausal.errors import listing, nearest, shortened
 from acausal.modeling import where
 from acausal.netlist.arithmetic import MAX_INTEGER, RELATIONS, Arithmetic
-from acausal.netlist.tokens import ExpressionError as ExpressionError, TokenStream
+from acausal.netlist.grammar import Grammar
+from acausal.netlist.tokens import ExpressionError as ExpressionError, tokens_of
 from acausal.netlist.vocabulary import BARE_CONSTANTS, CONSTANTS, CONVERSIONS, FUNCTIONS, function
 
-MAX_DEPTH = 60
+LOGICAL: dict[str, Any] = {"and": sp.And, "or": sp.Or, "not": sp.Not}
 
 Lookup = Callable[[str], Any]
 
@@ -55,8 +56,8 @@ def parse_equation(text: str, lookup: Lookup) -> tuple[Any, Any]:
     return left, right
 
 
-class Reader(TokenStream, Arithmetic):
-    """Recursive descent over the tokens of one text.
+class Reader(Grammar, Arithmetic):
+    """Evaluates one text while reading it.
 
     Attributes:
         events: whether the conditions of ``if`` are events.
@@ -65,18 +66,28 @@ class Reader(TokenStream, Arithmetic):
     events: bool = False
 
     def __init__(self, text: str, lookup: Lookup) -> None:
-        super().__init__(text)
-        self.lookup = lookup
-        self.depth = 0
+        self.text, self.lookup = text, lookup
+        self.kinds, self.texts = tokens_of(text)
 
-    # -- logic ---------------------------------------------------------------------------------------
+    def wrong(self, reason: str) -> ExpressionError:
+        """The error, with the text and the reason."""
+        return ExpressionError(f"'{shortened(self.text)}': {reason}")
+
+    def expect_end(self) -> None:
+        """Make sure that nothing follows.
+
+        Raises:
+            ExpressionError: if something does.
+        """
+        if self.peek:
+            raise self.wrong(f"'{shortened(self.peek)}' is not expected there")
+
+    # -- operators -----------------------------------------------------------------------------------
 
     def expression(self) -> Any:
         """The lowest level: ``if`` or a disjunction."""
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise self.wrong(f"nested more than {MAX_DEPTH} deep")
-        value = self._choice() if self.peek() == "if" else self._any()
+        self.deeper()
+        value = self._choice() if self.peek == "if" else self.disjunction()
         self.depth -= 1
         return value
 
@@ -85,10 +96,8 @@ class Reader(TokenStream, Arithmetic):
         condition = self.truth(self.expression())
         self.take("then")
         value = self.expression()
-        if self.peek() == "elseif":
-            self.depth += 1
-            if self.depth > MAX_DEPTH:
-                raise self.wrong(f"nested more than {MAX_DEPTH} deep")
+        if self.peek == "elseif":
+            self.deeper()
             otherwise = self._choice()
             self.depth -= 1
         else:
@@ -98,72 +107,30 @@ class Reader(TokenStream, Arithmetic):
             return value if condition else otherwise
         return where(condition, self.number(value), self.number(otherwise), events=self.events)
 
-    def _any(self) -> Any:
-        value = self._all()
-        while self.peek() == "or":
-            self.advance()
-            value = self.logical(sp.Or, value, self._all())
-        return value
+    def operation(self, operator: str, place: int, *operands: Any) -> Any:
+        """The value that an operator gives."""
+        if operator in LOGICAL:
+            return self.logical(LOGICAL[operator], *operands)
+        if operator in RELATIONS:
+            return self.relation(operator, *operands)
+        left, right = operands if len(operands) == 2 else (0, *operands)
+        return self.arithmetic(operator, left, right)
 
-    def _all(self) -> Any:
-        value = self._negation()
-        while self.peek() == "and":
-            self.advance()
-            value = self.logical(sp.And, value, self._negation())
-        return value
+    def exponent(self) -> Any:
+        """What stands behind ``^``, perhaps with a sign."""
+        if self.peek in ("+", "-"):
+            return self.arithmetic(self.advance(), 0, self.primary())
+        return self.primary()
 
-    def _negation(self) -> Any:
-        if self.peek() == "not":
-            self.advance()
-            return self.logical(sp.Not, self._relation())
-        return self._relation()
-
-    def _relation(self) -> Any:
-        left = self._sum()
-        if self.peek() not in RELATIONS:
-            return left
-        return self.relation(self.advance(), left, self._sum())
-
-    # -- arithmetic ----------------------------------------------------------------------------------
-
-    def _sum(self) -> Any:
-        value = self._signed_product()
-        while self.peek() in ("+", "-"):
-            value = self.arithmetic(self.advance(), value, self._product())
-        return value
-
-    def _signed_product(self) -> Any:
-        if self.peek() in ("+", "-"):
-            return self.arithmetic(self.advance(), 0, self._product())
-        return self._product()
-
-    def _product(self) -> Any:
-        value = self._power()
-        while self.peek() in ("*", "/"):
-            value = self.arithmetic(self.advance(), value, self._power())
-        return value
-
-    def _power(self) -> Any:
-        base = self._primary()
-        if self.peek() != "^":
-            return base
-        self.advance()
-        exponent = (
-            self.arithmetic(self.advance(), 0, self._primary())
-            if self.peek() in ("+", "-")
-            else self._primary()
-        )
-        return self.arithmetic("^", base, exponent)
-
-    def _primary(self) -> Any:
-        kind, token = self.tokens[self.position] if self.position < len(self.tokens) else ("", "")
-        self.position += 1
+    def primary(self) -> Any:
+        """The value of an operand."""
+        kind, token = self.kinds[self.position], self.advance()
         if kind == "number":
             return self._literal(token)
         if kind == "text":
             return token[1:-1]
         if kind == "name":
-            return self.call(token) if self.peek() == "(" else self._name(token)
+            return self.call(token) if self.peek == "(" else self._name(token)
         if token == "(":
             value = self.expression()
             self.take(")")
@@ -173,7 +140,7 @@ class Reader(TokenStream, Arithmetic):
         if token == "[":
             return self._matrix()
         raise self.wrong(
-            f"a number or a name expected, {f'{token!r}' if token else 'the end'} found"
+            f"a number or a name expected, {repr(token) if token else 'the end'} found"
         )
 
     def _literal(self, token: str) -> int | float:
@@ -200,10 +167,9 @@ class Reader(TokenStream, Arithmetic):
         """The value of a call, whose name has been read."""
         self.take("(")
         given: list[tuple[str, Any]] = []
-        if self.peek() != ")":
+        if self.peek != ")":
             given.append(self._argument())
-            while self.peek() == ",":
-                self.advance()
+            while self.accept(","):
                 given.append(self._argument())
         self.take(")")
         known = self.function(name)
@@ -221,10 +187,10 @@ class Reader(TokenStream, Arithmetic):
 
     def _argument(self) -> tuple[str, Any]:
         """Name ("" where there is none) and value of an argument."""
-        here = self.tokens[self.position : self.position + 2]
-        if len(here) == 2 and here[0][0] == "name" and here[1][1] == "=":
+        here = self.position
+        if self.kinds[here] == "name" and self.texts[here + 1] == "=":
             self.position += 2
-            return here[0][1], self.expression()
+            return self.texts[here], self.expression()
         return "", self.expression()
 
     def _record(self, name: str, given: list[tuple[str, Any]]) -> Any:
@@ -259,21 +225,15 @@ class Reader(TokenStream, Arithmetic):
 
     def _list(self, closing: str) -> list[Any]:
         values: list[Any] = []
-        if self.peek() != closing:
+        if self.peek != closing:
             values.append(self.expression())
-            while self.peek() == ",":
-                self.advance()
+            while self.accept(","):
                 values.append(self.expression())
         self.take(closing)
         return values
 
     def _matrix(self) -> list[list[Any]]:
-        rows: list[list[Any]] = [[self.expression()]]
-        while self.peek() in (",", ";"):
-            if self.advance() == ";":
-                rows.append([])
-            rows[-1].append(self.expression())
-        self.take("]")
+        rows = self.matrix()
         if len({len(row) for row in rows}) > 1:
             raise self.wrong("the rows of the matrix differ in length")
         return rows

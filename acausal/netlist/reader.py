@@ -13,7 +13,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from acausal.errors import nearest, shortened
+from acausal.errors import shortened
 from acausal.modeling import (
     Component,
     Connector,
@@ -30,6 +30,7 @@ from acausal.netlist.file import (
     as_list,
     as_object,
     kind,
+    need_keys,
     within,
 )
 from acausal.netlist.library import Library
@@ -177,9 +178,7 @@ def _attributes(given: Mapping[str, Any], where: str) -> dict[str, Any]:
         "max": (int | float, "a number"),
     }
     for key, value in given.items():
-        if key not in ("=", "start", "fixed", *IGNORED_KEYS):
-            hint = nearest(key, ("=", "start", "fixed", *IGNORED_KEYS))
-            raise NetlistError(f"{where}: unknown attribute '{shortened(key)}'; {hint}")
+        need_keys([key], ("=", "start", "fixed", *IGNORED_KEYS), where, "attribute")
         kinds, wanted = known.get(key, (object, ""))
         truth = isinstance(value, bool)
         if not isinstance(value, kinds) or (truth and key in known):
@@ -197,11 +196,7 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
     if "components" in entry:
         inner = {k: v for k, v in entry.items() if k != "with"}
         return build(inner, where, scope.libraries)
-    for name in entry:
-        if name not in ("class", "with"):
-            raise NetlistError(
-                f"{where}: unknown key '{shortened(name)}'; {nearest(name, ('class', 'with'))}"
-            )
+    need_keys(entry, ("class", "with"), where)
     cls = scope.find(entry.get("class"), f"{where}.class")
     scope.model._file.class_names[key] = entry["class"]
     if not issubclass(cls, Component):
@@ -213,11 +208,7 @@ def _part(scope: Scope, key: str, entry: Any, where: str) -> Any:
 
 def _connector(scope: Scope, name: str, entry: Any, where: str) -> None:
     attributes = cast(Mapping[str, Any], entry) if isinstance(entry, Mapping) else {"class": entry}
-    for key in attributes:
-        if key not in ("class", "unit"):
-            raise NetlistError(
-                f"{where}: unknown key '{shortened(key)}'; {nearest(key, ('class', 'unit'))}"
-            )
+    need_keys(attributes, ("class", "unit"), where)
     cls = scope.find(attributes.get("class"), f"{where}.class")
     scope.model._file.class_names[name] = attributes["class"]
     if issubclass(cls, Component):
@@ -285,10 +276,7 @@ def _mentioned(raw: Any) -> list[str]:
 
 
 def _check_keys(document: Mapping[str, Any], where: str) -> None:
-    known = (*MODEL_KEYS, *EXPERIMENT_KEYS)
-    for key in document:
-        if key not in known:
-            raise NetlistError(f"{where}: unknown key '{shortened(key)}'; {nearest(key, known)}")
+    need_keys(document, (*MODEL_KEYS, *EXPERIMENT_KEYS), where)
     for key in ("model", "description"):
         if not isinstance(document.get(key, ""), str):
             raise NetlistError(f"{where}: '{key}' is a text, not {kind(document[key])}")

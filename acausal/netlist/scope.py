@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from acausal.errors import nearest, shortened
+from acausal.errors import shortened
 from acausal.modeling import (
     STATE_SELECT,
     Eq,
@@ -19,7 +19,7 @@ from acausal.modeling import (
     time,
 )
 from acausal.netlist import library
-from acausal.netlist.file import NetlistError, kind, within
+from acausal.netlist.file import NetlistError, kind, need_keys, within
 from acausal.netlist.library import Library
 from acausal.netlist.model import START_KEYS, Netlist, attribute
 from acausal.netlist.parser import parse
@@ -119,10 +119,7 @@ class Scope:
         for key, given in cast(Mapping[str, Any], raw).items():
             if key in IGNORED_KEYS:
                 continue
-            if key not in START_KEYS:
-                raise NetlistError(
-                    f"{where}: unknown attribute '{shortened(key)}'; {nearest(key, START_KEYS)}"
-                )
+            need_keys([key], tuple(START_KEYS), where, "attribute")
             bare = key == "stateSelect" and given in STATE_SELECT
             value = given if bare else self.value(given, f"{where}.{key}")
             values[START_KEYS[key]] = _attribute(key, value, f"{where}.{key}")

@@ -43,7 +43,7 @@ def parse_statement(text: str, lookup: Lookup) -> Eq | When:
         ExpressionError: one sentence that says where the text is wrong.
     """
     reader = _Statements(text, lookup)
-    found = reader.when() if reader.peek() == "when" else reader.equation()
+    found = reader.when() if reader.peek == "when" else reader.equation()
     reader.expect_end()
     return found
 
@@ -62,15 +62,14 @@ class _Statements(Reader):
     def when(self) -> When:
         """A chain from ``when`` to ``end when``."""
         links: list[tuple[Any, list[Any]]] = []
-        while self.peek() in ("when", "elsewhen"):
+        while self.peek in ("when", "elsewhen"):
             self.advance()
             conditions = self.expression()
             self.take("then")
             links.append((conditions, self._statements()))
         for word in ("end", "when"):
             self.take(word)
-        if self.peek() == ";":
-            self.advance()
+        self.accept(";")
         chain: When | None = None
         for conditions, statements in reversed(links):
             some = conditions if isinstance(conditions, list) else [conditions]
@@ -81,19 +80,17 @@ class _Statements(Reader):
 
     def _statements(self) -> list[Any]:
         found: list[Any] = []
-        while self.peek() not in ("elsewhen", "end", ""):
+        while self.peek not in ("elsewhen", "end", ""):
             found.append(self._statement())
-            if self.peek() != ";":
+            if not self.accept(";"):
                 break
-            self.advance()
         if not found:
             raise self.wrong("nothing stands behind 'then'")
         return found
 
     def _statement(self) -> Eq | Reinit:
-        if self.peek() != "reinit":
+        if not self.accept("reinit"):
             return self.equation()
-        self.advance()
         self.take("(")
         state = self.expression()
         self.take(",")

@@ -12,11 +12,11 @@ from jaxtyping import Float
 
 from acausal.codegen import Packed, read_parameters
 from acausal.drawing import diagram_svg
+from acausal.errors import AcausalError
 from acausal.flattening import HIDDEN
-from acausal.modeling import Component, Eq, Module
+from acausal.modeling import Component, Eq, Module, Option
 from acausal.pages.energy_of_components import energy_blocks, power_names
 from acausal.pages.own_law import own_equations
-from acausal.pages.promises import promises
 from acausal.pages.trajectories import plot_of_runs, plots_by_unit
 from acausal.reporting import (
     Block,
@@ -91,6 +91,26 @@ def _depth(path: str) -> tuple[int, int]:
     return len(path.split(".")) if path else 0, max(places, default=1)
 
 
+def _promises(component: Component) -> Table | Text | None:
+    """The promises that a component's network keeps, with what they mean."""
+    names: tuple[str, ...] = getattr(component, "promises", ())
+    declared = dict(component._node.declarations())
+    rows: list[tuple[str, str, str]] = []
+    for name in names:
+        try:
+            value = getattr(component, name)
+        except AcausalError:
+            continue
+        option = declared.get(name)
+        if value and isinstance(option, Option):
+            rows.append((name, "yes" if value is True else str(value), option.doc))
+    if getattr(component, "energy", False) is True:
+        rows.insert(0, ("energy", "yes", "the network is an energy, and the law its derivative"))
+    if rows:
+        return table(("promise", "value", "meaning"), rows)
+    return Text("Nothing: the network is free.") if names else None
+
+
 @dataclass(frozen=True, eq=False)
 class _Book:
     """What cards are written from; looked up once for all."""
@@ -155,7 +175,7 @@ class _Book:
                 {
                     "Equations": list(self._equations(component, path)),
                     "Parameters": [self._parameters(number)],
-                    "What the network promises": [promises(component)],
+                    "What the network promises": [_promises(component)],
                     "Learned law": [b for law in own.values() for b in law.blocks],
                     "Trajectories": self._trajectories(number),
                     "Energy": self._energy(number),

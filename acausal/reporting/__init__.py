@@ -9,7 +9,9 @@ from acausal.reporting.document import (
     Block as Block,
     Card as Card,
     Curve as Curve,
+    Drawing as Drawing,
     Equations as Equations,
+    Page as Page,
     PageContent as PageContent,
     Plot as Plot,
     Role as Role,
@@ -24,13 +26,13 @@ from acausal.reporting.document import (
     table as table,
     thinned as thinned,
     titled_sections as titled_sections,
+    write_json as write_json,
 )
 from acausal.reporting.frequency import (
     plot_bode as plot_bode,
     plot_nyquist as plot_nyquist,
     plot_steps as plot_steps,
 )
-from acausal.reporting.html import Page as Page, write_json as write_json
 from acausal.reporting.model_view import (
     MOST_EQUATIONS as MOST_EQUATIONS,
     Formulas as Formulas,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -46,6 +47,25 @@ def _show_once(figure: Figure) -> None:
     if "inline" in mpl.get_backend():
         plt.close(figure)
     raise NotImplementedError  # IPython then asks for a picture
+
+
+def one_axes(given: Any, size: tuple[float, float], argument: str = "ax") -> Axes:
+    """The axes that are given, or those of a new figure; errors as of `need_axes`."""
+    return new_axes(size)[0] if given is None else need_axes(given, argument)
+
+
+def several_axes(given: Any, size: tuple[float, float], n: int, wanted: str) -> list[Axes]:
+    """The axes that are given, or those of a new figure, one below another.
+
+    Raises:
+        DataError: if they are not ``n``; ``wanted`` says what to give.
+    """
+    if given is None:
+        return new_axes(size, n)
+    found = [need_axes(ax, "axes") for ax in (given if isinstance(given, Iterable) else [given])]
+    if len(found) != n:
+        raise DataError(f"axes: there are {len(found)}; give {wanted}.")
+    return found
 
 
 def need_axes(given: Any, argument: str = "ax") -> Axes:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from jaxtyping import Complex, Float
 from numpy.typing import ArrayLike
 
-from acausal.errors import DataError
-from acausal.reporting.axes import need_axes, new_axes
+from acausal.reporting.axes import one_axes, several_axes
 from acausal.reporting.plot import GUIDE, LEARNED
 
 if TYPE_CHECKING:
@@ -34,9 +33,7 @@ def plot_bode(
     Raises:
         DataError: for other axes.
     """
-    upper, lower = (
-        new_axes((7.0, 5.0), 2) if axes is None else _as_many(axes, 2, "magnitude and phase")
-    )
+    upper, lower = several_axes(axes, (7.0, 5.0), 2, "2, for magnitude and phase")
     for (label, response), color in zip(curves.items(), _colors(len(curves)), strict=True):
         with np.errstate(divide="ignore"):
             upper.semilogx(omega, 20 * np.log10(np.abs(response)), color=color, label=label)
@@ -60,7 +57,7 @@ def plot_nyquist(
         curves: responses by label.
         ax: matplotlib axes; by default those of a new figure.
     """
-    (ax,) = new_axes((6.0, 5.0)) if ax is None else (need_axes(ax),)
+    ax = one_axes(ax, (6.0, 5.0))
     for (label, response), color in zip(curves.items(), _colors(len(curves)), strict=True):
         real, imaginary = np.real(response), np.imag(response)
         ax.plot(real, imaginary, color=color, label=label)
@@ -91,7 +88,7 @@ def plot_steps(
         DataError: for other axes.
     """
     n = len(curves)
-    diagrams = new_axes((7.0, 1.0 + 2.0 * n), n) if axes is None else _as_many(axes, n, "outputs")
+    diagrams = several_axes(axes, (7.0, 1.0 + 2.0 * n), n, f"{n}, for outputs")
     for ax, (output, responses) in zip(diagrams, curves.items(), strict=True):
         for (label, y), color in zip(responses.items(), _colors(len(responses)), strict=True):
             ax.plot(time, y, color=color, label=label)
@@ -101,15 +98,6 @@ def plot_steps(
             ax.legend(frameon=False)
     diagrams[-1].set_xlabel("time in s")
     return cast("Figure", diagrams[0].figure)
-
-
-def _as_many(axes: object, n: int, what: str) -> list[Axes]:
-    """The axes, if there are so many."""
-    given = cast("Iterable[Axes]", axes) if isinstance(axes, Iterable) else [cast("Axes", axes)]
-    found = [need_axes(ax, "axes") for ax in given]
-    if len(found) != n:
-        raise DataError(f"axes: there are {len(found)}; give {n}, for {what}.")
-    return found
 
 
 def _colors(n: int) -> list[str]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.mathml import MathMLPresentationPrinter
 
@@ -68,13 +69,12 @@ def name_of(symbol: Any) -> str:
     return getattr(symbol, "path", symbol.name)
 
 
-def names_in(equations: Iterable[sp.Equality]) -> list[str]:
-    """Names of symbols and functions in equations, in order."""
+def names_in(equations: Iterable[tuple[Any, Any]]) -> list[str]:
+    """Names of symbols and functions in equations, pairs of expressions, in order."""
     found: dict[str, None] = {}
-    for equation in equations:
-        symbols: Any = equation.free_symbols
-        functions: Any = equation.atoms(sp.core.function.AppliedUndef)  # pyright: ignore[reportAttributeAccessIssue]
-        names = {s.name for s in symbols} | {f.func.__name__ for f in functions}
+    for sides in equations:
+        names = {name_of(symbol) for side in sides for symbol in side.free_symbols}
+        names |= {f.func.__name__ for side in sides for f in side.atoms(AppliedUndef)}
         found |= dict.fromkeys(sorted(names))
     return list(found)
 
@@ -135,9 +135,7 @@ class _MathML(MathMLPresentationPrinter):
                 module, orders, *arguments = cast(tuple[Any, ...], e.args)
                 name = getattr(module, "path", str(module)) + primes(orders)
                 return self._called(self.short(self.naming(name)), arguments)
-            case _ if isinstance(e, sp.core.function.AppliedUndef) or type(e).__module__.startswith(
-                "acausal"
-            ):
+            case _ if isinstance(e, AppliedUndef) or type(e).__module__.startswith("acausal"):
                 return self._called(self.short(self.naming(e.func.__name__)), e.args)
             case _:
                 return super()._print_Function(e)

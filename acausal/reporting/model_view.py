@@ -52,7 +52,7 @@ def system_view(
         quantities: states, inputs, parameters, networks: by such a heading, in order.
     """
     known = [quantity.name for group in quantities.values() for quantity in group]
-    names = shorten([*known, *names_in(equations)])
+    names = shorten([*known, *names_in((e.lhs, e.rhs) for e in equations)])
     view = View(title, about)
     if equations:
         written = "".join(_equation(e, names) for e in equations)
@@ -76,7 +76,7 @@ class Formulas(tuple[sp.Equality, ...]):
         return "\n".join(cut_short(self, MOST_EQUATIONS, lambda e: f"{_left(e.lhs)} = {e.rhs}"))
 
     def _repr_html_(self) -> str:
-        naming = named(shorten(names_in(self)))
+        naming = named(shorten(names_in((e.lhs, e.rhs) for e in self)))
         view = View(f"Equations ({len(self)})")
         for equation in self[:MOST_EQUATIONS]:
             view.html(mathml(equation.lhs, equation.rhs, naming))
@@ -104,7 +104,7 @@ def component_view(component: Component) -> str:
 
 def equations_as_latex(equations: Sequence[sp.Equality]) -> str:
     """The equations in one block of LaTeX, with short names."""
-    naming = named(shorten(names_in(equations)))
+    naming = named(shorten(names_in((e.lhs, e.rhs) for e in equations)))
     rows = [f"{latex(e.lhs, naming)} &= {latex(e.rhs, naming)}" for e in equations]
     return "$$\\begin{aligned}" + " \\\\ ".join(rows) + "\\end{aligned}$$"
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, cast
 
 from jaxtyping import Float
 from numpy import isnan, ndarray
 
 from acausal.errors import DataError, listing
-from acausal.reporting.axes import need_axes, new_axes
+from acausal.reporting.axes import new_axes, several_axes
 from acausal.reporting.plot import TRUTH, UncertainCurve, plot_band
 
 if TYPE_CHECKING:
@@ -45,8 +45,9 @@ def plot_over_time(
     groups: dict[str, list[str]] = {}
     for name in curves:
         groups.setdefault(units[name], []).append(name)
-    size = (7.0, 1.0 + 2.0 * len(groups))
-    diagrams = new_axes(size, len(groups)) if axes is None else _as_many(axes, list(groups))
+    size, n = (7.0, 1.0 + 2.0 * len(groups)), len(groups)
+    wanted = f"one for each unit: {listing(unit or '1' for unit in groups)}"
+    diagrams = several_axes(axes, size, n, wanted)
     for ax, (unit, members) in zip(diagrams, groups.items(), strict=True):
         for name in members:
             style = "steps-post" if name in steps else "default"
@@ -79,12 +80,3 @@ def plot_predictions(
         ax.legend()
     axes[-1].set_xlabel("time in s")
     return cast("Figure", axes[0].figure)
-
-
-def _as_many(axes: Any, units: list[str]) -> list[Axes]:
-    """The axes, if there is one for each unit."""
-    found = [need_axes(ax, "axes") for ax in (axes if isinstance(axes, Iterable) else [axes])]
-    if len(found) != len(units):
-        wanted = listing(unit or "1" for unit in units)
-        raise DataError(f"axes: there are {len(found)}; give one for each unit: {wanted}.")
-    return found

@@ -61,8 +61,8 @@ class UncertainCurve(Protocol):
         ...
 
 
-class Losses(Protocol):
-    """Losses over the updates of a training, such as `Fit.history`; (epochs done, loss) in rows of two columns."""
+class History(Protocol):
+    """What happened over the updates of a training, such as `Fit.history`; losses in rows (epochs done, loss)."""
 
     @property
     def epochs(self) -> int:
@@ -84,22 +84,18 @@ class Losses(Protocol):
         """Of the held-out samples."""
         ...
 
-
-class Changes(Protocol):
-    """Changes of parameters over the updates of a training, such as `Fit.history`."""
-
     @property
     def modifiers(self) -> Mapping[str, Float[np.ndarray, " epochs"]]:
-        """By parameter."""
+        """Changes of parameters, by parameter."""
         ...
 
 
 class WithHistory(Protocol):
-    """A result that has such changes, such as `Fit`."""
+    """A result of a training, such as `Fit`."""
 
     @property
-    def history(self) -> Changes:
-        """The changes."""
+    def history(self) -> History:
+        """What happened."""
         ...
 
 
@@ -152,7 +148,7 @@ def plot_band(ax: Axes, law: UncertainCurve, *, color: str = LEARNED[0], label: 
 
 
 def plot_losses(
-    ax: Axes, histories: Mapping[str, Losses], *, levels: Mapping[str, float] | None = None
+    ax: Axes, histories: Mapping[str, History], *, levels: Mapping[str, float] | None = None
 ) -> None:
     """Draw losses over epochs: of the batches (thin), over the whole record (dots) and of held-out samples (squares).
 

@@ -7,16 +7,14 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 import numpy as np
 from jaxtyping import Float
 
-from acausal.reporting.axes import need_axes, new_axes
+from acausal.reporting.axes import one_axes
+from acausal.reporting.plot import LEARNED, TRUTH
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NARROW = (6.0, 3.2)
 """Size of a figure, in inches."""
-
-MEASURED, AFTER = "#22303c", "#1f77b4"
-"""Colours of curves."""
 
 SHOWN = 4.0
 """Ratios are drawn up to so many times the bound."""
@@ -67,10 +65,10 @@ def plot_profile(profile: Profiled, axes: Any = None) -> Figure:
         profile: what to plot.
         axes: matplotlib axes; by default those of a new figure.
     """
-    ax = new_axes(NARROW)[0] if axes is None else need_axes(axes, "axes")
-    ax.plot(profile.values, profile.ratio, "o-", color=AFTER, lw=1.2, ms=3)
-    ax.axhline(profile.bound, color=MEASURED, lw=0.9, ls=":")
-    ax.axvline(profile.value, color=MEASURED, lw=0.9, ls="--")
+    ax = one_axes(axes, NARROW, "axes")
+    ax.plot(profile.values, profile.ratio, "o-", color=LEARNED[0], lw=1.2, ms=3)
+    ax.axhline(profile.bound, color=TRUTH, lw=0.9, ls=":")
+    ax.axvline(profile.value, color=TRUTH, lw=0.9, ls="--")
     finite = profile.ratio[np.isfinite(profile.ratio)]
     top = min(float(finite.max()), SHOWN * profile.bound)
     ax.set_ylim(-0.05 * profile.bound, 1.1 * max(top, profile.bound))

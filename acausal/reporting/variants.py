@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 from jaxtyping import Float
 from numpy import ndarray
 
-from acausal.reporting.axes import need_axes, new_axes
+from acausal.reporting.axes import one_axes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,7 +37,7 @@ def plot_variants(
         labels: of the signal and of the values, with their units.
         ax: matplotlib axes; by default those of a new figure.
     """
-    (ax,) = new_axes((7.0, 3.5)) if ax is None else (need_axes(ax),)
+    ax = one_axes(ax, (7.0, 3.5))
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 

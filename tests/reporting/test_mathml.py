@@ -8,14 +8,13 @@ import sympy as sp
 
 import acausal as ac
 from acausal.reporting import Short, shorten
-from acausal.reporting.mathml import latex, mathml, name_of, named
+from acausal.reporting.mathml import latex, mathml, named, names_in
 from acausal.reporting.short_names import with_owners
 
 
 def written(lhs: Any, rhs: Any) -> str:
     """As a page writes it."""
-    names = {name_of(symbol) for side in (lhs, rhs) for symbol in side.free_symbols}
-    return mathml(lhs, rhs, with_owners(names))
+    return mathml(lhs, rhs, with_owners(names_in([(lhs, rhs)])))
 
 
 def test_an_equation_as_mathml_and_latex() -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from acausal.export.fmu_text.units import add_units
 from acausal.export.fmu_text.variables import DERIVATIVE, INDICATOR, OUTSIDE, STATE, Variable
+from acausal.units import in_si
 
 KINDS = {"model_exchange": "ModelExchange", "co_simulation": "CoSimulation"}
 """FMI's words by ours."""
@@ -56,7 +56,7 @@ class Description:
         for kind in KINDS:
             if kind in self.kinds:
                 self._add_kind(root, kind)
-        add_units(root, ["s", *(v.unit for v in self.variables)])
+        _add_units(root, ["s", *(v.unit for v in self.variables)])
         listed = SubElement(root, "LogCategories")
         for name, what in (
             ("logStatusDiscard", "a step or a value that could not be computed"),
@@ -175,6 +175,27 @@ class Description:
         for v in self.variables:
             if v.kind == INDICATOR:
                 SubElement(structure, "EventIndicator", valueReference=str(v.reference))
+
+
+def _add_units(root: Element, units: Iterable[str]) -> None:
+    """Append the definitions of units, in base units where these are known.
+
+    Arguments:
+        units: texts of units; those that are empty have no definition.
+    """
+    named = sorted({u for u in units if u})
+    if not named:
+        return
+    listed = SubElement(root, "UnitDefinitions")
+    for name in named:
+        unit, found = SubElement(listed, "Unit", name=name), in_si(name)
+        if found is None:
+            continue
+        base = SubElement(unit, "BaseUnit", {s: str(e) for s, e in found.exponents.items()})
+        if found.factor != 1:
+            base.set("factor", repr(found.factor))
+        if found.offset != 0:
+            base.set("offset", repr(found.offset))
 
 
 def documentation(description: Description, about: str) -> bytes:

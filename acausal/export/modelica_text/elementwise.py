@@ -8,9 +8,9 @@ import numpy as np
 
 from acausal._jax import Equation, name_of, shapes
 from acausal.errors import DataError
-from acausal.export.modelica_text.lines import Block, Index, Term
+from acausal.export.modelica_text.lines import Body, Index, Term
 
-Rule = Callable[[Block, Equation, Sequence[Term]], Sequence[Term]]
+Rule = Callable[[Body, Equation, Sequence[Term]], Sequence[Term]]
 
 TEXTS: dict[str, str] = {
     "abs": "abs({0})", "acos": "acos({0})", "add": "({0} + {1})", "add_any": "({0} + {1})", "asin": "asin({0})",
@@ -98,7 +98,7 @@ def _settled(equation: Equation, terms: Sequence[Term], texts: Sequence[str]) ->
 
 
 def _elementwise(template: str, truth: bool) -> Rule:
-    def rule(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
         shape = shape_of(equation)
         same_term = _unchanged(equation, terms)
         if same_term is not None:
@@ -120,7 +120,7 @@ def _elementwise(template: str, truth: bool) -> Rule:
     return rule
 
 
-def _convert(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _convert(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     """Truth values as numbers and back; other types are all real."""
     (term,), shape = terms, shape_of(equation)
     wanted = np.dtype(equation.params["new_dtype"]) == bool
@@ -134,7 +134,7 @@ def _add(sign: str) -> Rule:
     """Sums of products of matrices stay in one equation."""
     other = _elementwise(f"({{0}} {sign} {{1}})", False)
 
-    def rule(block: Block, equation: Equation, terms: Sequence[Term]) -> Sequence[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> Sequence[Term]:
         a, b = terms
         if (a.is_product or b.is_product) and a.shape == b.shape and a.whole and b.whole:
             return [Term(block, a.shape, None, whole=f"{a.whole} {sign} {b.whole}")]
@@ -143,13 +143,13 @@ def _add(sign: str) -> Rule:
     return rule
 
 
-def _power(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _power(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     n, (x,) = int(equation.params["y"]), terms
     template = f"({{0}}^{n})" if n >= 0 else f"(1/{{0}}^{-n})"
     return [Term(block, x.shape, lambda index: template.format(x.at(index)))]
 
 
-def _select(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _select(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     if len(terms) != 3 or not terms[0].truth:
         raise refuse(equation)
     shape, truth = shape_of(equation), terms[1].truth

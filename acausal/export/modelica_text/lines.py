@@ -18,7 +18,7 @@ LARGE = 1e300
 
 
 @dataclass
-class Block:
+class Body:
     """Declarations and equations of a block, as they are found."""
 
     declarations: list[str] = field(default_factory=list)
@@ -83,7 +83,7 @@ class Term:
 
     def __init__(
         self,
-        block: Block,
+        block: Body,
         shape: Sequence[int],
         element: Callable[[Index], str] | None,
         *,
@@ -135,12 +135,12 @@ def elements(name: str) -> Callable[[Index], str]:
     return lambda index: f"{name}[{', '.join(index)}]" if index else name
 
 
-def named(block: Block, name: str, shape: Sequence[int]) -> Term:
+def named(block: Body, name: str, shape: Sequence[int]) -> Term:
     """What has a name."""
     return Term(block, shape, elements(name), whole=name, plain=True)
 
 
-def known(block: Block, value: np.ndarray) -> Term:
+def known(block: Body, value: np.ndarray) -> Term:
     """A number, or an array of numbers, which becomes a constant."""
     truth = value.dtype == bool
     spelled = _truth if truth else _number

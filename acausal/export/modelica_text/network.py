@@ -15,7 +15,7 @@ from jax.extend.core import ClosedJaxpr, Literal
 from acausal._jax import CALLS, Equation, called, name_of
 from acausal.errors import DataError, shown
 from acausal.export.modelica_text.elementwise import refuse
-from acausal.export.modelica_text.lines import Block, Term, bare, known, named, sizes
+from acausal.export.modelica_text.lines import Body, Term, bare, known, named, sizes
 from acausal.export.modelica_text.operations import RULES
 from acausal.export.modelica_text.spelling import array, class_name, comment
 from acausal.export.traced import walk
@@ -58,7 +58,7 @@ def block_of(name: str, network: Callable[..., Any], orders: Sequence[int]) -> s
             f"export.modelica: {shown(network, 40)} cannot be traced with {len(inputs)} inputs ({reason}); "
             "write it in jax.numpy"
         ) from None
-    block = Block()
+    block = Body()
     values: list[Value] = [named(block, n, ()) for n in inputs]
     values += [named(block, n, w.shape) for n, w in weights.items()]
     (result,) = write(block, closed, values)
@@ -75,7 +75,7 @@ def block_of(name: str, network: Callable[..., Any], orders: Sequence[int]) -> s
     return "\n".join(lines)
 
 
-def write(block: Block, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
+def write(block: Body, closed: ClosedJaxpr, values: Sequence[Value]) -> list[Value]:
     """Write the operations of a jaxpr; what is known already is computed now.
 
     Raises:

@@ -9,13 +9,13 @@ import numpy as np
 
 from acausal._jax import Equation, bind, name_of
 from acausal.export.modelica_text.elementwise import ELEMENTWISE, Rule, refuse, shape_of
-from acausal.export.modelica_text.lines import Block, Index, Term, elements, shifted
+from acausal.export.modelica_text.lines import Body, Index, Term, elements, shifted
 
 
 def _moved(place: Callable[[Equation, tuple[int, ...], Index], Index]) -> Rule:
     """Elements at other places."""
 
-    def rule(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
         x = terms[0]
         return [
             Term(
@@ -83,7 +83,7 @@ def _rev(equation: Equation, shape: tuple[int, ...], index: Index) -> Index:
     )
 
 
-def _joined(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _joined(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     """Arrays one behind the other, or numbers side by side, along the first axis."""
     stacked = name_of(equation) == "stack"
     if int(equation.params["axis" if stacked else "dimension"]) != 0 or terms[0].truth:
@@ -102,7 +102,7 @@ def _joined(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Ter
     return [Term(block, shape_of(equation), elements(name), whole=name, plain=True)]
 
 
-def _pad(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _pad(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     """A vector with the filling before and behind it."""
     (x, filling), config = terms, equation.params["padding_config"]
     if len(config) != 1 or config[0][2] or min(config[0][:2]) < 0:
@@ -115,7 +115,7 @@ def _pad(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     return [Term(block, shape_of(equation), elements(name), whole=name, plain=True)]
 
 
-def _gathered(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _gathered(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     """Elements at places that are known: numbered, and moved by the operation itself."""
     x, where = terms
     if where.value is None or not x.shape:
@@ -130,7 +130,7 @@ def _gathered(block: Block, equation: Equation, terms: Sequence[Term]) -> list[T
     return [Term(block, shape_of(equation), elements(name), whole=name, plain=True)]
 
 
-def _dot(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+def _dot(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
     """Products of matrices and vectors; of two vectors without a common axis, of their elements."""
     (left, right), batch = equation.params["dimension_numbers"]
     if any(len(b) for b in batch) or len(left) > 1:
@@ -157,7 +157,7 @@ def _dot(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
 def _reduce(function: str) -> Rule:
     """Of all elements, or along one axis."""
 
-    def rule(block: Block, equation: Equation, terms: Sequence[Term]) -> list[Term]:
+    def rule(block: Body, equation: Equation, terms: Sequence[Term]) -> list[Term]:
         (x,), axes = terms, [int(a) for a in equation.params["axes"]]
         if x.truth or not (len(axes) == 1 or len(axes) == len(x.shape)):
             raise refuse(equation)
@@ -175,7 +175,7 @@ def _reduce(function: str) -> Rule:
     return rule
 
 
-def _same(block: Block, equation: Equation, terms: Sequence[Term]) -> Sequence[Term]:
+def _same(block: Body, equation: Equation, terms: Sequence[Term]) -> Sequence[Term]:
     return terms
 
 

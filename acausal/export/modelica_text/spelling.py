@@ -8,23 +8,15 @@ from typing import Any
 
 import numpy as np
 
-KEYWORDS = frozenset([
-    "algorithm", "and", "annotation", "assert", "block", "break", "class", "connect", "connector", "constant",
-    "constrainedby", "der", "discrete", "each", "else", "elseif", "elsewhen", "encapsulated", "end", "enumeration",
-    "equation", "expandable", "extends", "external", "false", "final", "flow", "for", "function", "if", "import",
-    "impure", "in", "initial", "inner", "input", "loop", "model", "not", "operator", "or", "outer", "output",
-    "package", "parameter", "partial", "protected", "public", "pure", "record", "redeclare", "replaceable",
-    "return", "stream", "then", "true", "type", "when", "while", "within",
-])  # fmt: skip
-"""Words that no element may have as its name; they are quoted."""
+from acausal.modelica import KEYWORDS
 
 TAKEN = frozenset([
     "Boolean", "Clock", "ExternalObject", "Integer", "Modelica", "Real", "StateSelect", "String", "abs", "acos", "asin",
-    "atan", "atan2", "ceil", "cos", "cosh", "delay", "div", "exp", "fill", "floor", "homotopy", "integer", "log",
-    "log10", "mod", "noEvent", "pre", "edge", "change", "product", "reinit", "rem", "sample", "scalar", "sign", "sin",
-    "sinh", "size", "smooth", "sqrt", "sum", "tan", "tanh", "terminal", "time", "transpose",
+    "assert", "atan", "atan2", "ceil", "cos", "cosh", "delay", "div", "exp", "fill", "floor", "homotopy", "integer",
+    "log", "log10", "mod", "noEvent", "pre", "edge", "change", "product", "reinit", "rem", "sample", "scalar", "sign",
+    "sin", "sinh", "size", "smooth", "sqrt", "sum", "tan", "tanh", "terminal", "time", "transpose",
 ])  # fmt: skip
-"""Names of types, functions and packages, which an element of that name would hide; quoted, they are others."""
+"""Types, functions and packages, which an element of that name would hide; quoted, as keywords, they are others."""
 
 PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 UNIT = re.compile(r"[A-Za-zΩµ%.0-9/()\-]*")

@@ -1,9 +1,11 @@
 """The page of a model: a frozen record of all that it tells, and the HTML file that shows it."""
 
+from acausal.reporting.document.builder import Page as Page, write_json as write_json
 from acausal.reporting.document.content import (
     Block as Block,
     Card as Card,
     Curve as Curve,
+    Drawing as Drawing,
     Equations as Equations,
     PageContent as PageContent,
     Plot as Plot,

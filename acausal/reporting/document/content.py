@@ -24,10 +24,11 @@ class Text:
 
 @dataclass(frozen=True)
 class Table:
-    """A table of texts."""
+    """A table of texts; of some rows, whether a target is hit (True) or missed (False)."""
 
     header: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
+    passed: tuple[bool | None, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -36,9 +37,19 @@ class Equations:
 
     Attributes:
         equations: pairs of sympy expressions that are equal, or texts.
+        names: None: names say whose they are. Else they are as short as they can be, some of them as given here.
     """
 
     equations: tuple[tuple[Any, Any] | str, ...]
+    names: Mapping[str, str] | None = None
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A drawing: SVG text, or the bytes of a PNG."""
+
+    drawn: str | bytes
+    caption: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +119,7 @@ class Plot:
     low: bool = False
 
 
-Block = Text | Table | Equations | Plot
+Block = Text | Table | Equations | Plot | Drawing
 
 
 @dataclass(frozen=True)
@@ -176,9 +187,12 @@ class PageContent:
         return tuple(b for s in (*cards, *tabs) for b in s.blocks if isinstance(b, Plot))
 
 
-def table(header: Sequence[str], rows: Sequence[Sequence[Any]]) -> Table:
+def table(
+    header: Sequence[str], rows: Sequence[Sequence[Any]], passed: Sequence[bool | None] = ()
+) -> Table:
     """A table of anything that can be written."""
-    return Table(tuple(header), tuple(tuple(str(cell) for cell in row) for row in rows))
+    cells = tuple(tuple(str(cell) for cell in row) for row in rows)
+    return Table(tuple(header), cells, tuple(passed))
 
 
 def titled_sections(titled: Mapping[str, Sequence[Block | None]]) -> tuple[Section, ...]:

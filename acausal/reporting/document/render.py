@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import html
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from importlib.resources import files
 from itertools import count, groupby
@@ -13,19 +14,19 @@ from typing import Any
 from acausal.reporting.document.content import (
     Block,
     Card,
+    Drawing,
     Equations,
     PageContent,
     Plot,
     Section,
-    Tab,
     Table,
     Text,
 )
 from acausal.reporting.document.library import INSTALL, plot_library
 from acausal.reporting.document.numbers import Pool, Raw, as_json, numbers
 from acausal.reporting.document.picture import colors, picture
-from acausal.reporting.mathml import mathml, name_of
-from acausal.reporting.short_names import with_owners
+from acausal.reporting.mathml import mathml, named, names_in
+from acausal.reporting.short_names import Short, shorten, with_owners
 
 POLICY = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:"
 """What browsers may load: nothing."""
@@ -37,6 +38,9 @@ PLAIN = (
 SIZE, LOW = (760, 270), (760, 150)
 """Width and height of a plain picture, in pixels, and those of a low one."""
 
+MARKS = {True: ' class="hit"', False: ' class="miss"', None: ""}
+"""Of rows of a table, by whether a target is hit."""
+
 NUMERIC = frozenset("0123456789.+-−±%einfna ")
 
 
@@ -47,18 +51,23 @@ def render(content: PageContent, library: str | None = None) -> str:
         content: what it tells.
         library: the plot library; by default the one that is installed, and an empty text for none.
     """
-    found = plot_library() if library is None else library
+    found = library
+    if library is None:
+        found = plot_library() if content.plots else ""
     writer = _Writer(interactive=bool(found), specs=[], pool=Pool())
+    parts = [("Model", "".join(writer.model(content)))] if content.cards else []
+    for tab in content.tabs:
+        parts.append((tab.title, "".join(writer.section(s, "h2") for s in tab.sections)))
     tabs = [
-        writer.tab(Tab("Model", ()), "".join(writer.model(content)), 0),
-        *(writer.tab(tab, "", i) for i, tab in enumerate(content.tabs, start=1)),
+        f'<section role="tabpanel" id="part{i}" aria-labelledby="tab{i}"{" hidden" if i else ""}>{part}</section>'
+        for i, (_, part) in enumerate(parts)
     ]
-    titles = ["Model", *(tab.title for tab in content.tabs)]
     buttons = "".join(
         f'<button type="button" role="tab" id="tab{i}" aria-controls="part{i}" '
         f'aria-selected="{str(i == 0).lower()}" tabindex="{0 if i == 0 else -1}">{_safe(t)}</button>'
-        for i, t in enumerate(titles)
+        for i, (t, _) in enumerate(parts)
     )
+    alone = " hidden" if len(parts) == 1 and not content.cards else ""
     first = content.cards[0].path if content.cards else ""
     told = {"arrays": writer.pool.written(), "plots": writer.specs, "first": first}
     lead = f'<p class="lead">{_safe(content.lead)}</p>' if content.lead else ""
@@ -72,7 +81,7 @@ def render(content: PageContent, library: str | None = None) -> str:
             f"<style>{_own('page.css')}</style></head><body>",
             f"<header><div><h1>{_safe(content.title)}</h1>{lead}{note}</div>",
             '<button type="button" id="theme" aria-label="Light or dark">◐</button></header>',
-            f'<nav role="tablist" aria-label="Parts of the page">{buttons}</nav>',
+            f'<nav role="tablist" aria-label="Parts of the page"{alone}>{buttons}</nav>',
             f"<main>{''.join(tabs)}</main>",
             f"<footer>{_safe(content.footer)}</footer>" if content.footer else "",
             f'<script type="application/json" id="data">{as_json(told)}</script>',
@@ -100,14 +109,6 @@ class _Writer:
         yield f'<ul class="chooser" aria-label="Components">{chips}</ul>'
         yield from map(self.card, content.cards)
 
-    def tab(self, tab: Tab, before: str, number: int) -> str:
-        inside = before + "".join(self.section(s, "h2") for s in tab.sections)
-        hidden = " hidden" if number else ""
-        return (
-            f'<section role="tabpanel" id="part{number}" aria-labelledby="tab{number}"{hidden}>'
-            f"{inside}</section>"
-        )
-
     def card(self, card: Card) -> str:
         inside = "".join(self.section(s, "h3") for s in card.sections)
         about = f'<p class="lead">{_prose(card.doc)}</p>' if card.doc else ""
@@ -129,8 +130,10 @@ class _Writer:
             case Table():
                 return _table(block)
             case Equations():
-                written = "".join(map(_equation, block.equations))
-                return f'<div class="equations">{written}</div>'
+                return f'<div class="equations">{"".join(_equations(block))}</div>'
+            case Drawing():
+                caption = f"<figcaption>{_prose(block.caption)}</figcaption>"
+                return f"<figure>{_drawn(block)}{caption}</figure>"
             case Plot():
                 return self.plot(block)
 
@@ -173,11 +176,32 @@ class _Writer:
         return f'<figure class="plot" data-plot="{len(self.specs) - 1}">{caption}</figure>'
 
 
-def _equation(equation: tuple[Any, Any] | str) -> str:
-    if isinstance(equation, str):
-        return f"<code>{_safe(equation)}</code>"
-    names = {name_of(symbol) for side in equation for symbol in side.free_symbols}
-    return mathml(*equation, with_owners(names))
+def _equations(block: Equations) -> Iterable[str]:
+    shortest = {} if block.names is None else _shortest(block.equations, block.names)
+    for equation in block.equations:
+        if isinstance(equation, str):
+            yield f"<code>{_safe(equation)}</code>"
+        elif block.names is None:
+            yield mathml(*equation, with_owners(names_in([equation])))
+        else:
+            yield mathml(*equation, named(shortest))
+
+
+def _shortest(
+    equations: Iterable[tuple[Any, Any] | str], given: Mapping[str, str]
+) -> dict[str, Short]:
+    """The shortest names that tell all apart, and those that are given."""
+    chosen = {name: Short.of(other) for name, other in given.items()}
+    names = names_in([e for e in equations if not isinstance(e, str)])
+    return shorten(n for n in names if n not in chosen) | chosen
+
+
+def _drawn(drawing: Drawing) -> str:
+    """SVG as it is, or a PNG within the page."""
+    if isinstance(drawing.drawn, str):
+        return drawing.drawn
+    data = base64.b64encode(drawing.drawn).decode()
+    return f'<img alt="{_safe(drawing.caption)}" src="data:image/png;base64,{data}">'
 
 
 def _schematic(svg: str) -> str:
@@ -202,11 +226,12 @@ def _table(table: Table) -> str:
     columns = list(zip(*table.rows, strict=True)) if table.rows else [()] * len(table.header)
     kinds = [' class="number"' if _is_numeric(column) else "" for column in columns]
 
-    def row(cells: Iterable[str], tag: str) -> str:
+    def row(cells: Iterable[str], tag: str, mark: str = "") -> str:
         pairs = zip(cells, kinds, strict=True)
-        return f"<tr>{''.join(f'<{tag}{kind}>{_safe(c)}</{tag}>' for c, kind in pairs)}</tr>"
+        return f"<tr{mark}>{''.join(f'<{tag}{kind}>{_safe(c)}</{tag}>' for c, kind in pairs)}</tr>"
 
-    body = "".join(row(cells, "td") for cells in table.rows)
+    marks = (MARKS[hit] for hit in table.passed)
+    body = "".join(row(cells, "td", next(marks, "")) for cells in table.rows)
     return f'<div class="scroll"><table>{row(table.header, "th")}{body}</table></div>'
 
 

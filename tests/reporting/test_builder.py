@@ -13,8 +13,7 @@ import pytest
 import sympy as sp
 
 import acausal as ac
-from acausal.reporting import plot
-from acausal.reporting.html import Page, write_json
+from acausal.reporting import Page, plot, write_json
 from acausal.training.history import History
 
 
