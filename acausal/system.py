@@ -49,7 +49,7 @@ from acausal.flattening import (
 )
 from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
-from acausal.structure import ReducedModel, reduce
+from acausal.structure import ReducedModel, reduce, with_loop_guesses
 from acausal.units import check_dimensions
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def compile(  # noqa: A001 (the field's word; reached as ac.compile)
 
 def _derived(model: Component, flat: FlatModel) -> System:
     """The system of a flat model."""
-    reduced = reduce(flat)
+    reduced = with_loop_guesses(reduce(flat))
     parameters = lay_out_parameters(flat)
     program = generate(reduced, parameters)
     return System(
@@ -438,6 +438,13 @@ class System(LeavesCaches):
         nodes, signs = self._find_all(names)
         dx, y = rates_and_read(self.program, nodes, values)
         return dx, y if (signs == 1).all() else y * signs
+
+    def closed(self, values: Values) -> Float[Array, " n_states"]:
+        """The states, of which the angles of closed linkages, which come last, are as the others have it.
+
+        Those angles only say which solution is meant; where they are NaN or missing, their start values say it.
+        """
+        return self.initializer.closed(values)
 
     def explain_nonfinite(
         self, values: Values, names: str | Sequence[str] | None = None

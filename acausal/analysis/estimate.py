@@ -264,7 +264,10 @@ def _sizes(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, " n
     x, nominal = _open_loop(path, x0), jnp.asarray(path.model.system.nominal)
     half = (jnp.max(x, axis=0) - jnp.min(x, axis=0)) / 2
     good = jnp.isfinite(half) & (half > 0) & (half < RUN_AWAY * nominal)
-    return jax.lax.stop_gradient(jnp.where(good, half, nominal))
+    own = (
+        jnp.arange(len(nominal)) < path.model.system.reduced.n_independent
+    )  # guesses of loops follow
+    return jax.lax.stop_gradient(jnp.where(good, half, nominal) * own)
 
 
 @eqx.filter_jit

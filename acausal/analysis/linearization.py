@@ -429,4 +429,6 @@ def linearize(
         return system.rates(values), observed
 
     (A, B), (C, D) = jax.jacfwd(rates_and_outputs, argnums=(0, 1))(at.x, at.u)
-    return Linearization(A, B, C, D, system.states, system.inputs, outputs, at.x, at.u)
+    n = system.reduced.n_independent  # the guesses of loops follow from the other states
+    a, b, c, x = A[:n, :n], B[:n], C[:, :n], at.x[:n]
+    return Linearization(a, b, c, D, system.states[:n], system.inputs, outputs, x, at.u)

@@ -14,7 +14,7 @@ from jax import Array
 from acausal.codegen.dense import nearest, solve_linear, solve_nonlinear
 from acausal.codegen.instructions import BlockFormula, SolveTornLoop, external, module, parameter
 from acausal.codegen.lower import ModuleValue, evaluate
-from acausal.codegen.reading import Arrays, read_arguments
+from acausal.codegen.reading import Arrays, read_arguments, read_elements
 from acausal.codegen.values import Values
 from acausal.modeling import time
 
@@ -28,9 +28,18 @@ def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> lis
     def one(t: Any, known: SlotValues, guess: Array, scale: Array) -> Array:
         return solve(lambda tears: _torn(loop, tears, t, known), guess, scale)
 
-    dtype = values.x.dtype
-    guess, scale = jnp.asarray(loop.guess, dtype), jnp.asarray(loop.scale, dtype)
-    return _for_each(loop, values, arrays, one, guess, scale)
+    scale = jnp.asarray(loop.scale, values.x.dtype)
+    return _for_each(loop, values, arrays, one, _guess(loop, values, arrays), scale)
+
+
+def _guess(loop: SolveTornLoop, values: Values, arrays: Arrays) -> Array:
+    """Where the search for the tearing variables starts, (size, n_tears)."""
+    guess = jnp.asarray(loop.guess, values.x.dtype)
+    if not any(loop.guessed):
+        return guess
+    pairs = zip(guess.T, loop.guessed, strict=True)
+    columns = [start if state is None else read_elements(state, arrays) for start, state in pairs]
+    return jnp.stack([jnp.broadcast_to(column, loop.size) for column in columns], axis=1)
 
 
 def matched_residuals_of_torn_loops(
@@ -98,7 +107,8 @@ def nearest_of_torn_loop(
     def block(tears: Array) -> tuple[Array, Array]:
         return _torn(loop, tears, t, known)
 
-    return block(nearest(block, jnp.asarray(loop.guess[row]), jnp.asarray(loop.scale[row])))
+    guess = _guess(loop, values, arrays)[row]
+    return block(nearest(block, guess, jnp.asarray(loop.scale[row])))
 
 
 def _row(value: Any, i: int) -> Any:

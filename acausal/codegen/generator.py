@@ -45,6 +45,8 @@ class _Generator:
         self.parameters = parameters
         self.source = np.full(len(reduced.derivative), -1, dtype=np.int64)
         self.index = np.full(len(reduced.derivative), -1, dtype=np.int64)
+        self.guess = np.full(len(reduced.derivative), -1, dtype=np.int64)
+        self.guess[reduced.guessed] = reduced.guesses
         self.nodes: list[Integers] = []
         self.sizes: list[int] = []
 
@@ -114,10 +116,16 @@ class _Generator:
             shape.is_linear,
             arguments,
             self.reduced.start_guess(tears),
+            tuple(map(self._guess, tears.T)),
             self.reduced.nominal(tears),
             len(loop.unknowns),
             tuple(tuple(own[e] for e in torn.residuals) for own in loop.origins),
         )
+
+    def _guess(self, unknowns: Integers) -> Gather | None:
+        """The states that are guesses of unknowns; None if they have none."""
+        states = self.guess[unknowns]
+        return self.values(states) if (states >= 0).all() else None
 
     def solve_sparse_loop(self, loop: SparseLoop) -> SolveSparseLoop:
         """A large loop."""

@@ -115,6 +115,7 @@ class SolveTornLoop:
         matched: for every unknown an equation of its own that contains it.
         arguments: what fills `external`, `parameter` and `module` slots.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
+        guessed: for every tearing variable the states that are better guesses of it, if there are any.
         origins: where the equations that give residuals are stated, for each instance.
     """
 
@@ -126,6 +127,7 @@ class SolveTornLoop:
     is_linear: bool
     arguments: Arguments
     guess: np.ndarray
+    guessed: tuple[Gather | None, ...]
     scale: np.ndarray
     size: int
     origins: tuple[tuple[Origin, ...], ...]

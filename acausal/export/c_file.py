@@ -119,7 +119,7 @@ def model_text(
     start, start_d = _start(system, given)
     return Text(
         chosen, title, real, code, scheme, vector,
-        _with_units(system.states, system), _with_units(system.inputs, system),
+        _states(system), _with_units(system.inputs, system),
         _with_units(wanted, system), parameters, start,
         tuple(_discrete(system)), start_d,
     )  # fmt: skip
@@ -147,6 +147,15 @@ def _discrete(system: System) -> Iterator[str]:
     for place, node in enumerate(system.reduced.discrete.tolist()):
         is_condition = events is not None and place < events.n_guards
         yield events.describe(place) if events and is_condition else system.reduced.name(node)
+
+
+def _states(system: System) -> list[tuple[Run, str]]:
+    """The states; the angles of closed loops are guesses, beside the angles themselves, which are computed."""
+    n = system.reduced.n_independent
+    guesses = enumerate(system.states[n:], n)
+    return _with_units(system.states[:n], system) + [
+        (Run(f"guess({name})", "", None, i, 1, 1), system.unit(name)) for i, name in guesses
+    ]
 
 
 def _with_units(names: Sequence[str], system: System) -> list[tuple[Run, str]]:

@@ -45,7 +45,8 @@ class Conditions(LeavesCaches):
     """The initial conditions of a model.
 
     Attributes:
-        start_of: for every state the variable whose start it takes, and the sign; ``fixed``: whether it is fixed.
+        start_of: for every state the variable whose start it takes, and the sign; ``fixed``: whether it is fixed, which
+            guesses of loops are not.
         further: the other fixed starts: of variables that are not states, and of further names of a state.
     """
 
@@ -88,8 +89,12 @@ class Conditions(LeavesCaches):
         return names + [f"der({self.reduced.name(int(states[i]))}) = 0" for i in resting]
 
     def starts(self, packed: Packed) -> Float[Array, " n_states"]:
-        """Start values of the states, shape (n_states,)."""
-        return self._starts(packed, self.start_of)
+        """Start values of the states, shape (n_states,); guesses of loops without one are a little off zero."""
+        found, guesses = self._starts(packed, self.start_of), self.reduced.guesses
+        if not len(guesses):
+            return found
+        off = self.reduced.start_guess(guesses) - self.reduced.start_values(guesses)
+        return found + np.pad(off, (len(self.start_of) - len(guesses), 0))
 
     def discrete_start(self, packed: Packed) -> Float[Array, " n_discrete"]:
         """Start values of the discrete variables, shape (n_discrete,)."""
@@ -194,8 +199,11 @@ def initial_conditions(
     model = reduced.model
     members, signs = reduced.start_members
     start_of = [(int(members[s]), int(signs[s])) for s in reduced.states]
-    fixed = [v < model.n_variables and bool(model.fixed[v]) for v, _ in start_of]
-    met = {v for v, _ in start_of}
+    fixed = [
+        v < model.n_variables and bool(model.fixed[v]) and i < reduced.n_independent
+        for i, (v, _) in enumerate(start_of)
+    ]
+    met = {v for v, _ in start_of[: reduced.n_independent]}
     resolved = [(v, *reduced.resolve(v)) for v in np.flatnonzero(model.fixed).tolist()]
     discrete = set(reduced.discrete.tolist())  # their starts hold before the first event
     further = [

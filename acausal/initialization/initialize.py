@@ -16,7 +16,16 @@ from jaxtyping import Array, Float
 from numpy.typing import ArrayLike
 
 from acausal._jax import array, is_number, is_real, traced, without_derivatives
-from acausal.codegen import Dense, Packed, ParameterLayout, Program, Values, explain_nonfinite, root
+from acausal.codegen import (
+    Dense,
+    Packed,
+    ParameterLayout,
+    Program,
+    Values,
+    explain_nonfinite,
+    read,
+    root,
+)
 from acausal.errors import DataError, InitializationError, listing, nearest, shown
 from acausal.flattening import LeavesCaches
 from acausal.initialization.conditions import Conditions, FixedStart, initial_conditions
@@ -123,10 +132,10 @@ class Initializer(LeavesCaches):
     ) -> Float[Array, " n_states"]:
         """Initial states, shape (n_states,), for given discrete variables; see `System.initial_state`."""
         if x0 is not None and not isinstance(x0, Mapping):
-            return self._whole(x0)
+            return self.closed(Values(array(t0), self._whole(x0), u0, packed, d))
         x, plan = self._posed(packed, self.by_state(x0 or {}), steady, least_squares)
         at = Values(array(t0), x, u0, packed, d)
-        return x if plan is None else self._found(plan, at)[0]
+        return self.closed(at if plan is None else at._replace(x=self._found(plan, at)[0]))
 
     def start_or_nan(
         self,
@@ -138,8 +147,9 @@ class Initializer(LeavesCaches):
         x, plan = self._posed(packed, {}, steady=False, least_squares=False)
         at = Values(jnp.asarray(t0, float), x, u0, packed)
         if plan is None:
-            return x
+            return self.closed(at)
         x, rest, _ = self._found(plan, at)
+        x = self.closed(at._replace(x=x))
         return jnp.where(jnp.all(jnp.abs(rest) < LEFT_OVER), x, jnp.nan)
 
     def discrete_start(self, packed: Packed) -> Float[Array, " n_discrete"]:
@@ -166,9 +176,11 @@ class Initializer(LeavesCaches):
             "given" if name in x0 else "fixed" if fixed else "start"
             for name, fixed in zip(self.names, self.conditions.fixed, strict=True)
         ]
+        roles[self.reduced.n_independent :] = ["computed"] * len(self.reduced.guessed)
         if plan is None:
-            return Initialization(x, self.names, tuple(roles), (), np.zeros(0))
+            return Initialization(self.closed(at), self.names, tuple(roles), (), np.zeros(0))
         x, rest, jacobian = self._found(plan, at)
+        x = self.closed(at._replace(x=x))
         for i, role in zip(plan.moved, _roles(plan, np.asarray(jacobian)), strict=True):
             roles[i] = role
         names = self.conditions.names(plan.starts, plan.resting)
@@ -180,7 +192,7 @@ class Initializer(LeavesCaches):
         if not is_real(x0):
             raise DataError(f"x0={shown(x0)} are not the states; give real numbers.")
         x = jnp.asarray(x0, dtype=float)
-        if x.shape != (len(self.names),):
+        if x.shape not in {(len(self.names),), (self.reduced.n_independent,)}:
             raise DataError(
                 f"x0 has shape {x.shape}; the model has {len(self.names)} states: {listing(self.names)}"
             )
@@ -214,16 +226,17 @@ class Initializer(LeavesCaches):
                     x = x.at[i].set(given[name])
         x = array(x)
         is_given = np.asarray([n in given for n in self.names], dtype=bool)
-        at_will = ~is_given & ~self.conditions.fixed
+        is_own = np.arange(len(self.names)) < self.reduced.n_independent  # guesses follow
+        at_will = ~is_given & ~self.conditions.fixed & is_own
         if isinstance(steady, bool):  # fixed starts must be those of rest
-            resting = ~is_given & steady
+            resting = ~is_given & is_own & steady
         else:
             named = names_in(steady, "steady")
             self._known("steady", named)
             resting = np.asarray([n in named for n in self.names], dtype=bool)
         nodes = self.reduced.states[is_given]
         starts = [*(self.conditions.own if least_squares else ()), *self.conditions.further]
-        moved = ~is_given if least_squares else at_will
+        moved = ~is_given & is_own if least_squares else at_will
         plan = Plan(
             tuple(np.flatnonzero(moved).tolist()),
             tuple(c for c in starts if c.node not in nodes),
@@ -247,7 +260,7 @@ class Initializer(LeavesCaches):
             index = self.reduced.model.layout.find_variable(name)
             if name not in self.names and index is not None:
                 node, sign = self.reduced.resolve(index)
-                places = np.flatnonzero(self.reduced.states == node).tolist()
+                places = np.flatnonzero(self.reduced.meant[self.reduced.states] == node).tolist()
                 state = self.names[places[0]] if places else name
                 value = -value if sign < 0 and is_number(value) else value
             self._known("x0", [state])
@@ -264,6 +277,25 @@ class Initializer(LeavesCaches):
                 raise DataError(f"{argument}: '{name}' is not a state; {nearest(name, self.names)}")
 
     # -- its solution ------------------------------------------------------------------------------
+
+    def closed(self, at: Values) -> Array:
+        """The states with the guesses of loops at the solutions; those that are NaN or missing begin at starts."""
+        return self._closed(at) if len(self.reduced.guessed) else at.x
+
+    @cached_property
+    def _closed(self) -> Callable[[Values], Array]:
+        """What `closed` computes, compiled once."""
+
+        @eqx.filter_jit
+        def closed(at: Values) -> Array:
+            own, given = jnp.split(at.x, [self.reduced.n_independent])
+            start = self.conditions.starts(at.packed)[len(own) :]
+            guess = jnp.where(jnp.isfinite(given), given, start) if len(given) else start
+            nearby = at._replace(x=jnp.concatenate([own, guess]))
+            found = read(self.conditions.program, self.reduced.guessed.tolist(), nearby)
+            return jnp.concatenate([own, jnp.where(jnp.isfinite(found), found, guess)])
+
+        return closed
 
     def _found(self, plan: Plan, start: Values) -> tuple[Array, Array, Array]:
         """The states, the residuals of the conditions, and their Jacobian by the states that moved."""

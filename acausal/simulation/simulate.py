@@ -193,7 +193,12 @@ def _warn_of_another_solution(solution: Solution) -> None:
     fastest = np.maximum(np.abs(rates[:, :-1]), np.abs(rates[:, 1:])) * np.diff(t)
     around = sliding_window_view(np.pad(moves, ((0, 0), (4, 4)), "edge"), 9, 1)
     usual = np.maximum(np.median(around, -1), fastest)
-    jumps = moves > JUMP * usual + 1e-6 * np.max(np.abs(positions), 1, keepdims=True)
+    flat = solution.system.flat
+    nominal = np.asarray([flat.nominal[flat.layout.find_variable(name)] for name in names])
+    size = np.maximum(
+        np.max(np.abs(positions), 1), 1e-3 * nominal
+    )  # what is zero moves by rounding
+    jumps = moves > JUMP * usual + 1e-6 * size[:, None]
     if jumps.any():
         k, row = np.argwhere(jumps.T)[0]
         warnings.warn(

@@ -261,7 +261,8 @@ class Solution(ByName):
 
     def _observe(self, names: Sequence[str]) -> None:
         unread = new = tuple(n for n in names if n not in self._observed)
-        for source, values in ((self.system.states, self.x), (self.system.inputs, self.u)):
+        states = self.system.states[: self.system.reduced.n_independent]
+        for source, values in ((states, self.x), (self.system.inputs, self.u)):
             found = {n: select(values, (..., source.index(n))) for n in new if n in source}
             self._observed.update(found)
         new = tuple(n for n in new if n not in self._observed)

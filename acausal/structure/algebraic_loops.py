@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import sympy as sp
 
 from acausal.errors import StructureError, listing
 from acausal.flattening import Integers, Origin, Statement
@@ -60,6 +61,18 @@ class BlockShape:
         return all(
             e.template.is_linear(tuple(c for c, v in enumerate(e.variables) if v >= 0))
             for e in self.equations
+        )
+
+    @property
+    def is_periodic(self) -> bool:
+        """Whether a sine or a cosine of an unknown is in the loop, as in a linkage, so that solutions repeat."""
+        slots = [
+            {s for s, v in zip(e.template.variables, e.variables, strict=True) if v >= 0}
+            for e in self.equations
+        ]
+        waves = [e.template.residual.atoms(sp.sin, sp.cos, sp.tan) for e in self.equations]
+        return any(
+            own & w.free_symbols for own, some in zip(slots, waves, strict=True) for w in some
         )
 
 

@@ -5,7 +5,7 @@ The result lists the states, and in which order and from which equations all oth
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -42,6 +42,7 @@ class ReducedModel(LeavesCaches):
         base: (n_nodes,) of a derivative without a name of its own: the node it differentiates, else -1.
         derivative, derivative_sign: as in `AliasFree`, extended.
         steps: in solving order.
+        guessed: unknowns of nonlinear loops; the last states are the guesses from which Newton's method finds them.
     """
 
     model: FlatModel
@@ -57,6 +58,24 @@ class ReducedModel(LeavesCaches):
     derivative: Integers
     derivative_sign: Integers
     steps: tuple[SolvingStep, ...]
+    guessed: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+
+    @property
+    def n_independent(self) -> int:
+        """How many states there are without the guesses of loops, which follow from the others."""
+        return len(self.states) - len(self.guessed)
+
+    @property
+    def guesses(self) -> Integers:
+        """The nodes of the guesses of loops."""
+        return self.states[self.n_independent :]
+
+    @cached_property
+    def meant(self) -> Integers:
+        """For every node itself; for a guess the unknown that it is a guess of."""
+        nodes = np.arange(len(self.derivative))
+        nodes[self.guesses] = self.guessed
+        return nodes
 
     def resolve(self, node: int) -> tuple[int, int]:
         """Representative of a node and the node's sign relative to it."""
@@ -89,7 +108,7 @@ class ReducedModel(LeavesCaches):
         member_sign = np.ones(len(member), dtype=np.int64)
         member[node[order]] = order
         member_sign[node[order]] = sign[order]
-        return member, member_sign
+        return member[self.meant], member_sign[self.meant]
 
     def start_values(self, nodes: Integers) -> np.ndarray:
         """Start values of nodes that have names, as far as they are numbers."""
@@ -111,6 +130,7 @@ class ReducedModel(LeavesCaches):
 
     def nominal(self, nodes: Integers) -> np.ndarray:
         """Typical magnitudes of nodes; 1 for derivatives without a name."""
+        nodes = self.meant[nodes]
         named = nodes < self.model.n_variables
         return np.where(named, self.model.nominal[np.where(named, nodes, 0)], 1.0)
 
@@ -132,7 +152,8 @@ class ReducedModel(LeavesCaches):
         return tuple((self.name(position), self.name(rate)) for position, rate in known)
 
     def name(self, node: int) -> str:
-        """Dotted name of a node; derivatives without one are called ``der(...)``."""
+        """Dotted name of a node; derivatives without one are called ``der(...)``, guesses as what they guess."""
+        node = int(self.meant[node])
         if node < self.model.n_variables:
             return self.model.layout.variable(node)
         return f"der({self.name(int(self.base[node]))})"

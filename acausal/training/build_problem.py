@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 from jaxtyping import Array, Float
 
 from acausal._jax import precision
+from acausal.codegen import Values
 from acausal.data import Data, check_resolution
 from acausal.errors import DataError, TrainingError, listing, nearest, shown
 from acausal.modeling import names_in
@@ -97,10 +99,12 @@ def build_problem(
         check_resolution(record.time, dtype, where)
     check_step(data, options.dt)
     shooting = "fit" in by_record(data, options.x0)
+    own_states = system.states[: system.reduced.n_independent]
     solver = _solver(options, dtype)
     records, substeps = lay_out(
         system, data, targets, options.dt, solver, times, differentiated=options.automatic
     )
+    records = _with_guesses(system, records, params)
     for record in data.values():
         announce_derivatives(system.inputs, record)
     loss = named(options.loss, targets)
@@ -113,7 +117,7 @@ def build_problem(
         options.batch_size,
         options.subsample,
         tiled=shooting,
-        lacking=[n for n in system.states if any(n not in d.signals for d in data.values())],
+        lacking=[n for n in own_states if any(n not in d.signals for d in data.values())],
     )
     problem = Problem(
         system=system,
@@ -240,6 +244,23 @@ def _labelled(regularizers: tuple[Regularizer, ...]) -> dict[str, Regularizer]:
         count = sum(n.split(" ")[0] == name for n in labelled)
         labelled[f"{name} {count + 1}" if count else name] = regularizer
     return labelled
+
+
+def _with_guesses(system: System, records: Records, params: dict[str, Any]) -> Records:
+    """The measured states with the guesses of loops, each from that of the row before."""
+    if records.x is None or not len(system.reduced.guessed):
+        return records
+    packed, n = system.pack(params), system.reduced.n_independent
+    unknown = jnp.full(len(system.reduced.guessed), jnp.nan)
+
+    def row(guess: Array, now: tuple[Array, ...]) -> tuple[Array, Array]:
+        t, x, u, begins = now
+        near = jnp.concatenate([x, jnp.where(begins, unknown, guess)])
+        closed = system.closed(Values(t, near, u, packed))
+        return closed[n:], closed
+
+    rows = records.steps.t, records.x, records.steps.inputs.start, records.begins
+    return replace(records, x=lax.scan(row, unknown, rows)[1])
 
 
 def _shooting_states(problem: Problem, data: dict[str, Data]) -> ShootingStates:

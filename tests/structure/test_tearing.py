@@ -214,7 +214,7 @@ def test_a_linkage_closes_and_keeps_its_energy():
     for joint in linkage.joint:
         joint.modify(d=0.0)
     system = ac.compile(linkage)
-    assert system.states == ("joint[1].phi", "joint[1].w")
+    assert system.states[:2] == ("joint[1].phi", "joint[1].w")
     solution = ac.simulate(system, (0, 0.5), dt=1e-3, x0={"joint[1].phi": 1.0, "joint[1].w": 2.0})
     assert np.ptp(solution["joint[1].phi"]) > 0.3
     end = solution[["outer[3].frame_b.x", "outer[3].frame_b.y"]]

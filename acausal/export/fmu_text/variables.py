@@ -76,7 +76,7 @@ def shown_by_others(system: System, outputs: Sequence[str], scalars: bool) -> tu
     """
     wanted = set(outputs)
     found: list[str] = []
-    for run in runs(system.states):
+    for run in runs(system.states[: system.reduced.n_independent]):
         for names in (run.names, tuple(f"der({n})" for n in run.names)):
             if scalars or wanted >= set(names):
                 found += [n for n in names if n in wanted]
@@ -173,7 +173,8 @@ def _groups(text: Text, system: System, scalars: bool) -> Iterator[Group]:
         if run.index is None:
             before, after = before + after, ""
         rate = Run(before, after, run.index, run.first, run.stride, run.count)
-        yield _plain(DERIVATIVE, number, rate, system.unit(rate.names[0]), "", None)
+        per_second = system.unit(f"der({system.states[run.first]})")
+        yield _plain(DERIVATIVE, number, rate, per_second, "", None)
     for number, (run, unit) in enumerate(text.outputs):
         yield _plain(OUTPUT, number, run, unit, "", None)
 

@@ -6,13 +6,14 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeGuard, cast
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
 from acausal._jax import array, is_number, traced
-from acausal.codegen import Packed
+from acausal.codegen import Packed, Values
 from acausal.data import Data
 from acausal.errors import DataError, listing, nearest, shown
 
@@ -90,7 +91,13 @@ class FirstStates(eqx.Module):
                 found = lax.map(one, rows)
             known = jnp.where(jnp.isnan(self.given), found, self.given)
             states = jnp.where((self.kind == kind)[:, None], known, states)
-        return states
+        if not len(system.reduced.guessed):
+            return states
+
+        def closed(t: Array, x: Array, u: Array, p: Array) -> Float[Array, " n_states"]:
+            return system.closed(Values(t, x, u, Packed(p, packed.modules)))
+
+        return jax.vmap(closed)(t, states, u, packed.values)
 
 
 def first_states(
@@ -165,7 +172,8 @@ def _start(system: System, data: Data, x0: OfRecord, *, trained: bool) -> Record
         if not is_number(value):
             raise DataError(f"x0: '{name}' is {shown(value)}; give a finite number.")
     state = np.array([given.get(n, v) for n, v in zip(system.states, measured, strict=True)], float)
-    unknown = [n for n, v in zip(system.states, state, strict=True) if np.isnan(v)]
+    pairs = list(zip(system.states, state, strict=True))[: system.reduced.n_independent]
+    unknown = [n for n, v in pairs if np.isnan(v)]
     if unknown and x0 != "data":
         return RecordStart(MODEL, state)
     if unknown:

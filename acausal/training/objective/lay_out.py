@@ -146,7 +146,7 @@ def _rows(
     span = float(grid.t[0]), float(grid.t[-1])
     functions = functions_of_time(system.inputs, data, span, held=system.held_inputs)
     inner = polynomials_over_steps(functions, grid.t)
-    names = system.states if states else ()
+    names = system.states[: system.reduced.n_independent] if states else ()
     nothing = np.full(len(data), np.nan)
 
     def state(name: str) -> Float[np.ndarray, " n_samples"]:
