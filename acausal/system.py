@@ -142,7 +142,10 @@ class System(LeavesCaches):
 
     @cached_property
     def states(self) -> tuple[str, ...]:
-        """Names of the states, in the order of ``x``."""
+        """Names of the states, in the order of ``x``.
+
+        Angles that the loops of a linkage compute come last: they only say which of several solutions is meant.
+        """
         return self.initializer.names
 
     @cached_property
@@ -475,8 +478,8 @@ class System(LeavesCaches):
         `initialize` lists these states.
 
         Arguments:
-            x0: states by name (the rest from the model's starts), or all of them as an array. ``"steady"`` is the
-                same as ``steady=True``.
+            x0: states by name (the rest from the model's starts), or all of them as an array, which may leave out the
+                angles of closed loops at its end. ``"steady"`` is the same as ``steady=True``.
             t0: the initial time [s].
             inputs: the inputs at that time, by name (the rest zero) as numbers or functions of time, or all of them as
                 an array of numbers; by default zero. ``u0`` is another name of it.

@@ -264,10 +264,8 @@ def _sizes(path: AlongRecord, x0: Float[Array, " n_states"]) -> Float[Array, " n
     x, nominal = _open_loop(path, x0), jnp.asarray(path.model.system.nominal)
     half = (jnp.max(x, axis=0) - jnp.min(x, axis=0)) / 2
     good = jnp.isfinite(half) & (half > 0) & (half < RUN_AWAY * nominal)
-    own = (
-        jnp.arange(len(nominal)) < path.model.system.reduced.n_independent
-    )  # guesses of loops follow
-    return jax.lax.stop_gradient(jnp.where(good, half, nominal) * own)
+    guesses = slice(path.model.system.reduced.n_independent, None)  # of loops: they follow
+    return jax.lax.stop_gradient(jnp.where(good, half, nominal).at[guesses].set(0.0))
 
 
 @eqx.filter_jit

@@ -13,6 +13,9 @@ import pytest
 
 import acausal as ac
 from acausal.components import neural, planar, rotational as rot
+from acausal.export.fmu_text.variables import shown_by_others
+from acausal.training.build_problem import with_guesses
+from acausal.training.objective.lay_out import lay_out
 from tests.support.exported_c import ExportedC
 
 GRAVITY = 9.81
@@ -121,12 +124,25 @@ def test_exported_steps_of_a_loop_are_those_of_the_model(
     assert turns(own) > 2
     assert np.ptp(energy(own)) < 0.01
     names = tuple(f"{body}.phi" for body in BODIES)
+    assert shown_by_others(system, (*names, "crank.phi"), scalars=True) == ("crank.phi",)
     model = ExportedC(system, tmp_path, solver="rk4", derivatives=False, outputs=names)
+    assert "guess(body1.phi)" in model.header
     model.x[1] = 14.0
     for k in range(len(own.t)):
         wanted = [float(own[name][k]) for name in names]
         np.testing.assert_allclose(model.outputs(), wanted, atol=1e-11)
         assert model.step(0.01) == 0
+
+
+@pytest.mark.slow
+def test_records_of_a_loop_need_none_of_the_angles_that_it_computes(
+    four_bar: tuple[ac.System, ac.Solution],
+) -> None:
+    system, found = four_bar
+    signals = {name: np.asarray(found[name])[:200] for name in ("crank.phi", "crank.w")}
+    records, _ = lay_out({"": ac.Data(found.t[:200], signals)}, (), ("crank.w",), tuple(signals))
+    states = with_guesses(system, records, system.parameters()).x
+    np.testing.assert_allclose(np.asarray(states), np.asarray(found.x)[:200], atol=1e-9)
 
 
 @pytest.mark.slow
