@@ -2,7 +2,8 @@
 
 In: a `System`, `Data`, `FitOptions` as keywords. Out: a `Fit`, an `Ensemble` or a `CrossValidation`, which answer
 further questions. It may import every room below; none of them imports it. Inside, `objective` defines what to
-minimise, `optimizers` how, and `uncertainty` computes how certain the result is; only `objective` lays records out.
+minimise, `optimizers` how, `uncertainty` computes how certain the result is, and `presentation` shows it; only
+`objective` lays records out.
 """
 
 from acausal.training.cross_validation import (

@@ -87,7 +87,7 @@ def build_problem(
     trained_parameters = trained_parameters.joined(moving)
     if not names_of_networks and not trained_parameters.names and not options.per_record:
         raise TrainingError(
-            "There is nothing to train: no network is in the model or names_of_networks by train=[...]. "
+            "There is nothing to train: no network is in the model or chosen by train=[...]. "
             "Give modifiers=[...] to train parameters."
         )
     _check_targets(system, targets)
