@@ -20,7 +20,7 @@ from tests.support.scripts import script
 from tests.test_docs import blocks
 
 FOLDERS = {"acausal": ROOT / "acausal", "acausal/components": ROOT / "components"}
-DATA = ("*.c", "*.h", "*.pyi", "*.schema.json", "*.template", "page/page.*s")
+DATA = ("*.c", "*.h", "*.pyi", "*.schema.json", "*.template", "document/page.*s")
 BUILT = {"build", "dist", "site"}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 

@@ -76,7 +76,7 @@ def test_every_public_name_is_there(name):
 def test_no_public_name_is_a_modules():
     """Importing ``acausal.fit`` would put the module in the place of the function."""
     modules = {m.name for m in pkgutil.iter_modules(ac.__path__)}
-    assert modules.intersection(ac.__all__) == {"export", "networks"}
+    assert modules.intersection(ac.__all__) == {"control", "export", "networks"}
 
 
 def test_an_unknown_name_is_an_attribute_error():
