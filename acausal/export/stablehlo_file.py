@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -91,7 +92,9 @@ def stablehlo(
         return tuple(result.astype(real) for result in call(*arrays))
 
     try:
-        exported = jax_export.export(jax.jit(in_precision), platforms=compiled_for)(*shapes)
+        exported = jax_export.export(
+            jax.jit(in_precision, keep_unused=True), platforms=compiled_for
+        )(*shapes)
         write_files({file: _content(exported, file.suffix, target, derivatives)})
     except (ValueError, NotImplementedError, TypeError) as error:
         reason = str(error).splitlines()[0]
@@ -115,4 +118,10 @@ def _content(
         for kind, several in ports
         for i, p in enumerate(several)
     ]
-    return "\n".join([f"// {target.title}", *lines, exported.mlir_module()])
+    return "\n".join([f"// {target.title}", *lines, _without_places(exported.mlir_module())])
+
+
+def _without_places(text: str) -> str:
+    """The text of a module without the lines of Python that its operations come from, and the paths of these."""
+    kept = [line for line in text.splitlines() if not line.startswith("#loc")]
+    return re.sub(r" loc\(#loc\d*\)", "", "\n".join(kept)) + "\n"

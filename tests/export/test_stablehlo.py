@@ -1,6 +1,7 @@
 """StableHLO files, read back by JAX alone."""
 
 import sys
+from pathlib import Path
 
 import jax
 import jax.numpy as jnp
@@ -24,6 +25,11 @@ def test_round_trip_with_a_derivative(tmp_path):
     found = jax.grad(lambda x: again.call(0.0, x, u)[1][0])(x)
     np.testing.assert_allclose(found, expected, rtol=1e-12)
     text = ac.export.stablehlo(system, tmp_path / "v.mlir", params).read_text()
+    assert text.count("%arg") >= text.count("// argument") > 0
+    assert all(
+        f"%arg{i}:" in text for i in range(text.count("// argument"))
+    )  # also what is not used
+    assert str(Path(__file__).parents[2]) not in text
     assert "body.s" in text
     assert "stablehlo." in text
 

@@ -9,7 +9,7 @@ nearbyint pow remainder round signbit sin sinh sqrt tan tanh tgamma lgamma erf e
 _OWN = """all_finite attempt condition_rates conditions copy decree end_with_event equal excess factor fill_d fill_p
 fill_x find_due find_edge happen jacobian_column jumped look look_at_points lu_factor lu_solve maximum minimum
 next_length outputs rates recalibrate resets same settle signum solve_stage strict tangent ticks timed turn updated x
-u y p d t m h"""
+u y p d t m h Model Status"""
 
 RESERVED = frozenset(f"{_KEYWORDS} {_MATH} {_OWN}".split())
 """Words of C, of its mathematics, and of the functions in a model's file."""
