@@ -287,6 +287,17 @@ def test_sequences_lie_side_by_side():
     assert over_whole_record(shooting()).sequences.always_alike
 
 
+def test_states_of_records_are_those_of_their_first_parts():
+    problem = shooting()
+    whole = over_whole_record(problem)
+    found = eqx.tree_at(lambda t: t.states, whole.start(), jnp.ones_like(whole.start().states))
+    states = np.asarray(problem.entry(found).states)
+    assert len(states) == len(problem.sequences.starts) > 1
+    assert np.all(states[0] == 1.0)
+    assert not states[1:].any()  # the others were not found
+    np.testing.assert_array_equal(whole.entry(problem.entry(found)).states, found.states)
+
+
 @pytest.mark.slow
 def test_parts_of_one_trajectory_have_no_gaps():
     """Shooting states start on the model's own trajectory: sequences and the whole record agree."""

@@ -137,7 +137,10 @@ class Problem(Simulator):
         states, shooting = best.states, self.shooting
         if states is None or shooting is None or len(states) == len(shooting.parts):
             return best
-        return replace(best, states=states[shooting.parts])
+        if len(states) > len(shooting.parts):
+            return replace(best, states=states[shooting.parts])
+        parts = jnp.zeros((len(shooting.parts), states.shape[1]), states.dtype)
+        return replace(best, states=parts.at[shooting.first].set(states))
 
     def over_other_records(self, trainable: Trainable) -> Trainable:
         """What was trained, for these records: of others it knows neither their own parameters nor their states."""
