@@ -57,7 +57,7 @@ class Controller:
         ``machine_code``: without that table, too.
         """
         header, source = (p.read_text("utf-8") for p in (self.header, self.source))
-        table = re.search(r"static const real default_p\[\] = \{.*?\n\};\n", source, re.DOTALL)
+        table = re.search(r"static const real start_p\[\] = \{.*?\n\};\n", source, re.DOTALL)
         values = table.group() if table else ""
         run = "".join(_function(source, name) for name in ("rates", "recalibrate", "vehicle_step"))
         found = {
