@@ -104,7 +104,7 @@ def build_problem(
     records, substeps = lay_out(
         system, data, targets, options.dt, solver, times, differentiated=options.automatic
     )
-    records = with_guesses(system, records, params)
+    records = _with_guesses(system, records, params)
     for record in data.values():
         announce_derivatives(system.inputs, record)
     loss = named(options.loss, targets)
@@ -246,7 +246,7 @@ def _labelled(regularizers: tuple[Regularizer, ...]) -> dict[str, Regularizer]:
     return labelled
 
 
-def with_guesses(system: System, records: Records, params: dict[str, Any]) -> Records:
+def _with_guesses(system: System, records: Records, params: dict[str, Any]) -> Records:
     """The measured states with the angles that closed loops compute, each next to that of the row before."""
     if records.x is None or not len(system.reduced.guessed):
         return records

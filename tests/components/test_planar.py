@@ -14,8 +14,8 @@ import pytest
 import acausal as ac
 from acausal.components import neural, planar, rotational as rot
 from acausal.export.fmu_text.variables import shown_by_others
-from acausal.training.build_problem import with_guesses
-from acausal.training.objective.lay_out import lay_out
+from acausal.training.build_problem import build_problem
+from acausal.training.options import FitOptions
 from tests.support.exported_c import ExportedC
 
 GRAVITY = 9.81
@@ -140,8 +140,9 @@ def test_records_of_a_loop_need_none_of_the_angles_that_it_computes(
 ) -> None:
     system, found = four_bar
     signals = {name: np.asarray(found[name])[:200] for name in ("crank.phi", "crank.w")}
-    records, _ = lay_out({"": ac.Data(found.t[:200], signals)}, (), ("crank.w",), tuple(signals))
-    states = with_guesses(system, records, system.parameters()).x
+    data = {"": ac.Data(found.t[:200], signals)}
+    params, options = system.parameters(), FitOptions(modifiers=["body0.m"])
+    states = build_problem(system, data, ("crank.w",), params, options).records.x
     np.testing.assert_allclose(np.asarray(states), np.asarray(found.x)[:200], atol=1e-9)
 
 
