@@ -52,7 +52,7 @@ SAMPLE = (
     "tests/netlist/test_netlist.py",
     "tests/networks/test_promises.py",
     "tests/pages/test_page.py",
-    "tests/reporting/test_html.py",
+    "tests/reporting/test_builder.py",
     "tests/simulation/test_vocabulary.py",
     "tests/structure/test_rank.py",
     "tests/training/test_ensemble.py",

@@ -145,3 +145,9 @@ def test_what_is_skipped_for_a_reason_that_is_not_listed_fails(tmp_path: Path) -
     )  # fmt: skip
     assert "1 failed, 1 skipped, 1 xfailed, 1 error" in done.stdout, done.stdout
     assert "too hard (tests/support/skips.py lists no such reason)" in done.stdout
+
+
+def test_the_sample_for_other_versions_is_there() -> None:
+    names = re.findall(r'"(tests/\S+\.py)"', (ROOT / ".ci" / "dependencies.py").read_text("utf-8"))
+    assert len(names) > 20
+    assert [name for name in names if not (ROOT / name).is_file()] == []
