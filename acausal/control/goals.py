@@ -71,6 +71,10 @@ class Goals:
                 "control.mpc: name what should follow a reference, track={'body.s': 1.0}, and what the controller "
                 "decides, effort={'force.f': 0.0}."
             )
+        if not is_number(self.terminal) or not 0 <= float(self.terminal) < np.inf:
+            raise DataError(
+                f"control.mpc: terminal={shown(self.terminal)} is not a factor; give a number from 0 on."
+            )
         for what in ("track", "effort", "change"):
             for name, weight in getattr(self, what).items():
                 if not is_number(weight) or not 0 <= float(weight) < np.inf:

@@ -234,6 +234,8 @@ class MPC:
             SimulationError: as `acausal.simulate`.
         """
         need_compiled(plant, "MPC.run")
+        if not is_number(until) or not 0 < float(until) < np.inf:
+            raise DataError(f"MPC.run: until={shown(until)} is not a time; give seconds.")
         self.reset()
         lacking = [n for n in self.system.states if n not in plant.variables]
         lacking += [n for n in self.system.inputs if n not in plant.inputs]

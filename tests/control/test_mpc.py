@@ -111,6 +111,7 @@ def test_what_does_not_fit_is_named() -> None:
         ({"limits": {"wind.f": (0, 1)}}, "'wind.f' is given, not decided"),
         ({"limits": {"push.f": (1, 0)}}, "(lowest, highest)"),
         ({"method": "heun"}, "there is no method 'heun'"),
+        ({"terminal": -1.0}, "terminal=-1.0 is not a factor"),
     ):
         with pytest.raises(ac.AcausalError, match=re.escape(*words)):
             ac.control.mpc(system, **{**good, **wrong})
@@ -125,6 +126,8 @@ def test_what_does_not_fit_is_named() -> None:
     ):
         with pytest.raises(ac.DataError, match=re.escape(*words)):
             controller.step(**{"inputs": wind, **arguments})
+    with pytest.raises(ac.DataError, match="until=0 is not a time"):
+        controller.run(system, 0, inputs=wind)
     with pytest.raises(ac.DataError, match="the plant has no"):
         controller.run(ac.compile(Arm(Rubbing())), 1.0, inputs=wind)
     assert ANGLE not in system.variables
