@@ -149,19 +149,6 @@ class System(LeavesCaches):
         return self.initializer.names
 
     @cached_property
-    def rates_among_states(self) -> dict[str, tuple[str, int]]:
-        """By state that is the derivative of another one, that other one, and 1 or -1: of speeds the positions."""
-        places = {
-            int(node): name for node, name in zip(self.reduced.states, self.states, strict=True)
-        }
-        found: dict[str, tuple[str, int]] = {}
-        for node, name in places.items():
-            rate = self.reduced.resolve_derivative(node, 1)
-            if rate is not None and rate[0] in places:
-                found[places[rate[0]]] = name, rate[1]
-        return found
-
-    @cached_property
     def inputs(self) -> tuple[str, ...]:
         """Names of the inputs, in the order of ``u``.
 

@@ -246,18 +246,25 @@ class MPC:
                 f"MPC.run: the plant remembers {listing(plant.remembered)} between samples, which a new simulation "
                 "would forget: make the loop with an exported FMU."
             )
-        given = {} if inputs is None else inputs
+        for what, courses in (("reference", reference), ("inputs", inputs)):
+            if several := [
+                n for n, c in (courses or {}).items() if not (callable(c) or is_number(c))
+            ]:
+                raise DataError(
+                    f"MPC.run: {what} of {listing(several)} are neither numbers nor functions of time."
+                )
         wanted = [*plant.states, *self.system.states, *self.goals.observed, *observe]
         names = [n for n in dict.fromkeys(wanted) if n in plant.variables]
-        held = dict.fromkeys(self.goals.decided, 0.0) | {n: _at(c, 0.0) for n, c in given.items()}
-        state = np.asarray(plant.initial_state(params, x0, inputs=held))
-        u = plant.inputs_at(0.0, held)
+        given: dict[str, Any] = dict(inputs or {})
+        u = plant.inputs_at(0.0, given)
+        state = np.asarray(plant.initial_state(params, x0, inputs=u))
         own = plant.observe(self.system.states, 0.0, state, u, params or plant.parameters())
         rows: list[dict[str, float]] = []
         for k in range(round(until / self.dt) + 1):
             t = k * self.dt
             plan = self.step(np.asarray(own), t, reference=reference, inputs=inputs)
-            held = {**{n: _at(c, t) for n, c in given.items()}, **plan.first}
+            u = plant.inputs_at(t, {**given, **plan.first})
+            held = dict(zip(plant.inputs, u.tolist(), strict=True))
             span = t, t + self.dt
             run = simulation.simulate(
                 plant, span, saveat=span, x0=state, inputs=held, params=params
@@ -311,8 +318,3 @@ class MPC:
             return np.broadcast_to(column, times.shape)
 
         return np.array([course(n) for n in names]).reshape(len(names), len(times))
-
-
-def _at(course: Course, t: float) -> float:
-    """A course at a time; of one with a number for each sample, the first."""
-    return float(course(t)) if callable(course) else float(np.ravel(np.asarray(course))[0])

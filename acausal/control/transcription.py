@@ -129,7 +129,7 @@ def program(
     }
     nlp = {"x": unknowns, "f": cost, "g": rows, "p": parameters}
     ends = ca.horzcat(x0, x[:, points - 1 :: points] * size)
-    low, high = _bounds(goals, unit, n * points, n * points, steps)
+    low, high = _bounds(goals, unit, n * points, steps)
     widths = m, n * points, len(bounded)
     still = np.clip(np.zeros(m * steps), low["x"][: m * steps], high["x"][: m * steps])
 
@@ -151,11 +151,11 @@ def _weighted(ca: Any, weights: Iterable[float], values: Any) -> Any:
 
 
 def _bounds(
-    goals: Goals, unit: Float[np.ndarray, " m"], states: int, defects: int, steps: int
+    goals: Goals, unit: Float[np.ndarray, " m"], states: int, steps: int
 ) -> tuple[dict[str, Float[np.ndarray, " n"]], dict[str, Float[np.ndarray, " n"]]]:
     """Lowest and highest values of the unknowns, and of what is constrained."""
     free = np.full(states * steps, np.inf)
-    slack, zero = np.zeros(len(goals.bounded) * steps), np.zeros(defects * steps)
+    slack, zero = np.zeros(len(goals.bounded) * steps), np.zeros(states * steps)
     inputs = np.array([goals.ends(n) for n in goals.decided]) / unit[:, None]
     variables = np.array([goals.ends(n) for n in goals.bounded]).reshape(-1, 2)
     low, high = (np.tile(side, steps) for side in inputs.T)

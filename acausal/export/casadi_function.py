@@ -84,8 +84,7 @@ Known: TypeAlias = Symbols | np.ndarray
 
 def _elements(column: Any, shape: tuple[int, ...]) -> Symbols:
     found = np.empty(column.shape[0], object)
-    for i in range(len(found)):
-        found[i] = column[i]
+    found[:] = [column[i] for i in range(len(found))]
     return Symbols(found.reshape(shape))
 
 
@@ -104,7 +103,7 @@ class _Walk:
 
     def apply(self, equation: Equation, arguments: list[Known], origin: str) -> Sequence[Known]:
         name = name_of(equation)
-        if name in SAME or name == "convert_element_type":
+        if name in SAME:
             return arguments
         if name in self.rules:
             rule = np.frompyfunc(self.rules[name](equation.params), len(arguments), 1)
@@ -119,8 +118,9 @@ class _Walk:
             return [_product(equation.params["dimension_numbers"], *map(_objects, arguments))]
         if name == "scan":
             return self._scan(equation, arguments)
-        if name in MOVES and all(isinstance(a, np.ndarray) for a in arguments[MOVES[name] :]):
-            return _moved(equation, arguments, MOVES[name])
+        count = len(arguments) if name in MOVES else 1
+        if name in MOVES | PICKS and all(isinstance(a, np.ndarray) for a in arguments[count:]):
+            return _moved(equation, arguments, count)
         where = f", which '{origin}' needs" if origin else ""
         raise DataError(
             f"export.casadi: CasADi's expressions have no counterpart of '{name}'{where}"
@@ -135,19 +135,12 @@ class _Walk:
         order = range(length)[::-1] if scan.options["reverse"] else range(length)
         stacked: dict[int, list[np.ndarray]] = {}
         for k in order:
-            own = [Symbols(np.asarray(r[k], object)) for r in rows]
+            own = [_symbols(r[k]) for r in rows]
             results = self.results(scan.body, [*fixed, *carried, *own])
             carried = results[: scan.n_carry]
             stacked[k] = [_objects(r) for r in results[scan.n_carry :]]
         columns = zip(*(stacked[k] for k in range(length)), strict=True)
-        return [*carried, *(Symbols(_stack(column)) for column in columns)]
-
-
-def _stack(parts: Sequence[np.ndarray]) -> np.ndarray:
-    found = np.empty((len(parts), *parts[0].shape), object)
-    for i, part in enumerate(parts):
-        found[i] = part
-    return found
+        return [*carried, *(Symbols(np.stack(column)) for column in columns)]
 
 
 def _symbols(value: Any) -> Symbols:
@@ -169,14 +162,14 @@ REDUCTIONS = {
 }
 """Operations along axes, and those of two elements that they repeat."""
 
-EVERY = 99
-MOVES = {
-    **dict.fromkeys(
-        ("broadcast_in_dim", "concatenate", "expand_dims", "pad", "reshape", "rev", "slice", "split",
-         "squeeze", "stack", "transpose", "unstack"), EVERY),
-    **dict.fromkeys(("dynamic_slice", "gather"), 1),
-}  # fmt: skip
-"""Operations that move elements, and how many of their first arguments are moved; the others say where to."""
+MOVES = frozenset({
+    "broadcast_in_dim", "concatenate", "expand_dims", "pad", "reshape", "rev", "slice", "split", "squeeze", "stack",
+    "transpose", "unstack",
+})  # fmt: skip
+"""Operations that move the elements of all of their arguments."""
+
+PICKS = frozenset({"dynamic_slice", "gather"})
+"""Operations that move the elements of their first argument; the others say which."""
 
 
 def _moved(equation: Equation, arguments: list[Known], count: int) -> list[Known]:
@@ -189,13 +182,7 @@ def _moved(equation: Equation, arguments: list[Known], count: int) -> list[Known
     ]
     with jax.ensure_compile_time_eval():
         found = bind(equation, [*numbers, *map(jnp.asarray, arguments[count:])])
-    return [Symbols(_stack_of(every, np.asarray(places))) for places in found]
-
-
-def _stack_of(every: np.ndarray, places: np.ndarray) -> np.ndarray:
-    found = np.empty(places.shape, object)
-    found[...] = every[places]
-    return found
+    return [_symbols(every[np.asarray(places)]) for places in found]
 
 
 def _product(numbers: Any, a: np.ndarray, b: np.ndarray) -> Symbols:
@@ -228,6 +215,11 @@ def _elementwise(ca: Any) -> dict[str, Rule]:
             found = ca.if_else(ca.eq(which, i), cases[i], found)
         return found
 
+    def as_kind(kind: str) -> Callable[[Any], Any]:
+        if kind == "b":
+            return lambda x: ca.ne(x, 0)
+        return (lambda x: x) if kind == "f" else lambda x: ca.sign(x) * ca.floor(ca.fabs(x))
+
     same = (
         "abs:fabs acos acosh asin asinh atan atan2 atanh ceil cos cosh eq erf exp expm1 floor ge gt le log log1p lt "
         "max:fmax min:fmin ne not:logic_not and:logic_and or:logic_or pow:power rem:fmod sign sin sinh sqrt "
@@ -248,6 +240,7 @@ def _elementwise(ca: Any) -> dict[str, Rule]:
         "clamp": plain(lambda low, x, high: ca.fmin(ca.fmax(x, low), high)),
         "is_finite": plain(lambda x: 1.0),
         "integer_pow": lambda params: lambda x: x ** int(params["y"]),
-        "round": plain(lambda x: ca.floor(x + 0.5)),
+        "round": plain(lambda x: ca.sign(x) * ca.floor(ca.fabs(x) + 0.5)),
+        "convert_element_type": lambda params: as_kind(np.dtype(params["new_dtype"]).kind),
         "select_n": plain(choose),
     }

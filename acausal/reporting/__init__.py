@@ -5,13 +5,13 @@ It does not know the classes of results, whose methods such as `Fit.report` call
 with the attributes of a small protocol.
 """
 
-from acausal.reporting.document import (
+from acausal.reporting.document.builder import Page as Page, write_json as write_json
+from acausal.reporting.document.content import (
     Block as Block,
     Card as Card,
     Curve as Curve,
     Drawing as Drawing,
     Equations as Equations,
-    Page as Page,
     PageContent as PageContent,
     Plot as Plot,
     Role as Role,
@@ -19,14 +19,15 @@ from acausal.reporting.document import (
     Tab as Tab,
     Table as Table,
     Text as Text,
+    table as table,
+    titled_sections as titled_sections,
+)
+from acausal.reporting.document.picture import small_plot as small_plot
+from acausal.reporting.document.render import render as render
+from acausal.reporting.document.thinning import (
     broken_at_gaps as broken_at_gaps,
     kept_rows as kept_rows,
-    render as render,
-    small_plot as small_plot,
-    table as table,
     thinned as thinned,
-    titled_sections as titled_sections,
-    write_json as write_json,
 )
 from acausal.reporting.frequency import (
     plot_bode as plot_bode,

@@ -22,7 +22,7 @@ from acausal.training.objective.initial_state import InitialState
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.presentation.page_of_several import prediction_blocks, several_content
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import train
+from acausal.training.train_from_starts import prepare, run
 from acausal.training.uncertainty.bumps import SIGMAS
 from acausal.training.uncertainty.confidence import BAND_POINTS, Band
 from acausal.training.uncertainty.conformal import predicted
@@ -194,7 +194,7 @@ def ensemble(
     if len(params) != members:
         raise TrainingError(f"There are {len(params)} params for {members} members.")
     seeds = tuple(range(seed, seed + members))
-    return Ensemble(train(system, data, targets, fit_options, seeds=seeds, params=params))
+    return Ensemble(run(prepare(system, data, targets, fit_options, seeds=seeds, params=params)))
 
 
 def _mean_and_deviation(

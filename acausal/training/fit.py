@@ -9,7 +9,7 @@ from acausal.data import RecordsLike
 from acausal.errors import need_compiled
 from acausal.training.options import FitKeywords, FitOptions, documented
 from acausal.training.result import Fit
-from acausal.training.train_from_starts import train
+from acausal.training.train_from_starts import prepare, run
 
 if TYPE_CHECKING:
     from acausal.system import System
@@ -51,5 +51,5 @@ def fit(
     """
     need_compiled(system, "fit")
     fit_options = FitOptions.of("fit", options)
-    (trained,) = train(system, data, targets, fit_options, seeds=(seed,), params=(params,))
+    (trained,) = run(prepare(system, data, targets, fit_options, seeds=(seed,), params=(params,)))
     return trained

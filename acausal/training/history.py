@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -101,6 +101,30 @@ class History:
     def epochs(self) -> int:
         """Updates done."""
         return len(self.loss)
+
+    def then(self, later: History, parts: int) -> History:
+        """The history of a training that has gone on as another one; this one has so many parts."""
+
+        def joined(one: Any, other: Any) -> np.ndarray:
+            return np.concatenate([one, other])
+
+        def by_name(one: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, np.ndarray]:
+            return {name: joined(one[name], other[name]) for name in one}
+
+        n, shift = self.epochs, np.array([self.epochs, 0.0])
+        seconds = self.seconds[-1] if n else 0.0
+        return History(
+            joined(self.loss, later.loss),
+            by_name(self.penalties, later.penalties),
+            by_name(self.modifiers, later.modifiers),
+            joined(self.seconds, seconds + later.seconds),
+            joined(self.full_loss, shift + later.full_loss[1:]),
+            joined(self.validation_loss, shift + later.validation_loss[1:]),
+            (*self.divergences, *(replace(d, epoch=n + d.epoch) for d in later.divergences)),
+            by_name(self.events, {name: counts[1:] for name, counts in later.events.items()}),
+            joined(self.tried, later.tried),
+            joined(self.part, parts + later.part),
+        )
 
 
 class Evaluation(NamedTuple):

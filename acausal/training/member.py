@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, TypeVar
 
 import jax
@@ -64,6 +64,18 @@ class Trained:
     updating: float
     interrupted: bool
     finished: bool
+
+    def then(self, later: Trained, parts: int) -> Trained:
+        """This training, of so many parts, and another one that went on from its best state."""
+        best = later.best._replace(epoch=self.history.epochs + later.best.epoch)
+        return replace(
+            later,
+            best=best,
+            history=self.history.then(later.history, parts),
+            seconds=self.seconds + later.seconds,
+            compiling=self.compiling + later.compiling,
+            updating=self.updating + later.updating,
+        )
 
 
 class Member:

@@ -7,7 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from acausal.errors import cut_short
@@ -48,6 +48,16 @@ def rate_of(progress: Progress) -> str:
 
 
 Observer = Callable[[Progress], None]
+
+
+def after(observe: Observer, epochs: int, seconds: float) -> Observer:
+    """An observer of a training that goes on after so many updates of another one, and its time."""
+
+    def told(p: Progress) -> None:
+        done, planned, time = epochs + p.epoch, epochs + p.epochs, seconds + p.seconds
+        observe(replace(p, epoch=done, epochs=planned, seconds=time))
+
+    return told
 
 
 @contextmanager

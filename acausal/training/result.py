@@ -16,12 +16,11 @@ from acausal.files import need_path
 from acausal.networks import remove_offset
 from acausal.pages import write_page
 from acausal.reporting import PageContent, PlainTable
-from acausal.training.auto.verdict import Verdict, step_error, verdict
+from acausal.training.auto.verdict import Verdict, verdict
 from acausal.training.member import Trained
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.initial_state import InitialState
 from acausal.training.objective.problem import Problem
-from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable
 from acausal.training.predict import OwnParameters, predict
 from acausal.training.prediction import Predictions
@@ -263,11 +262,11 @@ def result(
     starts: Starts | None = None,
     settings: Mapping[str, str] | None = None,
     stages: tuple[StageResult, ...] = (),
-    not_laws: tuple[str, ...] | None = None,
+    step_error: float | None = None,
+    not_laws: tuple[str, ...] = (),
 ) -> Fit:
-    """The result of a training; ``not_laws`` is not None for one whose steps were chosen by measurement."""
-    best, history = on_default_device(trained.best, problem.mesh), trained.history
-    problem = replace(problem, mesh=None)
+    """The result of a training; arguments as the attributes of `Fit`."""
+    best, history = trained.best, trained.history
     seen = problem.seen(best.trainable, best.simulated.x)
     arguments = {n: np.asarray(seen[n]) for n in problem.networks}
     return Fit(
@@ -292,8 +291,6 @@ def result(
         starts=starts,
         settings=dict(settings or {}),
         stages=stages,
-        step_error=None
-        if not_laws is None
-        else step_error(problem, best.trainable, best.simulated),
-        not_laws=not_laws or (),
+        step_error=step_error,
+        not_laws=not_laws,
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 import warnings
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,34 +16,31 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import jax
 import numpy as np
-from jaxtyping import PyTree
+from jaxtyping import PRNGKeyArray, PyTree
 
 from acausal._jax import need_double_precision, need_known
-from acausal.analysis import in_switches
-from acausal.codegen import Values
 from acausal.data import Data, RecordsLike, records_of
-from acausal.errors import DataError, TrainingError, listing, need_whole, shown, user_level
+from acausal.errors import DataError, TrainingError, need_whole, shown, user_level
 from acausal.modeling import names_in
-from acausal.simulation import EXPLICIT, long_steps
 from acausal.training import checkpoint as checkpoints
 from acausal.training.auto.automatic import Automatic, automatic
-from acausal.training.auto.step_choice import finer_steps
+from acausal.training.auto.step_choice import StepChoice, finer_steps
+from acausal.training.auto.verdict import step_error
 from acausal.training.build_problem import build_problem
+from acausal.training.concerns import concerns
 from acausal.training.fingerprint import fingerprint
-from acausal.training.happened import grazing
 from acausal.training.logs import log_progress
-from acausal.training.member import Best, Trained
+from acausal.training.member import Trained
 from acausal.training.objective.held_out import HeldOut, hold_out, split
 from acausal.training.objective.initial_state import check_records
-from acausal.training.objective.losses import noise_loss, nrmse
 from acausal.training.objective.prior import entry
 from acausal.training.objective.problem import Problem
+from acausal.training.objective.sharding import on_default_device
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
-from acausal.training.progress import display
-from acausal.training.rejections import SHORTER_STEPS
+from acausal.training.progress import Observer, after, display
 from acausal.training.result import Fit, result
-from acausal.training.starts import halving, spread_starts, starts_of
+from acausal.training.starts import Halving, halving, spread_starts, starts_of
 from acausal.training.strategy import Leg, legs, stage_results, stages
 from acausal.training.training_run import TrainingRun
 
@@ -51,9 +48,6 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 LOGGER = logging.getLogger(__name__)
-
-EXACT = 1e-100
-"""A loss at which a model follows its record to roundoff, so that nothing needs to change."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,53 +124,6 @@ def prepare(
     return Training(problem, kept.training, held, plan, options, seeds, starts, from_data)
 
 
-def train(
-    system: System,
-    data: RecordsLike,
-    targets: str | Sequence[str],
-    options: FitOptions,
-    *,
-    seeds: Sequence[int],
-    params: Sequence[Mapping[str, Any] | None],
-) -> tuple[Fit, ...]:
-    """`prepare` and `run`; and once more from there, where steps that were chosen err by more than they may.
-
-    Only networks go on: what parameters may change by counts from where they began.
-    """
-    training = prepare(system, data, targets, options, seeds=seeds, params=params)
-    fits = run(training)
-    problem, from_data = training.problem, training.automatic
-    given = (options.solver, options.rtol, options.atol, options.dt)
-    moving = (*problem.modifiers.names, *problem.per_record.names)
-    if from_data is None or moving or any(value is not None for value in given):
-        return fits
-    worst = max(fits, key=lambda fit: fit.step_error or 0.0)
-    if any(fit.interrupted for fit in fits) or worst.step_error is None:
-        return fits
-    finer = finer_steps(training.options, training.records, worst.step_error, worst.loss)
-    if finer is None:
-        return fits
-    kind = from_data.stages[-1].kind
-    LOGGER.info(
-        "steps err by %.2g: on with %s, dt = %.3g s", worst.step_error, finer.solver, finer.dt
-    )
-    again = replace(finer, strategy=kind, epochs=None, checkpoint=None, resume=False)
-    starts = [fit.params for fit in fits]
-    ends = run(prepare(system, data, targets, again, seeds=seeds, params=starts))
-    return tuple(
-        replace(
-            new,
-            stages=(
-                *old.stages,
-                *(s._replace(title=f"{s.title}, finer steps") for s in new.stages),
-            ),
-        )
-        if np.isfinite(new.loss)
-        else old
-        for old, new in zip(fits, ends, strict=True)
-    )
-
-
 def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> tuple[Fit, ...]:
     """Train, from one start or several; the result of each.
 
@@ -188,55 +135,124 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     Raises:
         DataError, TrainingError: as `acausal.fit` does.
     """
-    problem, held, options = training.problem, training.held, training.options
-    plan, seeds, epochs = training.legs, training.seeds, sum(leg.epochs for leg in training.legs)
+    problem, options, from_data = training.problem, training.options, training.automatic
+    plan, seeds = training.legs, training.seeds
     problems = [_from(problem, own) for own in training.params]
     starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
-    if training.automatic is not None and options.starts == 1:
-        starts = [training.automatic.begin(problem, start) for start in starts]
-    keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
+    if from_data is not None and options.starts == 1:
+        starts = [from_data.begin(problem, start) for start in starts]
     identity: dict[str, str] = {}
     if options.checkpoint is not None:
-        identity = fingerprint(problem, plan, seeds, starts[1:], held, training.records)
+        identity = fingerprint(problem, plan, seeds, starts[1:], training.held, training.records)
     path, stored = _checkpoint(options, identity)
     what = ", ".join((*problem.networks, *problem.modifiers.names))
     LOGGER.info(
         "training %s of %s by %s", what, problem.system.flat.name, " and ".join(options.parts)
     )
-    first = jax.process_index() == 0
-    with (
-        display(options.progress and first, epochs) as show,
-        checkpoints.keeping(path if first else None, options.checkpoint_every, identity) as keep,
-    ):
-        observers = (show, log_progress, *options.all_observers)
-        ends = halving(options.starts, epochs)
-        trained = TrainingRun(problem, plan, keys, observers, keep, held, ends).train(
-            starts, stored
-        )
-    for one in trained:
-        LOGGER.info(
-            "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
-        )
+    path = path if jax.process_index() == 0 else None
+    with checkpoints.keeping(path, options.checkpoint_every, identity) as keep:
+        keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
+        ends = halving(options.starts, sum(leg.epochs for leg in plan))
+        trained = _trained(training, starts, keys, keep, stored, ends)
     spread = None
     if options.starts > 1:
         spread = starts_of(problem, starts, trained)
         starts, trained = [starts[spread.best]], (trained[spread.best],)
+    problems = [replace(own, mesh=None) for own in problems]
+    errors = _step_errors(training, problems, trained)
+    if (step := _finer(training, trained, errors)) is not None:
+        finer = _in_steps(training, step)
+        keys = [jax.random.key(seed) for seed in seeds]
+        begins = [one.best.trainable for one in trained]
+        none = halving(1, 0)
+        later = _trained(finer, begins, keys, lambda *_: None, None, none, trained[0])
+        if all(np.isfinite(one.best.loss) for one in later):
+            trained = tuple(a.then(b, len(plan)) for a, b in zip(trained, later, strict=True))
+            training, plan = finer, (*plan, *finer.legs)
+            judged = None if judged is None else HeldOut(step.over(judged.problem))
+            problems = [step.over(own) for own in problems]
+            errors = _step_errors(training, problems, trained)
     for own, start, one in zip(problems, starts, trained, strict=True):
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
-    from_data, described = training.automatic, options.described()
+    described = options.described()
     linear = None if from_data is None or from_data.linear is None else from_data.linear.loss
     return tuple(
         result(
             own,
             one,
-            judged or held,
+            judged or training.held,
             spread,
             {"seed": str(seed), **described},
             stage_results(one.history, plan, linear),
-            None if from_data is None else from_data.not_laws,
+            error,
+            () if from_data is None else from_data.not_laws,
         )
-        for own, one, seed in zip(problems, trained, seeds, strict=True)
+        for own, one, seed, error in zip(problems, trained, seeds, errors, strict=True)
+    )
+
+
+def _trained(
+    training: Training,
+    starts: Sequence[Trainable],
+    keys: Sequence[PRNGKeyArray],
+    keep: checkpoints.Keep,
+    stored: checkpoints.Stored | None,
+    ends: Halving,
+    before: Trained | None = None,
+) -> tuple[Trained, ...]:
+    """Train, and display it; after another training, observers are told of the updates and the time of both."""
+    options, epochs = training.options, sum(leg.epochs for leg in training.legs)
+    observers: tuple[Observer, ...] = (log_progress, *options.all_observers)
+    if before is not None:
+        observers = tuple(after(one, before.history.epochs, before.seconds) for one in observers)
+    with display(options.progress and jax.process_index() == 0, epochs) as show:
+        found = TrainingRun(
+            training.problem, training.legs, keys, (show, *observers), keep, training.held, ends
+        ).train(starts, stored)
+    for one in found:
+        LOGGER.info(
+            "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
+        )
+    mesh = training.problem.mesh
+    return tuple(replace(one, best=on_default_device(one.best, mesh)) for one in found)
+
+
+def _step_errors(
+    training: Training, problems: Sequence[Problem], trained: Sequence[Trained]
+) -> list[float | None]:
+    """The errors of the steps at the end of each training; ``None`` where the user has chosen all."""
+    if training.automatic is None:
+        return [None] * len(trained)
+    bests = [one.best for one in trained]
+    return [
+        step_error(own, best.trainable, best.simulated)
+        for own, best in zip(problems, bests, strict=True)
+    ]
+
+
+def _finer(
+    training: Training, trained: Sequence[Trained], errors: Sequence[float | None]
+) -> StepChoice | None:
+    """Finer steps, if those that were chosen err by more than they may."""
+    step = None if training.automatic is None else training.automatic.step
+    if step is None or any(one.interrupted for one in trained):
+        return None
+    error, loss = max((e or 0.0, one.best.loss) for e, one in zip(errors, trained, strict=True))
+    return finer_steps(step, error, loss)
+
+
+def _in_steps(training: Training, step: StepChoice) -> Training:
+    """The last part of a training once more, in other steps."""
+    assert training.automatic is not None
+    last = training.automatic.stages[-1]
+    stage = last._replace(title=f"{last.title}, finer steps", above=-np.inf)
+    problem, held = step.over(training.problem), training.held
+    return replace(
+        training,
+        problem=problem,
+        held=None if held is None else HeldOut(step.over(held.problem)),
+        legs=legs(problem, (stage,), training.options),
     )
 
 
@@ -284,108 +300,3 @@ def _checkpoint(
             "to start again, remove it or name another file."
         )
     return file, checkpoints.read(file, identity)
-
-
-def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
-    """Warnings about a training, one sentence each."""
-    diverged, epochs = trained.history.divergences, trained.history.epochs
-    if diverged:
-        yield (
-            f"Something diverged in {len(diverged)} of {epochs} epochs and was left out "
-            f"(fit.history.divergences); first, {diverged[0]}."
-            + (f" {SHORTER_STEPS}" if any(d.exploded for d in diverged) else "")
-        )
-    if not np.isfinite(trained.best.loss):
-        yield "The trained model diverges over the whole record: its loss is infinite."
-    elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
-        yield f"Training found nothing better than its start. {sentence}"
-    elif sentence := _no_better_than_the_mean(problem, trained.best):
-        yield sentence
-    if not problem.sequences.whole and (remembered := problem.system.remembered):
-        yield (
-            f"Sequences begin with the start values of {listing(remembered)}, whatever they are in the record: "
-            "take whole records (sequence_length=None), or give them as inputs: "
-            f"ac.compile(model, inputs={[remembered[0]]})."
-        )
-    if clause := grazing(problem.system, problem.records, trained.best.simulated.log):
-        yield (
-            f"The condition {clause}: there the gradient does not exist, or is huge, and training may not get past it. "
-            "Leave this part of the record out, or start from other values."
-        )
-    unmoved = _unmoved(start, trained.last)
-    exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
-    if unmoved and len(diverged) < epochs and not exact:
-        has_events = problem.system.events is not None
-        yield from _reasons(unmoved, in_switches(problem.system), has_events)
-    if clause := _out_of_range(problem, trained.best.trainable):
-        yield (
-            f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
-        )
-    changes = problem.changes(trained.best.trainable)
-    yield from problem.modifiers.at_limit(changes, problem.unit).values()
-
-
-def _long_steps(problem: Problem, best: Best) -> str | None:
-    """A sentence on steps that are too long for gradients, or None."""
-    if not isinstance(problem.solver, EXPLICIT):
-        return None
-    packed = problem.system.pack(problem.model_params(best.trainable))
-    values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
-    return long_steps(problem.system, values, problem.longest_step)
-
-
-def _no_better_than_the_mean(problem: Problem, best: Best) -> str | None:
-    """A sentence on a model that follows its records no better than a constant does, or None."""
-    records = problem.records
-    level = np.sqrt(len(problem.targets))
-    error = float(jax.jit(nrmse)(best.simulated.y, records.y, records.sigma, records.weight))
-    if error < level:
-        return None
-    return (
-        f"The trained model is no better than the targets' mean: its error is {error:.3g}, that of the mean "
-        f"{level:.3g}, that of the noise about {noise_loss(records):.2g} (in standard deviations, added up "
-        "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) and "
-        "scales (input_scale=, output_scale=)."
-    )
-
-
-def _reasons(unmoved: Sequence[str], in_switches: Set[str], has_events: bool) -> Iterator[str]:
-    """Why training did not move some networks and parameters."""
-    switching = [n for n in unmoved if n in in_switches]
-    others = [n for n in unmoved if n not in in_switches]
-    if switching:
-        yield (
-            f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, and has "
-            "no gradient. Smooth it (tanh in the place of sign), make it an event (ac.where(..., events=True), or for "
-            "the library's ac.compile(model, events=True)), or leave it out (train=..., modifiers=...)."
-        )
-    if others and has_events:
-        yield (
-            f"Training did not move {listing(others)}: no target depends on it with the events that happen at the "
-            "values where training began. Begin where the model switches as the data do (params=..., starts=...), fit "
-            "a target that depends on it, or leave it out (train=..., modifiers=...)."
-        )
-    elif others:
-        yield (
-            f"Training did not move {listing(others)}: no target depends on it. "
-            "Fit a target that does, or leave it out (train=..., modifiers=...)."
-        )
-
-
-def _out_of_range(problem: Problem, trained: Trainable) -> str | None:
-    """A clause on trained parameters outside of their declared ranges."""
-    params, moved = problem.assemble(trained), problem.modifiers.names
-    layout = problem.system.layout
-    return layout.out_of_range(
-        np.asarray([float(params[n]) if n in moved else np.nan for n in layout.names])
-    )
-
-
-def _unmoved(start: Trainable, end: Trainable) -> list[str]:
-    """The networks and parameters that have not changed by a single bit."""
-    before, after = ({**t.networks, **t.modifiers} for t in (start, end))
-    return [
-        name
-        for name, tree in before.items()
-        if all(map(np.array_equal, jax.tree.leaves(tree), jax.tree.leaves(after[name])))
-    ]

@@ -128,6 +128,8 @@ def test_what_does_not_fit_is_named() -> None:
             controller.step(**{"inputs": wind, **arguments})
     with pytest.raises(ac.DataError, match="until=0 is not a time"):
         controller.run(system, 0, inputs=wind)
+    with pytest.raises(ac.DataError, match=r"'wind\.f' are neither numbers nor functions"):
+        controller.run(system, 1.0, inputs={"wind.f": np.zeros(5)})
     with pytest.raises(ac.DataError, match="the plant has no"):
         controller.run(ac.compile(Arm(Rubbing())), 1.0, inputs=wind)
     assert ANGLE not in system.variables

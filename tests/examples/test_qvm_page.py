@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import acausal as ac
-from acausal.reporting.document import plot_library
+from acausal.reporting.document.library import plot_library
 from examples.qvm.experiments import DEMO, fit
 from examples.qvm.record import ride
 from tests.support.browser import browser, need_browser

@@ -110,6 +110,9 @@ def test_products_reductions_and_loops() -> None:
             rows,
             a[:, ::-1].T,
             jax.numpy.pad(a, 1),
+            (3 * a).astype(int),
+            jax.numpy.round(3 * a),
+            (a > 0).astype(float),
             a[jax.numpy.array([1, 0, 1])],
         )
 

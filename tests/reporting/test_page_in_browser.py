@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from acausal.reporting import Card, Curve, PageContent, Plot, Section, render
-from acausal.reporting.document import plot_library
+from acausal.reporting.document.library import plot_library
 from tests.support.browser import Browser, browser
 from tests.support.pages import EVIL, content
 

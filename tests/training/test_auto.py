@@ -1,8 +1,8 @@
 """A model, a record and no options: the law comes out, or the fit says that it did not."""
 
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from unittest.mock import ANY
 
 import jax
 import jax.numpy as jnp
@@ -21,7 +21,7 @@ from acausal.networks import (
     linear_shape,
     with_scales,
 )
-from acausal.training.auto.step_choice import finer_steps
+from acausal.training.auto.step_choice import StepChoice, finer_steps
 from acausal.training.build_problem import build_problem
 from acausal.training.objective.losses import noise_of
 from acausal.training.options import FitOptions
@@ -114,19 +114,34 @@ def test_windows_begin_at_rates_of_positions_where_speeds_are_not_measured() -> 
 
 
 def test_steps_that_err_are_refined_and_implicit_where_too_many_were_needed() -> None:
-    records, chosen = {"run": data()}, FitOptions(solver="rk4")
-    assert finer_steps(chosen, records, error=9e-4, loss=0.01) is None
-    finer = finer_steps(
-        chosen, records, error=0.016, loss=0.01
-    )  # sixteen times too much: twice as many steps
-    assert finer is not None
-    assert (finer.solver, finer.dt) == ("rk4", pytest.approx(0.02 / 4))
-    finer = finer_steps(replace(chosen, solver="heun", dt=0.01), records, 0.0039, 0.01)
-    assert finer is not None
-    assert (finer.solver, finer.dt) == ("rk4", pytest.approx(0.02 / 8))
-    finer = finer_steps(chosen, records, error=1e4, loss=0.01)
-    assert finer is not None
-    assert (finer.solver, finer.dt) == ("kvaerno3", pytest.approx(0.02))
+    chosen = StepChoice("rk4")
+    assert finer_steps(chosen, error=9e-4, loss=0.01) is None
+    # sixteen times too much: twice as many steps, and twice that
+    assert finer_steps(chosen, error=0.016, loss=0.01) == StepChoice("rk4", 4, ANY)
+    assert finer_steps(StepChoice("heun", 2), 0.0039, 0.01) == StepChoice("rk4", 8, ANY)
+    assert finer_steps(chosen, error=1e4, loss=0.01) == StepChoice("kvaerno3", 1, ANY)
+
+
+@pytest.mark.slow
+def test_a_fit_that_goes_on_in_finer_steps_is_one_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[int] = []
+    choose = "acausal.training.train_from_starts.finer_steps"
+    monkeypatch.setattr(choose, lambda step, error, loss: StepChoice("rk4", 4))
+    fit = train(epochs=60, observers=[lambda progress: told.append(progress.epoch)])
+    assert [stage.title for stage in fit.stages][-2:] == [
+        "whole record",
+        "whole record, finer steps",
+    ]
+    assert told == sorted(told)
+    epochs = fit.history.full_loss[:, 0]
+    assert list(epochs) == sorted(set(epochs))
+    assert told[-1] == epochs[-1] == fit.history.epochs
+    assert fit.loss_before == pytest.approx(trained().loss_before)
+    assert fit.best_epoch in epochs
+    assert fit.problem.substeps == 4 > trained().problem.substeps
+    assert fit.step_error is not None
+    assert trained().step_error is not None
+    assert fit.step_error < trained().step_error
 
 
 def test_scales_go_along_in_files(tmp_path: Path) -> None:

@@ -55,6 +55,7 @@ class Automatic:
         options: with steps.
         params: where each training starts.
         stages: what to do.
+        step: of the integration; ``None`` where the user has said anything of it.
         linear: the linear start; ``None`` where no network lacks scales.
         noise: the loss that the noise alone leaves; ``None`` where the loss is no root mean square.
         not_laws: networks that are no laws of the library, which are trained from where they are.
@@ -63,6 +64,7 @@ class Automatic:
     options: FitOptions
     params: tuple[Mapping[str, Any], ...]
     stages: tuple[Stage, ...]
+    step: StepChoice | None
     linear: LinearStart | None
     noise: float | None
     not_laws: tuple[str, ...]
@@ -136,7 +138,8 @@ def automatic(
     settled = step.of(options, records)
     rows = int(np.median([len(data) for data in records.values()]))
     stages = _stages(start.problem, rows, new[0], names, explains, noise, options)
-    return Automatic(settled, new, stages, start if shapes else None, noise, fixed)
+    free = None if step.solver is None or options.dt is not None else step
+    return Automatic(settled, new, stages, free, start if shapes else None, noise, fixed)
 
 
 def _start(problem: Problem, shapes: dict[str, Shape]) -> LinearStart:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.data import Data
-from acausal.simulation import for_fixed_steps, solver_named
+from acausal.simulation import for_fixed_steps, inner_fractions, solver_named
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
 from acausal.training.options import FitOptions
@@ -42,12 +42,23 @@ class StepChoice(NamedTuple):
         """The options with these steps."""
         if self.solver is None:
             return options
-        dt = options.dt if self.parts == 1 else _sample_time(data) / self.parts
+        usual = float(np.median(np.concatenate([np.diff(d.time) for d in data.values()])))
+        dt = options.dt if self.parts == 1 else usual / self.parts
         return replace(options, solver=self.solver, dt=dt)
 
+    def over(self, problem: Problem) -> Problem:
+        """A problem with these steps."""
+        assert self.solver is not None
+        scheme = for_fixed_steps(solver_named(self.solver, fixed=False), problem.dtype)
+        fractions = inner_fractions(scheme, self.parts)
+        delayed = replace(problem.records.delayed, fractions=fractions)
+        records = replace(problem.records, delayed=delayed)
+        return replace(problem, records=records, solver=scheme, substeps=self.parts)
 
-def _sample_time(data: Mapping[str, Data]) -> float:
-    return float(np.median(np.concatenate([np.diff(d.time) for d in data.values()])))
+
+def allowed_error(loss: float) -> float:
+    """The largest error of steps beside a loss, or beside that of the noise."""
+    return SHARE * max(loss, LEAST)
 
 
 def tried_steps(options: FitOptions) -> Iterator[StepChoice]:
@@ -71,7 +82,7 @@ def chosen_steps(
     """The steps whose error is small enough, for some state of the training."""
     if step.solver is None or options.dt is not None or not isinstance(problem.substeps, int):
         return step
-    allowed = SHARE * max(noise or 0.0, LEAST)
+    allowed = allowed_error(noise or 0.0)
     coarse = np.asarray(problem.simulate(trainable).y)
     fine = np.asarray(replace(problem, substeps=2 * problem.substeps).simulate(trainable).y)
     error = difference(problem, coarse, fine)
@@ -92,28 +103,23 @@ def chosen_steps(
     return step._replace(error=error)
 
 
-def finer_steps(
-    options: FitOptions, data: Mapping[str, Data], error: float, loss: float
-) -> FitOptions | None:
-    """The options with finer steps, where those of a training err by more than they may; else ``None``.
+def finer_steps(step: StepChoice, error: float, loss: float) -> StepChoice | None:
+    """Finer steps, where those of a training err by more than they may; else ``None``.
 
     A law is often steeper than the linear one along which steps were chosen. Where very many were needed, they are
     implicit.
 
     Arguments:
-        options: with the steps that were chosen. error: of these at the end of the training. loss: that it reached.
+        step: that was chosen. error: of it at the end of the training. loss: that it reached.
     """
-    allowed = SHARE * max(loss, LEAST)
-    solver = str(options.solver)
-    if solver not in ORDER or not allowed < error < np.inf:
+    allowed = allowed_error(loss)
+    if step.solver is None or not allowed < error < np.inf:
         return None
-    usual = _sample_time(data)
-    parts = 1 if options.dt is None else round(usual / options.dt)
-    more = 2 * (error / allowed) ** (1 / ORDER[solver])
-    finer = parts * (1 << (int(np.ceil(more)) - 1).bit_length())
-    implicit = finer > FINEST
-    better = "kvaerno3" if implicit else "rk4" if solver == "heun" else solver
-    return replace(options, solver=better, dt=usual / (parts if implicit else finer))
+    more = 2 * (error / allowed) ** (1 / ORDER[step.solver])
+    parts = step.parts * (1 << (int(np.ceil(more)) - 1).bit_length())
+    if parts > FINEST:
+        return StepChoice("kvaerno3", step.parts)
+    return StepChoice("rk4" if step.solver == "heun" else step.solver, parts)
 
 
 def difference(problem: Problem, one: np.ndarray, other: np.ndarray) -> float:

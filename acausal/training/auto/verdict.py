@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from acausal.simulation import EXPLICIT
-from acausal.training.auto.step_choice import LEAST, SHARE, difference
+from acausal.training.auto.step_choice import allowed_error, difference
 from acausal.training.objective.losses import LOSSES, noise_loss
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Simulated, Trainable
@@ -59,7 +59,7 @@ def verdict(fit: TrainedModel) -> Verdict | None:
         return None
     noise, level = noise_loss(problem.records), np.sqrt(len(problem.targets))
     share = fit.loss / level
-    steps = fit.step_error is None or fit.step_error <= SHARE * max(fit.loss, LEAST)
+    steps = fit.step_error is None or fit.step_error <= allowed_error(fit.loss)
     down = fit.loss <= DOWN_TO * noise
     good = bool(np.isfinite(fit.loss) and (down or share <= SMALL))
     if down:

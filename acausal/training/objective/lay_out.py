@@ -81,7 +81,7 @@ def lay_out(
     substeps = 1 if longest is None or even is None else parts(even, longest)
     grids = [_grid(d.time, longest if even is None else None) for d in data.values()]
     present = {n for d in data.values() for n in d.signals}
-    rates = system.rates_among_states if differentiated else {}
+    rates = _rates(system) if differentiated else {}
     lacking = {n: of for n, of in rates.items() if n not in present}
     rows = [
         _rows(system, d, g, targets, states, measured, lacking)
@@ -118,6 +118,18 @@ def lay_out(
     functions = [r.functions for r in rows]
     late = delayed_inputs(system.inputs, functions, timing, inner_fractions(solver, substeps))
     return replace(records, delayed=late), substeps
+
+
+def _rates(system: System) -> dict[str, tuple[str, int]]:
+    """By state that is the derivative of another one, that other one, and 1 or -1: of speeds the positions."""
+    reduced = system.reduced
+    places = {int(node): name for node, name in zip(reduced.states, system.states, strict=True)}
+    found: dict[str, tuple[str, int]] = {}
+    for node, name in places.items():
+        rate = reduced.resolve_derivative(node, 1)
+        if rate is not None and rate[0] in places:
+            found[places[rate[0]]] = name, rate[1]
+    return found
 
 
 class _RecordRows(NamedTuple):

@@ -1,0 +1,127 @@
+"""What a user should know of a training that has ended: divergences, what did not move, what is out of range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence, Set
+
+import jax
+import numpy as np
+
+from acausal.analysis import in_switches
+from acausal.codegen import Values
+from acausal.errors import listing
+from acausal.simulation import EXPLICIT, long_steps
+from acausal.training.happened import grazing
+from acausal.training.member import Best, Trained
+from acausal.training.objective.losses import noise_loss, nrmse
+from acausal.training.objective.problem import Problem
+from acausal.training.objective.trainable import Trainable
+from acausal.training.rejections import SHORTER_STEPS
+
+EXACT = 1e-100
+"""A loss at which a model follows its record to roundoff, so that nothing needs to change."""
+
+
+def concerns(problem: Problem, start: Trainable, trained: Trained) -> Iterator[str]:
+    """Warnings about a training, one sentence each."""
+    diverged, epochs = trained.history.divergences, trained.history.epochs
+    if diverged:
+        yield (
+            f"Something diverged in {len(diverged)} of {epochs} epochs and was left out "
+            f"(fit.history.divergences); first, {diverged[0]}."
+            + (f" {SHORTER_STEPS}" if any(d.exploded for d in diverged) else "")
+        )
+    if not np.isfinite(trained.best.loss):
+        yield "The trained model diverges over the whole record: its loss is infinite."
+    elif trained.best.epoch == 0 and (sentence := _long_steps(problem, trained.best)):
+        yield f"Training found nothing better than its start. {sentence}"
+    elif sentence := _no_better_than_the_mean(problem, trained.best):
+        yield sentence
+    if not problem.sequences.whole and (remembered := problem.system.remembered):
+        yield (
+            f"Sequences begin with the start values of {listing(remembered)}, whatever they are in the record: "
+            "take whole records (sequence_length=None), or give them as inputs: "
+            f"ac.compile(model, inputs={[remembered[0]]})."
+        )
+    if clause := grazing(problem.system, problem.records, trained.best.simulated.log):
+        yield (
+            f"The condition {clause}: there the gradient does not exist, or is huge, and training may not get past it. "
+            "Leave this part of the record out, or start from other values."
+        )
+    unmoved = _unmoved(start, trained.last)
+    exact = 0 <= trained.history.full_loss[0, 1] <= EXACT
+    if unmoved and len(diverged) < epochs and not exact:
+        has_events = problem.system.events is not None
+        yield from _reasons(unmoved, in_switches(problem.system), has_events)
+    if clause := _out_of_range(problem, trained.best.trainable):
+        yield (
+            f"After training, {clause}. Keep it in its range: modifiers={{...: ac.Bounded(low, high)}}."
+        )
+    changes = problem.changes(trained.best.trainable)
+    yield from problem.modifiers.at_limit(changes, problem.unit).values()
+
+
+def _long_steps(problem: Problem, best: Best) -> str | None:
+    """A sentence on steps that are too long for gradients, or None."""
+    if not isinstance(problem.solver, EXPLICIT):
+        return None
+    packed = problem.system.pack(problem.model_params(best.trainable))
+    values = Values(problem.records.steps.t, best.simulated.x, problem.inputs, packed)
+    return long_steps(problem.system, values, problem.longest_step)
+
+
+def _no_better_than_the_mean(problem: Problem, best: Best) -> str | None:
+    """A sentence on a model that follows its records no better than a constant does, or None."""
+    records = problem.records
+    level = np.sqrt(len(problem.targets))
+    error = float(jax.jit(nrmse)(best.simulated.y, records.y, records.sigma, records.weight))
+    if error < level:
+        return None
+    return (
+        f"The trained model is no better than the targets' mean: its error is {error:.3g}, that of the mean "
+        f"{level:.3g}, that of the noise about {noise_loss(records):.2g} (in standard deviations, added up "
+        "over targets). Do not use it: train longer, by another strategy, or from better parameters (params=...) and "
+        "scales (input_scale=, output_scale=)."
+    )
+
+
+def _reasons(unmoved: Sequence[str], in_switches: Set[str], has_events: bool) -> Iterator[str]:
+    """Why training did not move some networks and parameters."""
+    switching = [n for n in unmoved if n in in_switches]
+    others = [n for n in unmoved if n not in in_switches]
+    if switching:
+        yield (
+            f"Training did not move {listing(switching)}: a switch (where, if, sign, floor) depends on it, and has "
+            "no gradient. Smooth it (tanh in the place of sign), make it an event (ac.where(..., events=True), or for "
+            "the library's ac.compile(model, events=True)), or leave it out (train=..., modifiers=...)."
+        )
+    if others and has_events:
+        yield (
+            f"Training did not move {listing(others)}: no target depends on it with the events that happen at the "
+            "values where training began. Begin where the model switches as the data do (params=..., starts=...), fit "
+            "a target that depends on it, or leave it out (train=..., modifiers=...)."
+        )
+    elif others:
+        yield (
+            f"Training did not move {listing(others)}: no target depends on it. "
+            "Fit a target that does, or leave it out (train=..., modifiers=...)."
+        )
+
+
+def _out_of_range(problem: Problem, trained: Trainable) -> str | None:
+    """A clause on trained parameters outside of their declared ranges."""
+    params, moved = problem.assemble(trained), problem.modifiers.names
+    layout = problem.system.layout
+    return layout.out_of_range(
+        np.asarray([float(params[n]) if n in moved else np.nan for n in layout.names])
+    )
+
+
+def _unmoved(start: Trainable, end: Trainable) -> list[str]:
+    """The networks and parameters that have not changed by a single bit."""
+    before, after = ({**t.networks, **t.modifiers} for t in (start, end))
+    return [
+        name
+        for name, tree in before.items()
+        if all(map(np.array_equal, jax.tree.leaves(tree), jax.tree.leaves(after[name])))
+    ]
