@@ -113,6 +113,11 @@ def mpc(
     goals.check(system)
     if not system.states:
         raise DataError("control.mpc: the model has no states; there is nothing to plan.")
+    if system.events is not None:
+        raise DataError(
+            "control.mpc: the model has events, which IPOPT cannot follow; smooth them (smooth=True of "
+            "friction), or give its modes as inputs: ac.compile(model, inputs=[...])."
+        )
     given = tuple(n for n in system.inputs if n not in effort)
     order = [(*goals.decided, *given).index(name) for name in system.inputs]
     model = casadi(system, params, outputs=goals.observed)

@@ -35,7 +35,7 @@ def main(folder: Path = Path("out/following_arm")) -> None:
         error.plot(t, 1e3 * (np.asarray(record[ANGLE]) - wanted), color=color)
         torque.step(t, record[MOTOR], color=color, where="post")
     angle.set_ylabel("angle [rad]")
-    angle.legend(frameon=False, ncols=3, loc="upper right")
+    angle.legend(frameon=False, ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     error.set_ylabel("error [mrad]")
     torque.set_ylabel("torque [N.m]")
     torque.set_xlabel("time [s]")

@@ -26,6 +26,15 @@ class Cart(ac.Component):
         self.connect(self.mass.flange_b, self.push.flange, self.wind.flange)
 
 
+class Stopped(ac.Component):
+    """A mass between stops, whose friction sticks."""
+
+    def __init__(self, mass: ac.Component) -> None:
+        super().__init__()
+        self.mass, self.push = mass, tl.Force()
+        self.connect(self.push.flange, self.mass.flange_a)
+
+
 DT = 0.1
 
 
@@ -115,6 +124,11 @@ def test_what_does_not_fit_is_named() -> None:
     ):
         with pytest.raises(ac.AcausalError, match=re.escape(*words)):
             ac.control.mpc(system, **{**good, **wrong})
+    stop = tl.MassWithStopAndFriction(
+        m=1.0, L=1.0, smax=2.0, smin=-2.0, F_prop=1.0, F_Coulomb=5.0, F_Stribeck=10.0, fexp=2.0
+    )
+    with pytest.raises(ac.DataError, match="the model has events"):
+        ac.control.mpc(ac.compile(Stopped(stop)), **{**good, "track": {"mass.s": 1.0}})
     controller = ac.control.mpc(system, **good)
     wind = {"wind.f": 0.0}
     for arguments, *words in (
