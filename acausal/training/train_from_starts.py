@@ -173,6 +173,9 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
             problems = [step.over(own) for own in problems]
             errors = _step_errors(training, problems, trained)
     for own, start, one in zip(problems, starts, trained, strict=True):
+        LOGGER.info(
+            "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
+        )
         for sentence in concerns(own, start, one):
             warnings.warn(f"{prefix}{sentence}", stacklevel=user_level())
     described = options.described()
@@ -210,10 +213,6 @@ def _trained(
         found = TrainingRun(
             training.problem, training.legs, keys, (show, *observers), keep, training.held, ends
         ).train(starts, stored)
-    for one in found:
-        LOGGER.info(
-            "trained in %.3g s: loss %.4g at epoch %d", one.seconds, one.best.loss, one.best.epoch
-        )
     mesh = training.problem.mesh
     return tuple(replace(one, best=on_default_device(one.best, mesh)) for one in found)
 
