@@ -421,6 +421,10 @@ class System(LeavesCaches):
         y = read(self.program, nodes, values)
         return y if (signs == 1).all() else y * signs
 
+    def iterates(self, names: Sequence[str]) -> bool:
+        """Whether variables are found by iteration: they depend on an algebraic loop that is not linear."""
+        return self.program.iterates(self._find_all(names)[0])
+
     def rates_and_read(
         self, names: Sequence[str], values: Values
     ) -> tuple[Float[Array, " n_states"], Float[Array, " n_names"]]:

@@ -89,6 +89,11 @@ class Program(LeavesCaches):
                 wanted.update(instruction.sources)
         return active[::-1]
 
+    def iterates(self, nodes: Sequence[int]) -> bool:
+        """Whether values of some nodes depend on loops that are not linear."""
+        some = [self.instructions[i] for i in self.needed(self.gather(nodes).sources)]
+        return any(not isinstance(one, Evaluate | Accumulate) and not one.is_linear for one in some)
+
     @cached_property
     def is_long(self) -> bool:
         """Whether XLA takes long for the rates: they are of many instructions, or there are loops to solve."""

@@ -34,9 +34,6 @@ if TYPE_CHECKING:
 
     from acausal.system import System
 
-AXES = Values(0, 0, 0, None, 0)  # pyright: ignore[reportArgumentType]
-"""Which of the values in a trajectory have an axis of time."""
-
 CURVES_VIEWED = 12
 """Variables in the view that a notebook shows."""
 
@@ -299,9 +296,14 @@ class Solution(ByName):
 
 @eqx.filter_jit
 def _read_all(system: System, names: tuple[str, ...], values: Values) -> list[Float[Array, " n"]]:
-    def at(values: Values) -> Float[Array, " n_names"]:
-        return system.read(names, values)
-
     drift = values.packed.values.ndim == 2
-    axes = AXES._replace(packed=Packed(0, None)) if drift else AXES  # pyright: ignore[reportArgumentType]
-    return list(jax.vmap(at, (axes,), 1)(values))
+    points = (values.t, values.x, values.u, values.d, values.packed.values if drift else None)
+
+    def at(point: tuple[Any, ...]) -> Float[Array, " n_names"]:
+        t, x, u, d, numbers = point
+        packed = Packed(numbers, values.packed.modules) if drift else values.packed
+        return system.read(names, Values(t, x, u, packed, d))
+
+    # One after the other, each point iterates as often as it needs, and XLA compiles one of them.
+    rows = jax.lax.map(at, points) if system.iterates(names) else jax.vmap(at)(points)
+    return list(rows.T)
