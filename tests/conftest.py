@@ -50,7 +50,7 @@ def maps() -> int:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Of a test with the mark ``cases(fast=2, slow=5)`` two cases are fast, five slow, and the others for `machines`.
 
-    They are spread evenly over the cases. A number that is not given is that of all.
+    They are spread evenly over the cases. Without numbers all are fast, and as many are slow as are fast.
     """
     groups = defaultdict[str, list[pytest.Item]](list)
     for item in items:
@@ -60,7 +60,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         counts: Any = next(group[0].iter_markers("cases")).kwargs
         for here, there in (("fast", "slow"), ("slow", "machines")):
             found = [item for item in group if tier(item) == here]
-            count = min(counts.get(here, len(found)), len(found))
+            count = min(counts.get(here, counts.get("fast", len(found))), len(found))
             stay = {i * len(found) // count for i in range(count)}
             for i in set(range(len(found))) - stay:
                 found[i].add_marker(there)

@@ -37,7 +37,7 @@ def test_every_package_has_a_reference_page(package: str) -> None:
     assert f"reference/{package}.md" in navigation, "add the page to nav in mkdocs.yml"
 
 
-@pytest.mark.cases(fast=3)
+@pytest.mark.cases(fast=3, slow=99)
 @pytest.mark.parametrize("package", SCRIPT.packages())
 def test_every_public_class_says_what_it_is(package: str) -> None:
     silent = [entry.name for entry in SCRIPT.classes(package) if not entry.text]

@@ -33,7 +33,7 @@ def test_oracles_are_there() -> None:
     assert len(CASES) >= 46
 
 
-@pytest.mark.cases(fast=10)
+@pytest.mark.cases(fast=5, slow=12)
 @pytest.mark.parametrize(("folder", "name"), CASES)
 def test_oracle_as_modelica(folder: str, name: str, tmp_path: Any) -> None:
     rumoca = pytest.importorskip("rumoca", reason="rumoca, which runs the text, is not installed")

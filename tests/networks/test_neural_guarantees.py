@@ -172,7 +172,7 @@ def check_symmetry_and_zero(recipe: Any, nets: Any, x: Any, F: Any, T: float, no
         assert (np.abs(F) <= noise)[:, x == 0].all()
 
 
-@pytest.mark.cases(fast=8)
+@pytest.mark.cases(fast=5)
 @pytest.mark.parametrize(("name", "dtype"), tried(LAWS))
 def test_laws(name: str, dtype: str) -> None:
     recipe = LAWS[name]
@@ -194,7 +194,7 @@ def test_laws(name: str, dtype: str) -> None:
     check()
 
 
-@pytest.mark.cases(fast=5)
+@pytest.mark.cases(fast=3)
 @pytest.mark.parametrize(("name", "dtype"), tried(ENERGIES))
 def test_energies(name: str, dtype: str) -> None:
     recipe = ENERGIES[name]

@@ -263,7 +263,7 @@ def test_numbers_have_no_rate():
     assert float(jnp.abs(found[["first.v", "first.a"]]).max()) == 0.0
 
 
-@pytest.mark.cases(fast=3)
+@pytest.mark.cases(fast=2)
 @pytest.mark.parametrize("dt", [0.1, None])
 @pytest.mark.parametrize("form", ["pair", "samples", "record", "signal"])
 def test_records_are_differentiated_as_they_are_interpolated(form, dt):

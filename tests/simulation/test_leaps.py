@@ -82,7 +82,7 @@ CASES = {
 }
 
 
-@pytest.mark.cases(fast=4)
+@pytest.mark.cases(fast=3)
 @pytest.mark.parametrize("solver", ["auto", "stiff"])
 @pytest.mark.parametrize("name", CASES)
 def test_known_edges(name, solver):
