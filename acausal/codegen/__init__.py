@@ -6,6 +6,7 @@ It knows nothing of initial values, time integration or data.
 
 from acausal.codegen.description import described as described
 from acausal.codegen.edges import Ahead as Ahead, Edges as Edges
+from acausal.codegen.equation_formula import formula_of as formula_of
 from acausal.codegen.equations import explicit_equations as explicit_equations
 from acausal.codegen.event_values import (
     due as due,
@@ -17,12 +18,13 @@ from acausal.codegen.event_values import (
 from acausal.codegen.events import Events as Events, generate_events as generate_events
 from acausal.codegen.field import Field as Field
 from acausal.codegen.generator import generate as generate
-from acausal.codegen.instructions import Evaluate as Evaluate
+from acausal.codegen.instructions import Arguments as Arguments, Formula as Formula
 from acausal.codegen.interpreter import (
     INSTRUCTION as INSTRUCTION,
     rates as rates,
     rates_and_read as rates_and_read,
     read as read,
+    run as run,
 )
 from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix as DenseIterationMatrix,
@@ -48,7 +50,7 @@ from acausal.codegen.parameters import (
 )
 from acausal.codegen.program import Program as Program
 from acausal.codegen.reading import (
-    chosen_module as chosen_module,
+    compute as compute,
     read_parameters as read_parameters,
 )
 from acausal.codegen.state_jacobian import StateJacobian as StateJacobian

@@ -14,7 +14,7 @@ from jax import Array
 from acausal.codegen.dense import nearest, solve_linear, solve_nonlinear
 from acausal.codegen.instructions import BlockFormula, SolveTornLoop, external, module, parameter
 from acausal.codegen.lower import ModuleValue, evaluate
-from acausal.codegen.reading import Arrays, read_arguments, read_elements
+from acausal.codegen.reading import Arrays, fill, read_elements
 from acausal.codegen.values import Values
 from acausal.modeling import time
 
@@ -66,7 +66,7 @@ def _for_each(
     *rows: Array,
 ) -> list[Array]:
     """What a function of time, slots and rows gives for each of the loops; one array over the loops for each result."""
-    filled = read_arguments(loop.arguments, values, arrays)
+    filled = fill(loop.arguments, values.packed, arrays, values.t)
     t = filled.pop(time)
 
     def one(named: dict[str, Any], *own: Array) -> Array:
@@ -100,7 +100,7 @@ def nearest_of_torn_loop(
     loop: SolveTornLoop, row: int, values: Values, arrays: Arrays
 ) -> tuple[Array, Array]:
     """Unknowns and residuals of one of the loops, where the search for its solution stopped."""
-    filled = read_arguments(loop.arguments, values, arrays)
+    filled = fill(loop.arguments, values.packed, arrays, values.t)
     t = filled.pop(time)
     known = {symbol: _row(value, row) for symbol, value in filled.items()}
 

@@ -17,7 +17,7 @@ from acausal.codegen.instructions import (
     Accumulate,
     Arguments,
     BlockFormula,
-    Evaluate,
+    Formula,
     Place,
     SolveSparseLoop,
     SolveTornLoop,
@@ -124,10 +124,10 @@ class _Writer:
 
     # -- rules: what an instruction needs for one value, and how that value is written ------------------
 
-    def evaluate_needs(self, one: Evaluate, place: Place) -> list[Place]:
+    def formula_needs(self, one: Formula, place: Place) -> list[Place]:
         return self._read(one.arguments, one.size, place[1])
 
-    def evaluate(self, one: Evaluate, place: Place) -> None:
+    def formula(self, one: Formula, place: Place) -> None:
         names = self._slots(one.arguments, one.size, place[1])
         self._values[place] = _readable(one.expression.xreplace(names))
 
@@ -181,7 +181,7 @@ class _Writer:
 
 
 _RULES: dict[type, tuple[Callable[..., list[Place]], Callable[..., None]]] = {
-    Evaluate: (_Writer.evaluate_needs, _Writer.evaluate),
+    Formula: (_Writer.formula_needs, _Writer.formula),
     Accumulate: (_Writer.accumulate_needs, _Writer.accumulate),
     SolveTornLoop: (_Writer.torn_loop_needs, _Writer.torn_loop),
     SolveSparseLoop: (_Writer.sparse_loop_needs, _Writer.sparse_loop),

@@ -12,47 +12,26 @@ from functools import cached_property
 import numpy as np
 import sympy as sp
 
-from acausal.codegen.gather import Gather
+from acausal.codegen.equation_formula import formula_of
+from acausal.codegen.instructions import Formula
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import DISCRETE, Program
-from acausal.errors import StructureError
-from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
+from acausal.flattening import EquationGroup, GuardGroup, Integers, LeavesCaches, UpdateGroup
 from acausal.modeling import time
 from acausal.structure import ReducedModel
 
 
 @dataclass(frozen=True)
-class Slot:
-    """What fills a variable's slot: where values lie, their signs, and whether they are those before the event."""
-
-    symbol: sp.Symbol
-    values: Gather
-    signs: np.ndarray
-    previous: bool
-
-
-@dataclass(frozen=True)
-class Formula:
-    """One expression for ``size`` instances, and where its values go.
+class Update:
+    """A formula, and where its values go.
 
     Attributes:
-        parameters: by symbol, where they lie in `Packed.values`, or their numbers where some are folded.
-        modules: by symbol, those of `Packed`.
-        places: where the values go, in the discrete variables or the states. signs: what they are multiplied by.
+        places: in the discrete variables, or the states. signs: what they are multiplied by before.
     """
 
-    expression: sp.Expr
-    slots: tuple[Slot, ...]
-    parameters: tuple[tuple[sp.Symbol, Gather | Integers], ...]
-    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+    formula: Formula
     places: Integers
-    signs: np.ndarray
-    origin: str
-
-    @property
-    def size(self) -> int:
-        """How many instances there are."""
-        return len(self.places)
+    signs: Integers
 
 
 @dataclass(frozen=True)
@@ -86,8 +65,8 @@ class Events(LeavesCaches):
     program: Program
     layout: ParameterLayout
     guards: tuple[Guard, ...]
-    updates: tuple[Formula, ...]
-    jumps: tuple[Formula, ...]
+    updates: tuple[Update, ...]
+    jumps: tuple[Update, ...]
     exact: np.ndarray
     resets: np.ndarray
 
@@ -99,33 +78,25 @@ class Events(LeavesCaches):
     @cached_property
     def timed(self) -> np.ndarray:
         """Which conditions have a known time, shape (n_guards,)."""
-        return np.concatenate(
-            [np.zeros(0, bool), *(np.full(g.formula.size, g.timed) for g in self.guards)]
-        )
+        return self._each([g.timed for g in self.guards])
 
     @cached_property
     def strict(self) -> np.ndarray:
         """Which conditions are false at zero, shape (n_guards,)."""
-        return np.concatenate(
-            [np.zeros(0, bool), *(np.full(g.formula.size, g.strict) for g in self.guards)]
-        )
+        return self._each([g.strict for g in self.guards])
 
     @cached_property
     def ticks(self) -> np.ndarray:
         """Which conditions are clocks', shape (n_guards,)."""
-        return np.concatenate(
-            [np.zeros(0, bool), *(np.full(g.formula.size, g.ticks) for g in self.guards)]
-        )
+        return self._each([g.ticks for g in self.guards])
+
+    def _each(self, flags: Sequence[bool]) -> np.ndarray:
+        return np.repeat(np.asarray(flags, bool), [g.formula.size for g in self.guards])
 
     @cached_property
     def clocks(self) -> Events:
         """These with the conditions of clocks alone."""
         return replace(self, guards=tuple(guard for guard in self.guards if guard.ticks))
-
-    def sources(self, formulas: Sequence[Formula], *, previous: bool) -> set[int]:
-        """The arrays that some formulas read, now or before the event."""
-        slots = [s for f in formulas for s in f.slots if s.previous == previous]
-        return {source for s in slots for source in s.values.sources}
 
     def describe(self, guard: int) -> str:
         """A condition, and the component that watches it."""
@@ -170,9 +141,7 @@ class _Generator:
         model = self.reduced.model
         guards = [self._guard(g) for g in model.events.guards]
         updates = [f for level in self._levels() for f in level]
-        jumps = [
-            self._formula(g, np.arange(len(g.targets)), self.state) for g in model.events.jumps
-        ]
+        jumps = [self._update(g, np.arange(len(g.targets)), self.state) for g in model.events.jumps]
         return Events(
             self.program,
             self.layout,
@@ -212,55 +181,25 @@ class _Generator:
         return exact
 
     def _guard(self, group: GuardGroup) -> Guard:
-        formula = self._formula(group, np.arange(len(group.targets)), self.place)
-        fixed = all(set(s.values.sources) <= {DISCRETE} for s in formula.slots)
-        rate = formula.expression.diff(time) if fixed and not formula.modules else sp.S.Zero
-        timed = rate != 0 and rate.free_symbols <= {s for s, _ in formula.parameters}
+        formula = self._formula(group.group, group.previous)
+        fixed = all(s % len(self.program.nodes) == DISCRETE for s in formula.sources)
+        rate = (
+            formula.expression.diff(time) if fixed and not formula.arguments.modules else sp.S.Zero
+        )
+        timed = rate != 0 and rate.free_symbols <= {s for s, _ in formula.arguments.parameters}
         return Guard(formula, group.strict, group.ticks, timed)
 
-    def _formula(
-        self, group: UpdateGroup | GuardGroup, rows: Integers, places: Integers
-    ) -> Formula:
-        template, some = group.group.template, group.group.rows(rows)
-        slots = [
-            self._slot(s, some.variables[:, i], order, previous)
-            for i, (s, order, previous) in enumerate(
-                zip(template.variables, template.orders, group.previous, strict=True)
-            )
-        ]
+    def _update(self, group: UpdateGroup, rows: Integers, places: Integers) -> Update:
+        formula = self._formula(group.group.rows(rows), group.previous)
         targets = [self.reduced.resolve(int(v)) for v in group.targets[rows]]
-        return Formula(
-            template.residual,
-            tuple(slots),
-            tuple(
-                (s, self._parameters(p))
-                for s, p in zip(template.parameters, some.parameters.T, strict=True)
-            ),
-            tuple(
-                (s, self.layout.chosen(some.modules[:, i])) for i, s in enumerate(template.modules)
-            ),
-            places[[node for node, _ in targets]],
-            np.asarray([sign for _, sign in targets]),
-            str(group.group.origins[0]),
-        )
+        nodes, signs = (np.asarray(side) for side in zip(*targets, strict=True))
+        return Update(formula, places[nodes], signs)
 
-    def _parameters(self, numbers: Integers) -> Gather | Integers:
-        """How parameters are read; by slices, if possible, as derivatives of other reading are slow."""
-        is_folded = (self.layout.position[numbers] < 0).any()
-        return numbers if is_folded else self.layout.gather(numbers)
+    def _formula(self, group: EquationGroup, previous: Sequence[bool]) -> Formula:
+        """A formula; what was before the event is read in the second copy of the program's arrays."""
+        return formula_of(group, self.reduced, self.program, self.layout, copies=previous)
 
-    def _slot(self, symbol: sp.Symbol, variables: Integers, order: int, previous: bool) -> Slot:
-        found = [self.reduced.resolve_derivative(int(v), order) for v in variables]
-        if any(f is None for f in found):
-            raise StructureError(
-                f"an equation of events reads {symbol}, which the model does not compute; declare a variable for it, "
-                "and give that by ac.Eq(variable, ac.der(...))"
-            )
-        pairs = [f for f in found if f is not None]
-        nodes, signs = [node for node, _ in pairs], np.asarray([sign for _, sign in pairs])
-        return Slot(symbol, self.program.gather(nodes), signs, previous)
-
-    def _levels(self) -> list[list[Formula]]:
+    def _levels(self) -> list[list[Update]]:
         """The discrete variables in order: one that others read, at the same event, comes before them."""
         groups = self.reduced.model.events.updates
         level = np.zeros(len(self.reduced.discrete), dtype=np.int64)
@@ -279,10 +218,10 @@ class _Generator:
                 )
             if (level == before).all():
                 break
-        found: dict[int, list[Formula]] = {}
+        found: dict[int, list[Update]] = {}
         for group in groups:
             own = level[[self.place[self.reduced.resolve(int(v))[0]] for v in group.targets]]
             for number in np.unique(own):
                 rows = np.flatnonzero(own == number)
-                found.setdefault(int(number), []).append(self._formula(group, rows, self.place))
+                found.setdefault(int(number), []).append(self._update(group, rows, self.place))
         return [found[number] for number in sorted(found)]

@@ -14,7 +14,7 @@ from acausal.codegen.instructions import (
     Arguments,
     Balances,
     BlockFormula,
-    Evaluate,
+    Formula,
     Instruction,
     SolveSparseLoop,
     SolveTornLoop,
@@ -74,7 +74,7 @@ class _Generator:
             tuple((s, self.parameters.chosen(m)) for s, m in modules),
         )
 
-    def evaluate(self, step: Assignment) -> Evaluate:
+    def formula(self, step: Assignment) -> Formula:
         """One expression for all instances."""
         expression = step.template.solved(step.column)
         assert expression is not None
@@ -85,7 +85,7 @@ class _Generator:
             (step.template.modules, step.modules),
         )
         columns = ([(s, v) for s, v in _columns(*table) if s in present] for table in tables)
-        return Evaluate(expression, self._arguments(*columns), len(step.variables))
+        return Formula(expression, self._arguments(*columns), len(step.variables))
 
     def accumulate(self, step: Accumulation) -> Accumulate:
         """Sums of equally many terms."""
@@ -169,7 +169,7 @@ class _Generator:
 
 
 _INSTRUCTION: dict[type, Callable[[_Generator, Any], Instruction]] = {
-    Assignment: _Generator.evaluate,
+    Assignment: _Generator.formula,
     Accumulation: _Generator.accumulate,
     TornLoop: _Generator.solve_torn_loop,
     SparseLoop: _Generator.solve_sparse_loop,

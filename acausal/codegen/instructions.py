@@ -23,21 +23,31 @@ Place = tuple[int, int]
 
 @dataclass(frozen=True)
 class Arguments:
-    """What fills the slots of a formula, by symbol: for one instance, or for each."""
+    """What fills the slots of a formula, by symbol: for one instance, or for each.
 
-    variables: tuple[tuple[sp.Symbol, Gather], ...]
-    parameters: tuple[tuple[sp.Symbol, Gather], ...]
-    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+    Attributes:
+        variables: where they lie in arrays. parameters: in `Packed.values`, source 0, and a zero, source 1.
+        modules: those of `Packed`.
+    """
+
+    variables: tuple[tuple[sp.Symbol, Gather], ...] = ()
+    parameters: tuple[tuple[sp.Symbol, Gather], ...] = ()
+    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...] = ()
 
     @property
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return {s for _, g in self.variables for s in g.sources}
 
+    @property
+    def symbols(self) -> set[sp.Symbol]:
+        """The slots that are filled."""
+        return {s for part in (self.variables, self.parameters, self.modules) for s, _ in part}
+
 
 @dataclass(frozen=True)
-class Evaluate:
-    """Compute one expression for ``size`` instances."""
+class Formula:
+    """One expression for ``size`` instances; as an instruction it fills an array with its values."""
 
     expression: sp.Expr
     arguments: Arguments
@@ -51,8 +61,8 @@ class Evaluate:
         return self.arguments.sources
 
     @property
-    def formula(self) -> str:
-        """The right-hand side as text."""
+    def text(self) -> str:
+        """The right-hand side in words."""
         return f" = {self.expression}"
 
     def found_with(self, place: Place) -> list[Place]:
@@ -75,7 +85,7 @@ class Accumulate:
     size: int
 
     outputs = 1
-    formula = ", a sum,"
+    text = ", a sum,"
 
     @property
     def sources(self) -> set[int]:
@@ -227,7 +237,7 @@ class SolveSparseLoop(LeavesCaches):
         return [(place[0], i) for i in range(self.size)]
 
 
-Instruction = Evaluate | Accumulate | SolveTornLoop | SolveSparseLoop
+Instruction = Formula | Accumulate | SolveTornLoop | SolveSparseLoop
 
 
 def external(i: int) -> sp.Symbol:
