@@ -9,12 +9,8 @@ import jax.numpy as jnp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal.codegen.events import Events, Update
-from acausal.codegen.instructions import Formula
-from acausal.codegen.interpreter import run
-from acausal.codegen.program import DISCRETE
-from acausal.codegen.reading import Arrays, compute
-from acausal.codegen.values import Values
+from acausal.codegen import DISCRETE, Arrays, Formula, Values, compute, run
+from acausal.events.event_formulas import Events, Update
 
 
 def guards(

@@ -1,6 +1,6 @@
 """Edges: the times, known ahead, at which a right-hand side jumps or bends, and how long a step may be meanwhile.
 
-They are read from the formulas of a program; `acausal.codegen.lines` walks each of them. Lines are followed from one
+They are read from the formulas of a program; `acausal.events.lines` walks each of them. Lines are followed from one
 formula to the next, so a threshold behind a ramp is found, too. Nothing is listed ahead: the next edge is computed from
 the present time, with traced parameters, and it can be differentiated by them.
 """
@@ -18,18 +18,22 @@ import sympy as sp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.codegen.gather import Gather
-from acausal.codegen.instructions import (
+from acausal.codegen import (
+    DISCRETE,
+    ZERO,
     Accumulate,
     Arguments,
     Formula,
+    Gather,
     Instruction,
+    Packed,
+    Program,
     SolveTornLoop,
+    add_up,
+    fill,
+    read_elements,
 )
-from acausal.codegen.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
-from acausal.codegen.program import DISCRETE, ZERO, Program
-from acausal.codegen.reading import add_up, fill, read_elements
-from acausal.codegen.values import Packed
+from acausal.events.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
 from acausal.flattening import LeavesCaches
 from acausal.modeling import time
 
@@ -109,10 +113,10 @@ class Edges(LeavesCaches):
         for part in self._parts:
             straight = self._known - self._curved
             bent = {s for s, g in part.arguments.variables if not set(g.sources) <= straight}
-            settled = {time, *part.arguments.symbols} - bent
+            known = {time, *part.arguments.symbols} - bent
             timed = self._symbols(part, self._timed)
             for node in part.expression.atoms(*BENT):
-                if node.free_symbols - settled or not all(is_straight(a, timed) for a in node.args):
+                if node.free_symbols - known or not all(is_straight(a, timed) for a in node.args):
                     return True
         return False
 
