@@ -98,40 +98,26 @@ class Accumulate:
 
 
 @dataclass(frozen=True)
-class BlockFormula:
-    """An expression of a torn loop; its slots are filled from the loop.
-
-    Attributes:
-        variables: by symbol the number of an unknown (>= 0), or -1 - i: the external i.
-        parameters, modules: by symbol the number of a parameter or module of the loop.
-    """
-
-    expression: sp.Expr
-    variables: tuple[tuple[sp.Symbol, int], ...]
-    parameters: tuple[tuple[sp.Symbol, int], ...]
-    modules: tuple[tuple[sp.Symbol, int], ...]
-
-
-@dataclass(frozen=True)
 class SolveTornLoop:
     """Solve ``size`` algebraic loops of one shape, linear or not.
 
     For given tearing variables the other unknowns follow one by one; the remaining equations give residuals.
 
     Attributes:
-        equations: ``expression = 0`` of the loop, in order; ``residual_rows`` are those that give residuals.
+        equations: ``expression = 0`` of one loop, in order; ``residual_rows`` are those that give residuals. They read
+            the unknowns, then the values of ``arguments`` in their order, among which their modules are counted.
         assigned: in order of computation, an unknown and the expression that gives it.
         tears: the tearing variables, as numbers of unknowns.
         matched: for every unknown an equation of its own that contains it.
-        arguments: what fills `external`, `parameter` and `module` slots.
+        arguments: what the loops read.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
         guessed: for every tearing variable the states that are better guesses of it, if there are any.
         origins: where the equations that give residuals are stated, for each instance.
     """
 
-    equations: tuple[BlockFormula, ...]
+    equations: tuple[Formula, ...]
     residual_rows: tuple[int, ...]
-    assigned: tuple[tuple[int, BlockFormula], ...]
+    assigned: tuple[tuple[int, Formula], ...]
     tears: tuple[int, ...]
     matched: tuple[int, ...]
     is_linear: bool
@@ -153,7 +139,7 @@ class SolveTornLoop:
         return len(self.equations)
 
     @property
-    def residuals(self) -> tuple[BlockFormula, ...]:
+    def residuals(self) -> tuple[Formula, ...]:
         """The residuals for given tearing variables."""
         return tuple(self.equations[row] for row in self.residual_rows)
 
@@ -238,18 +224,3 @@ class SolveSparseLoop(LeavesCaches):
 
 
 Instruction = Formula | Accumulate | SolveTornLoop | SolveSparseLoop
-
-
-def external(i: int) -> sp.Symbol:
-    """Slot of a variable that a loop's equations read besides its unknowns."""
-    return sp.Symbol(f"e{i}")
-
-
-def parameter(i: int) -> sp.Symbol:
-    """Slot of a parameter of a loop."""
-    return sp.Symbol(f"p{i}")
-
-
-def module(i: int) -> sp.Symbol:
-    """Slot of a callable parameter of a loop."""
-    return sp.Symbol(f"m{i}")

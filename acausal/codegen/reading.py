@@ -38,8 +38,9 @@ def fill(
     filled |= {symbol: read_parameters(g, packed) for symbol, g in arguments.parameters}
     for symbol, chosen in arguments.modules:
         modules = [packed.modules[i] for i in chosen]
-        same = len(set(chosen)) == 1
-        filled[symbol] = ModuleValue(modules[0]) if same else collect(modules)
+        same, one = len(set(chosen)) == 1, modules[0]
+        own = one if isinstance(one, ModuleValue) else ModuleValue(one)
+        filled[symbol] = own if same else collect(modules)
     return filled
 
 

@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 import sympy as sp
 from jax import Array
 from jax.typing import ArrayLike
@@ -191,16 +193,17 @@ def _parts(instruction: Instruction, first: int) -> Iterator[_Part]:
     if isinstance(instruction, Formula | Accumulate):
         yield _Part(instruction, first)
     elif isinstance(instruction, SolveTornLoop):
-        a = instruction.arguments
-        outer, numbers = ([g for _, g in part] for part in (a.variables, a.parameters))
-        modules = [m for _, m in a.modules]
+        outer, n = instruction.arguments, instruction.outputs
+        own = (*outer.variables, *outer.parameters, *outer.modules)
+        ends = np.cumsum([0, *map(len, (outer.variables, outer.parameters, outer.modules))])
         for f in instruction.equations:
-            arguments = Arguments(
-                tuple((s, outer[-1 - n]) for s, n in f.variables if n < 0),
-                tuple((s, numbers[n]) for s, n in f.parameters),
-                tuple((s, modules[n]) for s, n in f.modules),
-            )
-            yield _Part(Formula(f.expression, arguments, instruction.size))
+            places = {s: g.sources[0] - n for s, g in f.arguments.variables}
+            places |= {s: m for s, (m,) in f.arguments.modules}
+            parts: list[Any] = [
+                tuple((s, own[p][1]) for s, p in places.items() if begin <= p < end)
+                for begin, end in pairwise(ends)
+            ]
+            yield _Part(Formula(f.expression, Arguments(*parts), instruction.size))
     else:
         for f in instruction.formulas:
             yield _Part(Formula(f.residual, f.arguments, f.size))
