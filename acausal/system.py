@@ -18,8 +18,6 @@ from numpy.typing import ArrayLike as Numbers
 
 from acausal._jax import array, as_key, check_time, floating, is_real, need_double_precision
 from acausal.codegen import (
-    Edges,
-    Events,
     Field,
     Packed,
     ParameterLayout,
@@ -30,7 +28,6 @@ from acausal.codegen import (
     explain_nonfinite,
     explicit_equations,
     generate,
-    generate_events,
     lay_out_parameters,
     pack,
     rates,
@@ -38,6 +35,7 @@ from acausal.codegen import (
     read,
 )
 from acausal.errors import DataError, ModelError, nearest, need_flag, shown, user_level
+from acausal.events import Edges, Events, generate_events, start_of
 from acausal.flattening import (
     HIDDEN,
     FlatModel,
@@ -47,7 +45,7 @@ from acausal.flattening import (
     unconnected,
     with_inputs,
 )
-from acausal.initialization import Initialization, Initializer, initializer, overview, start_of
+from acausal.initialization import Initialization, Initializer, initializer, overview
 from acausal.modeling import Budget, Component, Discrete, Name, Option, names_in
 from acausal.structure import ReducedModel, reduce, with_loop_guesses
 from acausal.units import check_dimensions
@@ -222,15 +220,7 @@ class System(LeavesCaches):
         if not _is_hidden(name):
             return name
         assert self.events is not None
-        if place < self.events.n_guards:
-            return self.events.describe(place)
-        for group in self.flat.events.updates:
-            for target, component in zip(group.targets, group.group.components, strict=True):
-                if self.reduced.resolve(int(target))[0] == node:
-                    path = self.flat.layout.paths[component]
-                    text = group.group.origins[0].text
-                    return f"{path}: {text}" if path else text
-        return name
+        return self.events.describe(place) or name
 
     def is_discrete(self, name: str) -> bool:
         """Whether a variable changes at events only: a discrete one, or one that equals such."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
@@ -11,7 +12,14 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
-from acausal.codegen import Packed, Values, chosen_module, evaluate, read, read_parameters
+from acausal.codegen import (
+    Formula,
+    Packed,
+    Values,
+    compute,
+    formula_of,
+    run,
+)
 from acausal.errors import ModelError, nearest
 from acausal.flattening import EquationGroup, Integers
 from acausal.modeling import ModuleCall, time
@@ -25,37 +33,18 @@ class Calls:
     """A call of a module that some equations of one template state: one row for each of these equations.
 
     Attributes:
-        arguments: expressions in the slots of the template.
-        targets: (n,) which module each row calls.
-        variables: by slot, (n,) which node fills it, and with what sign.
-        parameters: by slot, (n,) which parameter fills it.
-        modules: by slot, which module fills it, for calls within the arguments.
+        arguments: what it is called with. targets: (n,) which module each row calls.
     """
 
-    arguments: tuple[Any, ...]
+    arguments: tuple[Formula, ...]
     targets: Integers
-    variables: tuple[tuple[sp.Symbol, Integers, Integers], ...]
-    parameters: tuple[tuple[sp.Symbol, Integers], ...]
-    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
-
-    @property
-    def nodes(self) -> Integers:
-        """All nodes that the arguments read."""
-        return np.concatenate([np.zeros(0, np.int64), *(nodes for _, nodes, _ in self.variables)])
 
     def values(self, system: System, values: Values) -> Float[Array, "n n_arguments"]:
         """The arguments at one point."""
-        n, packed = len(self.targets), values.packed
-        slots: dict[sp.Symbol, Any] = {time: values.t}
-        if self.variables:
-            found = read(system.program, self.nodes.tolist(), values)
-            for i, (symbol, _, signs) in enumerate(self.variables):
-                own = found[i * n : (i + 1) * n]
-                slots[symbol] = own if (signs == 1).all() else own * signs
-        slots |= {s: read_parameters(system.layout, p, packed) for s, p in self.parameters}
-        slots |= {s: chosen_module(packed, chosen) for s, chosen in self.modules}
-        each = [jnp.asarray(evaluate(a, slots), float) for a in self.arguments]
-        return jnp.stack([jnp.broadcast_to(a, (n,)) for a in each], axis=1)
+        arrays = run(system.program, {s for a in self.arguments for s in a.sources}, values)
+        each = [compute(a, values.packed, arrays, values.t) for a in self.arguments]
+        n = len(self.targets)
+        return jnp.stack([jnp.broadcast_to(a, (n,)).astype(float) for a in each], axis=1)
 
 
 def target(system: System, module: str) -> int:
@@ -84,7 +73,10 @@ def _calls(system: System, wanted: list[int]) -> Iterator[Calls]:
     for group, call, called in _stated(system):
         rows = np.isin(called, wanted)
         if rows.any():
-            yield _filled(system, group.rows(rows), called[rows], call.args[2:])
+            own = partial(
+                formula_of, group.rows(rows), system.reduced, system.program, system.layout
+            )
+            yield Calls(tuple(map(own, call.args[2:])), called[rows])
 
 
 def _stated(system: System) -> Iterator[tuple[EquationGroup, Any, Integers]]:
@@ -94,32 +86,6 @@ def _stated(system: System) -> Iterator[tuple[EquationGroup, Any, Integers]]:
             for call in sorted(group.template.residual.atoms(ModuleCall), key=sp.default_sort_key):
                 slot = group.template.modules.index(call.args[0])
                 yield group, call, system.layout.module_of[group.modules[:, slot]]
-
-
-def _filled(
-    system: System, group: EquationGroup, targets: Integers, arguments: tuple[Any, ...]
-) -> Calls:
-    """The arguments of one call, with what fills their slots in the equations of a group."""
-    template = group.template
-    present = {s for a in arguments for s in a.free_symbols}
-    columns = zip(template.variables, group.variables.T.tolist(), template.orders, strict=True)
-    variables = tuple((s, *_nodes(system, v, n)) for s, v, n in columns if s in present)
-    parameters = zip(template.parameters, group.parameters.T, strict=True)
-    modules = zip(template.modules, system.layout.module_of[group.modules].T.tolist(), strict=True)
-    return Calls(
-        arguments,
-        targets,
-        variables,
-        tuple((s, p) for s, p in parameters if s in present),
-        tuple((s, tuple(chosen)) for s, chosen in modules),
-    )
-
-
-def _nodes(system: System, variables: list[int], order: int) -> tuple[Integers, Integers]:
-    """Nodes and signs of variables, or of derivatives of them, that stand in the model's equations."""
-    found = [system.reduced.resolve_derivative(variable, order) for variable in variables]
-    nodes, signs = zip(*(pair for pair in found if pair is not None), strict=True)
-    return np.asarray(nodes, np.int64), np.asarray(signs, np.int64)
 
 
 def arguments(system: System, module: str, values: Values) -> Float[Array, "n_calls n_arguments"]:
@@ -167,9 +133,8 @@ def labels(system: System, module: str, packed: Packed) -> Labels:
         given, factor = _given(first, call)
         if given is None:
             return Labels(arguments, "")
-        slots = zip(group.template.parameters, first.parameters[0].tolist(), strict=True)
-        values = {s: read_parameters(system.layout, p, packed) for s, p in slots}
-        return Labels(arguments, _label(system, first, given), float(evaluate(factor, values)))
+        formula = formula_of(first, system.reduced, system.program, system.layout, factor)
+        return Labels(arguments, _label(system, first, given), float(compute(formula, packed)))
     return Labels((), "")
 
 

@@ -5,31 +5,30 @@ It knows nothing of initial values, time integration or data.
 """
 
 from acausal.codegen.description import described as described
-from acausal.codegen.edges import Ahead as Ahead, Edges as Edges
+from acausal.codegen.equation_formula import formula_of as formula_of
 from acausal.codegen.equations import explicit_equations as explicit_equations
-from acausal.codegen.event_values import (
-    due as due,
-    guards as guards,
-    holds as holds,
-    jumped as jumped,
-    updated as updated,
-)
-from acausal.codegen.events import Events as Events, generate_events as generate_events
 from acausal.codegen.field import Field as Field
+from acausal.codegen.gather import Gather as Gather
 from acausal.codegen.generator import generate as generate
-from acausal.codegen.instructions import Evaluate as Evaluate
+from acausal.codegen.instructions import (
+    Accumulate as Accumulate,
+    Arguments as Arguments,
+    Formula as Formula,
+    Instruction as Instruction,
+    SolveTornLoop as SolveTornLoop,
+)
 from acausal.codegen.interpreter import (
     INSTRUCTION as INSTRUCTION,
     rates as rates,
     rates_and_read as rates_and_read,
     read as read,
+    run as run,
 )
 from acausal.codegen.iteration_matrix import (
     DenseIterationMatrix as DenseIterationMatrix,
     IterationMatrix as IterationMatrix,
     SparseIterationMatrix as SparseIterationMatrix,
 )
-from acausal.codegen.lines import PART_OF_PERIOD as PART_OF_PERIOD
 from acausal.codegen.lower import ModuleValue as ModuleValue, evaluate as evaluate
 from acausal.codegen.newton import Dense as Dense, root as root
 from acausal.codegen.nonfinite import (
@@ -46,9 +45,18 @@ from acausal.codegen.parameters import (
     ParameterLayout as ParameterLayout,
     lay_out_parameters as lay_out_parameters,
 )
-from acausal.codegen.program import Program as Program
+from acausal.codegen.program import (
+    DISCRETE as DISCRETE,
+    STATES as STATES,
+    ZERO as ZERO,
+    Program as Program,
+)
 from acausal.codegen.reading import (
-    chosen_module as chosen_module,
+    Arrays as Arrays,
+    add_up as add_up,
+    compute as compute,
+    fill as fill,
+    read_elements as read_elements,
     read_parameters as read_parameters,
 )
 from acausal.codegen.state_jacobian import StateJacobian as StateJacobian

@@ -2,30 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-import sympy as sp
+import numpy as np
 from jax import Array
 
 from acausal.codegen.dense import nearest, solve_linear, solve_nonlinear
-from acausal.codegen.instructions import BlockFormula, SolveTornLoop, external, module, parameter
-from acausal.codegen.lower import ModuleValue, evaluate
-from acausal.codegen.reading import Arrays, read_arguments, read_elements
-from acausal.codegen.values import Values
+from acausal.codegen.instructions import Formula, SolveTornLoop
+from acausal.codegen.lower import ModuleValue
+from acausal.codegen.reading import Arrays, compute, fill, read_elements
+from acausal.codegen.values import Packed, Values
 from acausal.modeling import time
 
-SlotValues = dict[sp.Symbol, Any]
+Known = Sequence[Any]
+"""What the loops read: the values of their arguments, in order."""
+
+NOTHING: Any = np.zeros(0)
 
 
 def solve_torn_loops(loop: SolveTornLoop, values: Values, arrays: Arrays) -> list[Array]:
     """The unknowns, one array each over the loops."""
     solve = solve_linear if loop.is_linear else solve_nonlinear
 
-    def one(t: Any, known: SlotValues, guess: Array, scale: Array) -> Array:
+    def one(t: Any, known: Known, guess: Array, scale: Array) -> Array:
         return solve(lambda tears: _torn(loop, tears, t, known), guess, scale)
 
     scale = jnp.asarray(loop.scale, values.x.dtype)
@@ -47,12 +50,8 @@ def matched_residuals_of_torn_loops(
 ) -> list[Array]:
     """For given unknowns the residuals of the equations matched to them, one array each over the loops."""
 
-    def one(t: Any, known: SlotValues, own: Array) -> Array:
-        equations = [loop.equations[e] for e in loop.matched]
-        filled = [_filled(f, list(own), t, known) for f in equations]
-        return jnp.stack(
-            [evaluate(f.expression, v) for f, v in zip(equations, filled, strict=True)]
-        )
+    def one(t: Any, known: Known, own: Array) -> Array:
+        return jnp.stack([_value(loop.equations[e], list(own), t, known) for e in loop.matched])
 
     rows = jnp.stack(unknowns, axis=-1).reshape(loop.size, loop.outputs)
     return _for_each(loop, values, arrays, one, rows)
@@ -65,14 +64,14 @@ def _for_each(
     function: Callable[..., Array],
     *rows: Array,
 ) -> list[Array]:
-    """What a function of time, slots and rows gives for each of the loops; one array over the loops for each result."""
-    filled = read_arguments(loop.arguments, values, arrays)
+    """What a function of time, arguments and rows gives for each of the loops; an array over them for each result."""
+    filled = fill(loop.arguments, values.packed, arrays, values.t)
     t = filled.pop(time)
 
-    def one(named: dict[str, Any], *own: Array) -> Array:
-        return function(t, {sp.Symbol(name): value for name, value in named.items()}, *own)
+    def one(known: dict[int, Any], *own: Array) -> Array:
+        return function(t, list(known.values()), *own)
 
-    named = {s.name: v for s, v in filled.items()}
+    named = dict(enumerate(filled.values()))
     if loop.size == 1:
         return list(one(named, *(r[0] for r in rows)))
     if any(isinstance(v, ModuleValue) and isinstance(v.module, tuple) for v in named.values()):
@@ -89,9 +88,10 @@ def _for_each(
         for k, (v, _) in parts.items()
     }
 
-    def row(arrays: dict[str, Any], *own: Array) -> Array:
+    def row(arrays: dict[int, Any], *own: Array) -> Array:
         combined = {k: eqx.combine(v, parts[k][1]) for k, v in arrays.items()}
-        return one({**shared, **combined}, *own)
+        both = {**shared, **combined}
+        return one({k: both[k] for k in named}, *own)
 
     return list(jax.vmap(row)(batched, *rows).T)
 
@@ -100,9 +100,9 @@ def nearest_of_torn_loop(
     loop: SolveTornLoop, row: int, values: Values, arrays: Arrays
 ) -> tuple[Array, Array]:
     """Unknowns and residuals of one of the loops, where the search for its solution stopped."""
-    filled = read_arguments(loop.arguments, values, arrays)
+    filled = fill(loop.arguments, values.packed, arrays, values.t)
     t = filled.pop(time)
-    known = {symbol: _row(value, row) for symbol, value in filled.items()}
+    known = [_row(value, row) for value in filled.values()]
 
     def block(tears: Array) -> tuple[Array, Array]:
         return _torn(loop, tears, t, known)
@@ -122,25 +122,17 @@ def _row(value: Any, i: int) -> Any:
     return jax.tree.map(lambda leaf: leaf[i] if eqx.is_array(leaf) else leaf, value.module)
 
 
-def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: SlotValues) -> tuple[Array, Array]:
+def _torn(loop: SolveTornLoop, tears: Array, t: Any, known: Known) -> tuple[Array, Array]:
     """All unknowns of a torn block, and its residuals, for given tearing variables."""
     unknowns: list[Any] = [None] * loop.outputs
     for i, variable in enumerate(loop.tears):
         unknowns[variable] = tears[i]
     for unknown, formula in loop.assigned:
-        unknowns[unknown] = evaluate(formula.expression, _filled(formula, unknowns, t, known))
-    residuals = [evaluate(f.expression, _filled(f, unknowns, t, known)) for f in loop.residuals]
+        unknowns[unknown] = _value(formula, unknowns, t, known)
+    residuals = [_value(f, unknowns, t, known) for f in loop.residuals]
     return jnp.stack(unknowns), jnp.stack(residuals)
 
 
-def _filled(formula: BlockFormula, unknowns: list[Any], t: Any, known: SlotValues) -> SlotValues:
-    """The values in the slots of a formula of the block."""
-    values: SlotValues = {time: t}
-    for symbol, code in formula.variables:
-        values[symbol] = unknowns[code] if code >= 0 else known[external(-1 - code)]
-    for symbol, i in formula.parameters:
-        values[symbol] = known[parameter(i)]
-    for symbol, i in formula.modules:
-        value = known[module(i)]
-        values[symbol] = value if isinstance(value, ModuleValue) else ModuleValue(value)
-    return values
+def _value(formula: Formula, unknowns: Sequence[Any], t: Any, known: Known) -> Array:
+    """The value of a formula of the block."""
+    return compute(formula, Packed(NOTHING, tuple(known)), [*unknowns, *known], t)

@@ -16,14 +16,10 @@ from acausal.codegen.gather import Gather
 from acausal.codegen.instructions import (
     Accumulate,
     Arguments,
-    BlockFormula,
-    Evaluate,
+    Formula,
     Place,
     SolveSparseLoop,
     SolveTornLoop,
-    external,
-    module,
-    parameter,
 )
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
@@ -124,10 +120,10 @@ class _Writer:
 
     # -- rules: what an instruction needs for one value, and how that value is written ------------------
 
-    def evaluate_needs(self, one: Evaluate, place: Place) -> list[Place]:
+    def formula_needs(self, one: Formula, place: Place) -> list[Place]:
         return self._read(one.arguments, one.size, place[1])
 
-    def evaluate(self, one: Evaluate, place: Place) -> None:
+    def formula(self, one: Formula, place: Place) -> None:
         names = self._slots(one.arguments, one.size, place[1])
         self._values[place] = _readable(one.expression.xreplace(names))
 
@@ -147,8 +143,8 @@ class _Writer:
         first = self.program.first[self.program.filled_by[array]]
         unknowns = [(first + i, row) for i in range(loop.outputs)]
         own = [self.symbol(p) for p in unknowns]
-        filled = self._slots(loop.arguments, loop.size, row)
-        residuals = [_written(formula, own, filled) for formula in loop.equations]
+        _, *filled = self._slots(loop.arguments, loop.size, row).values()
+        residuals = [_written(formula, [*own, *filled], filled) for formula in loop.equations]
         is_small = loop.is_linear and len(own) <= MAX_LOOP
         solved = sp.solve(residuals, own, dict=True) if is_small else []
         if solved:
@@ -181,7 +177,7 @@ class _Writer:
 
 
 _RULES: dict[type, tuple[Callable[..., list[Place]], Callable[..., None]]] = {
-    Evaluate: (_Writer.evaluate_needs, _Writer.evaluate),
+    Formula: (_Writer.formula_needs, _Writer.formula),
     Accumulate: (_Writer.accumulate_needs, _Writer.accumulate),
     SolveTornLoop: (_Writer.torn_loop_needs, _Writer.torn_loop),
     SolveSparseLoop: (_Writer.sparse_loop_needs, _Writer.sparse_loop),
@@ -195,15 +191,12 @@ def _add(
         terms[row].append(sp.nsimplify(factor) * value)
 
 
-def _written(
-    formula: BlockFormula, unknowns: Sequence[sp.Symbol], filled: SlotExpressions
-) -> sp.Expr:
-    """A formula of a torn loop in the names of its unknowns and of what fills the loop's slots."""
+def _written(formula: Formula, known: Sequence[sp.Expr], modules: Sequence[sp.Expr]) -> sp.Expr:
+    """A formula of a torn loop in the names of what it reads."""
     names: SlotExpressions = {internal_time: time}
-    for symbol, code in formula.variables:
-        names[symbol] = unknowns[code] if code >= 0 else filled[external(-1 - code)]
-    names |= {symbol: filled[parameter(i)] for symbol, i in formula.parameters}
-    names |= {symbol: filled[module(i)] for symbol, i in formula.modules}
+    for symbol, gather in formula.arguments.variables:
+        names[symbol] = known[gather.sources[0]]
+    names |= {symbol: modules[m] for symbol, (m,) in formula.arguments.modules}
     return _readable(formula.expression.xreplace(names))
 
 

@@ -94,10 +94,35 @@ class Take:
         return np.asarray(self.sources)[place], positions
 
 
-Gather = One | Runs | Interleaved | Take
+Elements = One | Runs | Interleaved | Take
 
 
-def gather(source: Integers, index: Integers, sizes: Sequence[int]) -> Gather:
+@dataclass(frozen=True)
+class Signed:
+    """Elements that a gather selects, each times its sign."""
+
+    elements: Elements
+    signs: Integers
+
+    @property
+    def sources(self) -> tuple[int, ...]:
+        """The arrays that are read."""
+        return self.elements.sources
+
+    def positions(self, sizes: Sequence[int]) -> Positions:
+        """Where the elements lie, without their signs; see `One.positions`."""
+        return self.elements.positions(sizes)
+
+
+Gather = Elements | Signed
+
+
+def signed(elements: Elements, signs: Integers) -> Gather:
+    """The same, each times its sign."""
+    return elements if (signs == 1).all() else Signed(elements, signs)
+
+
+def gather(source: Integers, index: Integers, sizes: Sequence[int]) -> Elements:
     """The cheapest way to read elements ``index[i]`` of arrays ``source[i]``.
 
     One element where all are the same, slices where the indices progress evenly, or every second one does, or

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
 import sympy as sp
 
-from acausal.codegen.gather import Gather, gather
+from acausal.codegen.gather import Gather, One, gather
 from acausal.codegen.instructions import (
     Accumulate,
     Arguments,
     Balances,
-    BlockFormula,
-    Evaluate,
+    Formula,
     Instruction,
     SolveSparseLoop,
     SolveTornLoop,
     SparseFormula,
-    external,
-    module,
-    parameter,
 )
 from acausal.codegen.parameters import ParameterLayout
 from acausal.codegen.program import Program
@@ -74,7 +71,7 @@ class _Generator:
             tuple((s, self.parameters.chosen(m)) for s, m in modules),
         )
 
-    def evaluate(self, step: Assignment) -> Evaluate:
+    def formula(self, step: Assignment) -> Formula:
         """One expression for all instances."""
         expression = step.template.solved(step.column)
         assert expression is not None
@@ -85,7 +82,7 @@ class _Generator:
             (step.template.modules, step.modules),
         )
         columns = ([(s, v) for s, v in _columns(*table) if s in present] for table in tables)
-        return Evaluate(expression, self._arguments(*columns), len(step.variables))
+        return Formula(expression, self._arguments(*columns), len(step.variables))
 
     def accumulate(self, step: Accumulation) -> Accumulate:
         """Sums of equally many terms."""
@@ -97,9 +94,9 @@ class _Generator:
         """Torn loops of one shape."""
         shape, torn = loop.shape, loop.shape.torn
         arguments = self._arguments(
-            ((external(i), v) for i, v in enumerate(loop.externals.T)),
-            ((parameter(i), p) for i, p in enumerate(loop.parameters.T)),
-            ((module(i), m) for i, m in enumerate(loop.modules.T)),
+            ((sp.Symbol(f"e{i}"), v) for i, v in enumerate(loop.externals.T)),
+            ((sp.Symbol(f"p{i}"), p) for i, p in enumerate(loop.parameters.T)),
+            ((sp.Symbol(f"m{i}"), m) for i, m in enumerate(loop.modules.T)),
         )
         tears = loop.unknowns[:, list(torn.tears)]
         stated = [shape.equations[e] for e, _ in torn.assigned]
@@ -107,10 +104,12 @@ class _Generator:
             (unknown, one.template.solved(one.variables.index(unknown)), one)
             for (_, unknown), one in zip(torn.assigned, stated, strict=True)
         ]
+        first = (len(shape.equations), len(arguments.variables), len(arguments.parameters))
+        own = partial(_of_block, first)
         return SolveTornLoop(
-            tuple(_block_formula(e.template.residual, e) for e in shape.equations),
+            tuple(own(e.template.residual, e) for e in shape.equations),
             tuple(torn.residuals),
-            tuple((unknown, _block_formula(formula, e)) for unknown, formula, e in solved),
+            tuple((unknown, own(formula, e)) for unknown, formula, e in solved),
             tuple(torn.tears),
             shape.matched,
             shape.is_linear,
@@ -119,7 +118,7 @@ class _Generator:
             tuple(map(self._guess, tears.T)),
             self.reduced.nominal(tears),
             len(loop.unknowns),
-            tuple(tuple(own[e] for e in torn.residuals) for own in loop.origins),
+            tuple(tuple(each[e] for e in torn.residuals) for each in loop.origins),
         )
 
     def _guess(self, unknowns: Integers) -> Gather | None:
@@ -169,7 +168,7 @@ class _Generator:
 
 
 _INSTRUCTION: dict[type, Callable[[_Generator, Any], Instruction]] = {
-    Assignment: _Generator.evaluate,
+    Assignment: _Generator.formula,
     Accumulation: _Generator.accumulate,
     TornLoop: _Generator.solve_torn_loop,
     SparseLoop: _Generator.solve_sparse_loop,
@@ -201,16 +200,21 @@ def generate(reduced: ReducedModel, parameters: ParameterLayout) -> Program:
     )
 
 
-def _block_formula(expression: sp.Expr | None, stated: BlockEquation) -> BlockFormula:
-    """An expression in the slots of an equation of a block."""
+def _of_block(
+    counts: tuple[int, int, int], expression: sp.Expr | None, stated: BlockEquation
+) -> Formula:
+    """An equation of a block; ``counts`` are those of its unknowns, of other variables and of parameters."""
     assert expression is not None
-    template = stated.template
-    return BlockFormula(
-        expression,
-        tuple(zip(template.variables, stated.variables, strict=True)),
-        tuple(zip(template.parameters, stated.parameters, strict=True)),
-        tuple(zip(template.modules, stated.modules, strict=True)),
+    template, (unknowns, others, numbers) = stated.template, counts
+    places = [v if v >= 0 else unknowns - 1 - v for v in stated.variables]
+    places += [unknowns + others + p for p in stated.parameters]
+    symbols, present = (*template.variables, *template.parameters), expression.free_symbols
+    modules = zip(template.modules, stated.modules, strict=True)
+    arguments = Arguments(
+        tuple((s, One(place, 0)) for s, place in zip(symbols, places, strict=True) if s in present),
+        modules=tuple((s, (others + numbers + m,)) for s, m in modules if s in present),
     )
+    return Formula(expression, arguments, 1)
 
 
 def _columns(

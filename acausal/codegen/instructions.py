@@ -23,21 +23,31 @@ Place = tuple[int, int]
 
 @dataclass(frozen=True)
 class Arguments:
-    """What fills the slots of a formula, by symbol: for one instance, or for each."""
+    """What fills the slots of a formula, by symbol: for one instance, or for each.
 
-    variables: tuple[tuple[sp.Symbol, Gather], ...]
-    parameters: tuple[tuple[sp.Symbol, Gather], ...]
-    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
+    Attributes:
+        variables: where they lie in arrays. parameters: in `Packed.values`, source 0, and a zero, source 1.
+        modules: those of `Packed`.
+    """
+
+    variables: tuple[tuple[sp.Symbol, Gather], ...] = ()
+    parameters: tuple[tuple[sp.Symbol, Gather], ...] = ()
+    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...] = ()
 
     @property
     def sources(self) -> set[int]:
         """The arrays that are read."""
         return {s for _, g in self.variables for s in g.sources}
 
+    @property
+    def symbols(self) -> set[sp.Symbol]:
+        """The slots that are filled."""
+        return {s for part in (self.variables, self.parameters, self.modules) for s, _ in part}
+
 
 @dataclass(frozen=True)
-class Evaluate:
-    """Compute one expression for ``size`` instances."""
+class Formula:
+    """One expression for ``size`` instances; as an instruction it fills an array with its values."""
 
     expression: sp.Expr
     arguments: Arguments
@@ -51,8 +61,8 @@ class Evaluate:
         return self.arguments.sources
 
     @property
-    def formula(self) -> str:
-        """The right-hand side as text."""
+    def text(self) -> str:
+        """The right-hand side in words."""
         return f" = {self.expression}"
 
     def found_with(self, place: Place) -> list[Place]:
@@ -75,7 +85,7 @@ class Accumulate:
     size: int
 
     outputs = 1
-    formula = ", a sum,"
+    text = ", a sum,"
 
     @property
     def sources(self) -> set[int]:
@@ -88,40 +98,26 @@ class Accumulate:
 
 
 @dataclass(frozen=True)
-class BlockFormula:
-    """An expression of a torn loop; its slots are filled from the loop.
-
-    Attributes:
-        variables: by symbol the number of an unknown (>= 0), or -1 - i: the external i.
-        parameters, modules: by symbol the number of a parameter or module of the loop.
-    """
-
-    expression: sp.Expr
-    variables: tuple[tuple[sp.Symbol, int], ...]
-    parameters: tuple[tuple[sp.Symbol, int], ...]
-    modules: tuple[tuple[sp.Symbol, int], ...]
-
-
-@dataclass(frozen=True)
 class SolveTornLoop:
     """Solve ``size`` algebraic loops of one shape, linear or not.
 
     For given tearing variables the other unknowns follow one by one; the remaining equations give residuals.
 
     Attributes:
-        equations: ``expression = 0`` of the loop, in order; ``residual_rows`` are those that give residuals.
+        equations: ``expression = 0`` of one loop, in order; ``residual_rows`` are those that give residuals. They read
+            the unknowns, then the values of ``arguments`` in their order, among which their modules are counted.
         assigned: in order of computation, an unknown and the expression that gives it.
         tears: the tearing variables, as numbers of unknowns.
         matched: for every unknown an equation of its own that contains it.
-        arguments: what fills `external`, `parameter` and `module` slots.
+        arguments: what the loops read.
         guess, scale: start values and magnitudes of the tearing variables, (size, n_tears).
         guessed: for every tearing variable the states that are better guesses of it, if there are any.
         origins: where the equations that give residuals are stated, for each instance.
     """
 
-    equations: tuple[BlockFormula, ...]
+    equations: tuple[Formula, ...]
     residual_rows: tuple[int, ...]
-    assigned: tuple[tuple[int, BlockFormula], ...]
+    assigned: tuple[tuple[int, Formula], ...]
     tears: tuple[int, ...]
     matched: tuple[int, ...]
     is_linear: bool
@@ -143,7 +139,7 @@ class SolveTornLoop:
         return len(self.equations)
 
     @property
-    def residuals(self) -> tuple[BlockFormula, ...]:
+    def residuals(self) -> tuple[Formula, ...]:
         """The residuals for given tearing variables."""
         return tuple(self.equations[row] for row in self.residual_rows)
 
@@ -227,19 +223,4 @@ class SolveSparseLoop(LeavesCaches):
         return [(place[0], i) for i in range(self.size)]
 
 
-Instruction = Evaluate | Accumulate | SolveTornLoop | SolveSparseLoop
-
-
-def external(i: int) -> sp.Symbol:
-    """Slot of a variable that a loop's equations read besides its unknowns."""
-    return sp.Symbol(f"e{i}")
-
-
-def parameter(i: int) -> sp.Symbol:
-    """Slot of a parameter of a loop."""
-    return sp.Symbol(f"p{i}")
-
-
-def module(i: int) -> sp.Symbol:
-    """Slot of a callable parameter of a loop."""
-    return sp.Symbol(f"m{i}")
+Instruction = Formula | Accumulate | SolveTornLoop | SolveSparseLoop

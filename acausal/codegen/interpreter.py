@@ -12,14 +12,13 @@ from jaxtyping import Array, Float
 from acausal.codegen.dense_loop import matched_residuals_of_torn_loops, solve_torn_loops
 from acausal.codegen.instructions import (
     Accumulate,
-    Evaluate,
+    Formula,
     Instruction,
     SolveSparseLoop,
     SolveTornLoop,
 )
-from acausal.codegen.lower import evaluate
 from acausal.codegen.program import DISCRETE, INPUTS, STATES, ZERO, Program
-from acausal.codegen.reading import Arrays, read_arguments, read_elements
+from acausal.codegen.reading import Arrays, add_up, compute, read_elements
 from acausal.codegen.sparse_loop import (
     matched_residuals_of_sparse_loop,
     solve_sparse_loop,
@@ -134,23 +133,17 @@ def _rates(program: Program, values: Values, arrays: list[Any]) -> Array:
     return found if (program.rate_signs == 1).all() else found * program.rate_signs
 
 
-def _evaluate(instruction: Evaluate, values: Values, arrays: Arrays) -> list[Array]:
-    filled = read_arguments(instruction.arguments, values, arrays)
-    value = jnp.asarray(evaluate(instruction.expression, filled))
-    return [value if instruction.size == 1 else jnp.broadcast_to(value, (instruction.size,))]
+def _compute(formula: Formula, values: Values, arrays: Arrays) -> list[Array]:
+    return [compute(formula, values.packed, arrays, values.t)]
 
 
 def _accumulate(instruction: Accumulate, values: Values, arrays: Arrays) -> list[Array]:
     del values
-    terms, size = instruction.terms, instruction.size
-    found = jnp.broadcast_to(read_elements(instruction.values, arrays), (terms * size,))
-    weights = jnp.asarray(instruction.weights, found.dtype)
-    total = (found.reshape(terms, size) * weights).sum(axis=0)
-    return [total[0] if size == 1 else total]
+    return [add_up(instruction, read_elements(instruction.values, arrays))]
 
 
 _EXECUTE: dict[type, Callable[[Any, Values, Arrays], list[Array]]] = {
-    Evaluate: _evaluate,
+    Formula: _compute,
     Accumulate: _accumulate,
     SolveTornLoop: solve_torn_loops,
     SolveSparseLoop: solve_sparse_loop,

@@ -19,9 +19,8 @@ from jax.core import Tracer
 from jaxtyping import Float
 
 from acausal._jax import array, as_key
-from acausal.codegen.lower import evaluate
 from acausal.codegen.parameters import ParameterLayout
-from acausal.codegen.reading import read_elements
+from acausal.codegen.reading import compute
 from acausal.codegen.values import Packed
 from acausal.errors import DataError, DeclarationError, listing, shown
 
@@ -105,10 +104,9 @@ def _as_array(given: Sequence[Any], known: Float[np.ndarray, " n_free"]) -> Floa
 def bind(layout: ParameterLayout, free: Array) -> Array:
     """All parameters and constants, shape (n_values,), from those that are free, in the program's order."""
     arrays = [free]
-    for group in layout.bound:
-        arguments = {symbol: read_elements(g, arrays) for symbol, g in group.arguments}
-        value = jnp.asarray(evaluate(group.expression, arguments))
-        arrays.append(value if group.size == 1 else jnp.broadcast_to(value, (group.size,)))
+    none = Packed(free, ())
+    for formula in layout.bound:
+        arrays.append(compute(formula, none, arrays))
     if len(layout.constants):
         arrays.append(jnp.asarray(layout.constants, free.dtype))
     return jnp.concatenate([jnp.atleast_1d(a) for a in arrays]) if len(arrays) > 1 else free

@@ -11,22 +11,10 @@ import numpy as np
 import sympy as sp
 
 from acausal.codegen.gather import Gather, gather
+from acausal.codegen.instructions import Arguments, Formula
 from acausal.errors import DataError, DeclarationError, listing, nearest
 from acausal.flattening import Binding, FlatModel, Integers, LeavesCaches, binding_levels
 from acausal.modeling import names_in
-
-
-@dataclass(frozen=True)
-class BoundGroup:
-    """Bound parameters with one expression: computed side by side from earlier ones.
-
-    Attributes:
-        arguments: by symbol, where it is read: array 0 holds the free parameters, array 1 + i the i-th group.
-    """
-
-    expression: sp.Expr
-    arguments: tuple[tuple[sp.Symbol, Gather], ...]
-    size: int
 
 
 @dataclass(frozen=True)
@@ -37,7 +25,8 @@ class ParameterLayout(LeavesCaches):
         free: parameters that the user may change, in order of declaration.
         order: position of every free parameter in the vector, so that equal ones are neighbours.
         position: (n_parameters,) of a parameter in ``Packed.values`` (-1: folded).
-        bound: groups of bound parameters, in order of computation.
+        bound: those of bound parameters, in order of computation: array 0 holds the free parameters, array 1 + i the
+            values of the i-th formula.
         constants: numbers of equations, which follow in ``Packed.values``.
         module_of: (n_modules,) the module that a module refers to, or itself.
     """
@@ -46,7 +35,7 @@ class ParameterLayout(LeavesCaches):
     free: Integers
     order: Integers
     position: Integers
-    bound: tuple[BoundGroup, ...]
+    bound: tuple[Formula, ...]
     constants: np.ndarray
     module_of: Integers
 
@@ -151,9 +140,10 @@ class ParameterLayout(LeavesCaches):
         return f"'{name}' is bound to an expression of other parameters; change these"
 
     def gather(self, parameters: Integers) -> Gather:
-        """How to read some parameters out of ``Packed.values``."""
+        """How to read some parameters out of ``Packed.values``, and a zero behind it for those that are folded."""
         position = self.position[parameters]
-        return gather(np.zeros_like(position), position, [int(self.position.max(initial=-1)) + 1])
+        n = int(self.position.max(initial=-1)) + 1
+        return gather((position < 0).astype(np.int64), np.maximum(position, 0), [n, 1])
 
     def depending(self, names: Sequence[str]) -> tuple[int, ...]:
         """Where some free parameters, and all that are bound to them, lie in ``Packed.values``."""
@@ -163,7 +153,7 @@ class ParameterLayout(LeavesCaches):
         own = self.free[[self.names.index(n) for n in names]] if names else []
         moved[self.position[own]] = True
         for group, offset in zip(self.bound, offsets[1:], strict=False):
-            for _, argument in group.arguments:
+            for _, argument in group.arguments.variables:
                 source, index = argument.positions(sizes)
                 moved[offset : offset + group.size] |= moved[offsets[source] + index]
         return tuple(np.flatnonzero(moved).tolist())
@@ -207,7 +197,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
     source, index, position = (np.full(n, -1, dtype=np.int64) for _ in range(3))
     source[free] = 0
     index[free[rank]] = position[free[rank]] = np.arange(len(free))
-    groups, sizes = list[BoundGroup](), [len(free)]
+    groups, sizes = list[Formula](), [len(free)]
     levels, circular = binding_levels(
         [b for b in model.bindings if target[b.target] == b.target and not model.folded[b.target]],
         target,
@@ -225,7 +215,7 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
                 for s, column in zip(members[0].symbols, columns, strict=True)
                 if s in expression.free_symbols
             )
-            groups.append(BoundGroup(expression, arguments, len(members)))
+            groups.append(Formula(expression, Arguments(arguments), len(members)))
             own = [b.target for b in members]
             source[own], index[own] = len(groups), np.arange(len(members))
             position[own] = sum(sizes) + index[own]

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from acausal.codegen.gather import Gather, gather
-from acausal.codegen.instructions import Accumulate, Evaluate, Instruction
+from acausal.codegen.gather import Elements, Gather, gather
+from acausal.codegen.instructions import Accumulate, Formula, Instruction
 from acausal.flattening import Integers, LeavesCaches
 
 FEW = 12
@@ -73,11 +73,22 @@ class Program(LeavesCaches):
         """The arrays in which the derivatives of the states are read."""
         return () if self.state_rates is None else self.state_rates.sources
 
-    def gather(self, nodes: Sequence[int]) -> Gather:
-        """How the values of some nodes are read."""
+    def gather(self, nodes: Sequence[int], copy: int = 0) -> Elements:
+        """How the values of some nodes are read, in one of several copies of the arrays, one behind the other."""
         chosen = np.asarray(nodes, dtype=np.int64)
         source, index = self.positions
-        return gather(source[chosen], index[chosen], self.sizes)
+        first = copy * len(self.nodes)
+        return gather(first + source[chosen], index[chosen], self.sizes * (copy + 1))
+
+    def nodes_of(self, gather: Gather) -> list[int]:
+        """The nodes whose values a gather reads."""
+        source, index = gather.positions(self.sizes)
+        return [int(self.nodes[s][i]) for s, i in zip(source, index, strict=True)]
+
+    def in_copy(self, sources: Iterable[int], copy: int) -> set[int]:
+        """The arrays among some sources that are read in one of the copies."""
+        n = len(self.nodes)
+        return {source % n for source in sources if source // n == copy}
 
     def needed(self, arrays: Iterable[int]) -> list[int]:
         """The instructions, in order, that some arrays depend on."""
@@ -98,7 +109,7 @@ class Program(LeavesCaches):
     def is_long(self) -> bool:
         """Whether XLA takes long for the rates: they are of many instructions, or there are loops to solve."""
         some = [self.instructions[i] for i in self.needed(self.rate_sources)]
-        simple = all(isinstance(one, Evaluate | Accumulate) for one in some)
+        simple = all(isinstance(one, Formula | Accumulate) for one in some)
         return len(some) > FEW or not simple
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Read arguments with JAX: elements of arrays as slices where they lie evenly, parameters, modules."""
+"""Fill and compute formulas with JAX: elements of arrays as slices where they lie evenly, parameters, modules."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ import jax.numpy as jnp
 import numpy as np
 import sympy as sp
 from jax import Array
+from jax.typing import ArrayLike
 
-from acausal.codegen.gather import Gather, Interleaved, One, Runs, Take
-from acausal.codegen.instructions import Arguments
-from acausal.codegen.lower import ModuleValue, collect
-from acausal.codegen.parameters import ParameterLayout
-from acausal.codegen.values import Packed, Values
-from acausal.flattening import Integers
-from acausal.modeling import time
+from acausal.codegen.gather import Gather, Interleaved, One, Runs, Signed, Take
+from acausal.codegen.instructions import Accumulate, Arguments, Formula
+from acausal.codegen.lower import ModuleValue, collect, evaluate
+from acausal.codegen.values import Packed
+from acausal.modeling import INITIAL, time
 
 Arrays = Sequence[Array]
 
@@ -26,29 +25,53 @@ def read_elements(gather: Gather, arrays: Arrays) -> Array:
     return _READ[type(gather)](gather, arrays)
 
 
-def read_arguments(arguments: Arguments, values: Values, arrays: Arrays) -> dict[sp.Symbol, Any]:
-    """The values in the slots of a formula."""
-    packed = values.packed
-    filled: dict[sp.Symbol, Any] = {time: values.t}
+def fill(
+    arguments: Arguments, packed: Packed, arrays: Arrays = (), t: ArrayLike = 0.0
+) -> dict[sp.Symbol, Any]:
+    """The values in the slots of a formula.
+
+    Arguments:
+        packed: parameters. arrays: those that its variables are read in. t: time [s].
+    """
+    filled: dict[sp.Symbol, Any] = {time: t}
     filled |= {symbol: read_elements(g, arrays) for symbol, g in arguments.variables}
-    filled |= {symbol: read_elements(g, [packed.values]) for symbol, g in arguments.parameters}
-    filled |= {symbol: chosen_module(packed, chosen) for symbol, chosen in arguments.modules}
+    filled |= {symbol: read_parameters(g, packed) for symbol, g in arguments.parameters}
+    for symbol, chosen in arguments.modules:
+        modules = [packed.modules[i] for i in chosen]
+        same, one = len(set(chosen)) == 1, modules[0]
+        own = one if isinstance(one, ModuleValue) else ModuleValue(one)
+        filled[symbol] = own if same else collect(modules)
     return filled
 
 
-def read_parameters(layout: ParameterLayout, parameters: Integers | int, packed: Packed) -> Array:
-    """Values of parameters, in the shape of their numbers; zero for those that are folded out of the equations."""
-    position = layout.position[parameters]
-    if not (position >= 0).any():
-        return jnp.zeros(np.shape(parameters), packed.values.dtype)
-    return jnp.where(position >= 0, packed.values[position], 0.0)
+def compute(
+    formula: Formula,
+    packed: Packed,
+    arrays: Arrays = (),
+    t: ArrayLike = 0.0,
+    initial: ArrayLike = 0.0,
+) -> Array:
+    """The value of a formula, shape (size,); a scalar for one instance.
+
+    Arguments:
+        packed, arrays, t: as for `fill`. initial: 1 while initial values are being found.
+    """
+    filled = {**fill(formula.arguments, packed, arrays, t), INITIAL: initial}
+    value = jnp.asarray(evaluate(formula.expression, filled))
+    return value if formula.size == 1 else jnp.broadcast_to(value, (formula.size,))
 
 
-def chosen_module(packed: Packed, chosen: Sequence[int]) -> ModuleValue:
-    """The module of one instance or of all; those of several instances side by side."""
-    if len(set(chosen)) == 1:
-        return ModuleValue(packed.modules[chosen[0]])
-    return collect([packed.modules[i] for i in chosen])
+def add_up(one: Accumulate, terms: ArrayLike) -> Array:
+    """A sum, shape (size,), or a scalar, from all its terms."""
+    found = jnp.broadcast_to(terms, (one.terms * one.size,)).reshape(one.terms, one.size)
+    total = (found * jnp.asarray(one.weights, found.dtype)).sum(axis=0)
+    return total[0] if one.size == 1 else total
+
+
+def read_parameters(gather: Gather, packed: Packed) -> Array:
+    """Values of parameters; zero for those that are folded out of the equations."""
+    folded = [jnp.zeros((), packed.values.dtype)] if 1 in gather.sources else []
+    return read_elements(gather, [packed.values, *folded])
 
 
 def _one(gather: One, arrays: Arrays) -> Array:
@@ -84,9 +107,14 @@ def _take(gather: Take, arrays: Arrays) -> Array:
     return whole.at[gather.index].get(mode="promise_in_bounds", unique_indices=unique)
 
 
+def _signed(gather: Signed, arrays: Arrays) -> Array:
+    return read_elements(gather.elements, arrays) * gather.signs
+
+
 _READ: dict[type, Callable[[Any, Arrays], Array]] = {
     One: _one,
     Runs: _runs,
     Interleaved: _interleaved,
     Take: _take,
+    Signed: _signed,
 }

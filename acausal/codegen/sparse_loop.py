@@ -16,7 +16,7 @@ from jax import Array
 from acausal.codegen.instructions import SolveSparseLoop, SparseFormula
 from acausal.codegen.lower import evaluate
 from acausal.codegen.newton import root
-from acausal.codegen.reading import Arrays, read_arguments, read_elements
+from acausal.codegen.reading import Arrays, fill, read_elements
 from acausal.codegen.sparse import SparseMatrix
 from acausal.codegen.values import Values
 from acausal.structure import Pattern
@@ -49,7 +49,7 @@ def matched_residuals_of_sparse_loop(
 
 def _equations(loop: SolveSparseLoop, values: Values, arrays: Arrays) -> _Sparse:
     """The equations with all that is known filled in."""
-    known = [read_arguments(f.arguments, values, arrays) for f in loop.formulas]
+    known = [fill(f.arguments, values.packed, arrays, values.t) for f in loop.formulas]
     b, n = loop.balances, len(loop.balances.origins)
     outer_values = jnp.broadcast_to(read_elements(b.outer, arrays), b.outer_rows.shape)
     inner, outer = (jnp.asarray(f, outer_values.dtype) for f in (b.factors, b.outer_factors))

@@ -11,6 +11,7 @@ import numpy as np
 
 from acausal._jax import need_known, precision
 from acausal.errors import DataError, shown
+from acausal.events import before_events
 from acausal.export.c_text.code import write_code
 from acausal.export.c_text.header import header
 from acausal.export.c_text.reserved import RESERVED
@@ -22,7 +23,6 @@ from acausal.export.needs import need_exportable
 from acausal.export.ranges import Ranges, Watch, watched
 from acausal.export.vector import ParameterVector
 from acausal.files import need_path, new_file, write_files
-from acausal.initialization import before_events
 from acausal.modeling import names_in
 from acausal.system import System
 

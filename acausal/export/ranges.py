@@ -37,7 +37,9 @@ class Watch:
     @property
     def nodes(self) -> np.ndarray:
         """What the arguments read."""
-        return np.concatenate([call.nodes for call in self.calls])
+        arguments = [a.arguments for call in self.calls for a in call.arguments]
+        read = [g for a in arguments for _, g in a.variables]
+        return np.asarray([n for g in read for n in self.system.program.nodes_of(g)], np.int64)
 
     def excess(self, values: Values) -> Float[Array, ""]:
         """Positive where any argument lies outside of its range: the greatest distance, each in its own unit."""

@@ -11,23 +11,23 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-import sympy as sp
 from jaxtyping import Array, Float
 
 from acausal._jax import array
 from acausal.codegen import (
+    Arguments,
+    Formula,
     Packed,
     ParameterLayout,
     Program,
     Values,
-    chosen_module,
-    evaluate,
+    compute,
+    formula_of,
     rates,
     read,
-    read_parameters,
+    run,
 )
-from acausal.flattening import Binding, EquationGroup, FlatModel, Integers, LeavesCaches
-from acausal.modeling import time
+from acausal.flattening import Binding, FlatModel, LeavesCaches
 from acausal.structure import ReducedModel
 
 
@@ -119,7 +119,10 @@ class Conditions(LeavesCaches):
             signs = np.asarray([c.sign for c in starts])
             wanted = self._starts(at.packed, [(c.variable, 1) for c in starts])
             parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
-        parts += [self._initial(group, at) for group in self.reduced.model.initial]
+        arrays = self._arrays(at) if self._initial else ()
+        parts += [
+            jnp.broadcast_to(compute(f, at.packed, arrays, at.t), f.size) for f in self._initial
+        ]
         if resting:
             dx = rates(self.program, at)
             parts.append((dx / self.nominal)[np.asarray(resting)])
@@ -154,42 +157,48 @@ class Conditions(LeavesCaches):
                 groups.setdefault((b.expression, b.symbols), []).append((row, b.arguments))
         for (expression, symbols), found in groups.items():
             rows, arguments = (np.asarray(part) for part in zip(*found, strict=True))
-            values = read_parameters(self.parameters, arguments, packed)
-            x = x.at[rows].set(evaluate(expression, dict(zip(symbols, values.T, strict=True))))
+            read = zip(symbols, map(self.parameters.gather, arguments.T), strict=True)
+            formula = Formula(expression, Arguments(parameters=tuple(read)), len(rows))
+            x = x.at[rows].set(compute(formula, packed))
         return x * np.asarray([sign for _, sign in members], dtype=float)
 
-    def _initial(self, group: EquationGroup, at: Values) -> Array:
-        """Residuals of initial equations; derivatives are taken along the vector field."""
-        columns: dict[sp.Symbol, Any] = {time: jnp.asarray(at.t)}
-        for i, (symbol, order) in enumerate(
-            zip(group.template.variables, group.template.orders, strict=True)
-        ):
-            columns[symbol] = self._variables(group.variables[:, i], order, at)
-        for i, symbol in enumerate(group.template.parameters):
-            columns[symbol] = read_parameters(self.parameters, group.parameters[:, i], at.packed)
-        for i, symbol in enumerate(group.template.modules):
-            columns[symbol] = chosen_module(at.packed, self.parameters.chosen(group.modules[:, i]))
-        return jnp.broadcast_to(evaluate(group.template.residual, columns), (len(group),))
+    @cached_property
+    def _initial(self) -> tuple[Formula, ...]:
+        """The initial equations; derivatives are read in further copies of the program's arrays."""
+        return tuple(
+            formula_of(
+                group,
+                self.reduced,
+                self.program,
+                self.parameters,
+                orders=[0] * len(group.template.orders),
+                copies=group.template.orders,
+            )
+            for group in self.reduced.model.initial
+        )
 
-    def _variables(self, variables: Integers, order: int, at: Values) -> Array:
-        resolved = [self.reduced.resolve(int(v)) for v in variables]
-        nodes, signs = [n for n, _ in resolved], np.asarray([s for _, s in resolved])
+    def _arrays(self, at: Values) -> list[Any]:
+        """The arrays of the program that initial equations read, and copies with derivatives along the vector field."""
+        n, sources = len(self.program.nodes), {s for f in self._initial for s in f.sources}
+        wanted = {s % n for s in sources}
 
-        def value(t: Array, x: Array, /) -> Array:
-            return jnp.asarray(signs) * read(self.program, nodes, at._replace(t=t, x=x))
+        def value(t: Array, x: Array, /) -> list[Any]:
+            return run(self.program, wanted, at._replace(t=t, x=x))
 
         def along(
-            function: Callable[[Array, Array], Array],
-        ) -> Callable[[Array, Array], Array]:
-            def rate(t: Array, x: Array, /) -> Array:
+            function: Callable[[Array, Array], list[Any]],
+        ) -> Callable[[Array, Array], list[Any]]:
+            def rate(t: Array, x: Array, /) -> list[Any]:
                 dx = rates(self.program, at._replace(t=t, x=x))
                 return jax.jvp(function, (t, x), (jnp.ones_like(t), dx))[1]
 
             return rate
 
-        for _ in range(order):
+        arrays: list[Any] = []
+        for _ in range(1 + max((s // n for s in sources), default=0)):
+            arrays += value(jnp.asarray(at.t, dtype=float), at.x)
             value = along(value)
-        return value(jnp.asarray(at.t, dtype=float), at.x)
+        return arrays
 
 
 def initial_conditions(

@@ -128,7 +128,8 @@ class _Book:
     @cached_property
     def parameter_values(self) -> Numbers:
         numbers = np.arange(int(self.system.flat.layout.parameter_base[-1]))
-        return np.asarray(read_parameters(self.system.layout, numbers, self.known.packed))
+        values = read_parameters(self.system.layout.gather(numbers), self.known.packed)
+        return np.broadcast_to(values, numbers.shape)
 
     @cached_property
     def variables(self) -> dict[int, dict[str, str]]:

@@ -113,7 +113,7 @@ def _evaluated(
             index = _parameter(system, path, reference)
             if index is None:
                 return None
-            values[reference] = read_parameters(system.layout, index, packed)
+            values[reference] = read_parameters(system.layout.gather(np.asarray([index])), packed)
 
     def value(x: Numbers) -> Numbers:
         found = evaluate(law.flow, {**values, chosen: jnp.asarray(x)})

@@ -46,12 +46,9 @@ from acausal.simulation.stability import (
 )
 from acausal.simulation.stages import KAPPA as KAPPA, SLOW as SLOW
 from acausal.simulation.steps import (
-    BAND as BAND,
-    CLOSE as CLOSE,
-    CROWD as CROWD,
-    DEADER as DEADER,
+    CHATTERING as CHATTERING,
+    DEADBAND_GROWTH as DEADBAND_GROWTH,
     NEAR as NEAR,
-    TRIES as TRIES,
     Adaptive as Adaptive,
     check_tolerances as check_tolerances,
     integrate_in_steps as integrate_in_steps,

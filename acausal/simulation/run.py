@@ -13,9 +13,9 @@ from jaxtyping import Array, Float
 from numpy.typing import NDArray
 
 from acausal._jax import traced
-from acausal.codegen import Events, Values, guards, said_by_modules
+from acausal.codegen import Values, said_by_modules
 from acausal.errors import SimulationError
-from acausal.initialization import COINCIDE
+from acausal.events import COINCIDE, Events, guards
 from acausal.simulation.finite import explain_ahead
 from acausal.simulation.inputs import TimeFunction, evaluate
 

@@ -15,9 +15,10 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike
 
 from acausal._jax import array, is_real, known, need_double_precision, precision, select, traced
-from acausal.codegen import PART_OF_PERIOD, traced_names
+from acausal.codegen import traced_names
 from acausal.data import Data, Signal, check_resolution
 from acausal.errors import DataError, need_compiled, need_whole, shown, user_level
+from acausal.events import PART_OF_PERIOD
 from acausal.simulation import solvers
 from acausal.simulation.fixed import are_split, simulate_fixed
 from acausal.simulation.inputs import (

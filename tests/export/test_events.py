@@ -133,8 +133,8 @@ def test_a_model_that_bounces_for_ever_is_named(name: str, tmp_path: Path) -> No
     model = ExportedC(system, tmp_path)
     assert model.call("begin") == 0
     status = [model.step(0.5) for _ in range(10)]
-    crowded = int(model.header.split("_CROWDED = ")[1].split()[0])
-    assert crowded in status
+    chattering = int(model.header.split("_CHATTERING = ")[1].split()[0])
+    assert chattering in status
 
 
 # -- FMUs ------------------------------------------------------------------------------------------

@@ -11,8 +11,9 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from acausal.codegen import INSTRUCTION, Events, Values, described
+from acausal.codegen import INSTRUCTION, Values, described
 from acausal.errors import ExportError, shortened
+from acausal.events import Events
 from acausal.export.c_text.calibration import split
 from acausal.export.c_text.events import (
     ARGUMENTS as OF_EVENTS,

@@ -17,10 +17,10 @@ static void copy(const real *from, real *to, int n) {
 
 /* Discrete variables that agree with all values, from m->x, m->d and those before; 0 if there are none.
    Conditions whose time comes with the event are what they are just behind it, those within m->e.band of zero become
-   what m->e.decreed says. At first all that disagree change at once, later
+   what m->e.forced says. At first all that disagree change at once, later
    the first of them alone. */
-static int settle(Model *m, const real t, const real *u, const real initial) {
-    for (int pass = 0; pass < PASSES + ONE_BY_ONE; pass++) {
+static int iterate(Model *m, const real t, const real *u, const real initial) {
+    for (int k = 0; k < ALL_AT_ONCE + ONE_BY_ONE; k++) {
         int others = 1;
         const real behind = t + COINCIDE * fabs(t);
         if (ANY_TIMED) conditions(m, behind, m->x, u, m->e.x_before, m->e.d_before, m->e.holds);
@@ -28,11 +28,11 @@ static int settle(Model *m, const real t, const real *u, const real initial) {
         for (int i = 0; i < GUARDS; i++) {
             const real g = timed[i] ? m->e.holds[i] : m->e.number[i];
             int holds = strict[i] ? g > 0 : g >= 0;
-            if (pass < DECREED && fabs(g) <= m->e.band[i]) holds = m->e.decreed[i];
+            if (k < FORCED && fabs(g) <= m->e.band[i]) holds = m->e.forced[i];
             if (ticks[i] && initial > 0) holds = 0;
             m->e.holds[i] = (real)holds;
             if (m->e.holds[i] != m->d[i]) {
-                if (!others && pass >= PASSES) m->e.holds[i] = m->d[i];
+                if (!others && k >= ALL_AT_ONCE) m->e.holds[i] = m->d[i];
                 others = 0;
             }
         }
@@ -45,7 +45,7 @@ static int settle(Model *m, const real t, const real *u, const real initial) {
 }
 
 /* A condition at zero becomes what its rate says; 0 if that was known. */
-static int turn(Model *m, const real t, const real *u, const real *along_u) {
+static int switched(Model *m, const real t, const real *u, const real *along_u) {
     int changed = 0;
     rates(m, t, m->x, u, m->e.dx_begin);
     conditions(m, t, m->x, u, m->x, m->d, m->e.number);
@@ -53,31 +53,31 @@ static int turn(Model *m, const real t, const real *u, const real *along_u) {
     for (int i = 0; i < GUARDS; i++) {
         const real rate = m->e.rate[i];
         if (timed[i] || !(fabs(m->e.number[i]) <= m->e.band[i]) || !isfinite(rate) || rate == 0) continue;
-        if (m->e.decreed[i] != (rate > 0)) changed = 1;
-        m->e.decreed[i] = rate > 0;
+        if (m->e.forced[i] != (rate > 0)) changed = 1;
+        m->e.forced[i] = rate > 0;
     }
     return changed;
 }
 
 /* An event at m->x, m->d: all is found anew until nothing changes. Without along_u rates are not looked at. */
-static Status happen(Model *m, const real t, const real *u, const real *along_u) {
-    int turned = !along_u;
-    for (int round = 0; round < ROUNDS; round++) {
+static Status fire(Model *m, const real t, const real *u, const real *along_u) {
+    int looked = !along_u;
+    for (int pass = 0; pass < PASSES; pass++) {
         copy(m->x, m->e.x_before, STATES);
         copy(m->d, m->e.d_before, DISCRETE);
-        if (!settle(m, t, u, 0)) return STATUS_UNSETTLED;
+        if (!iterate(m, t, u, 0)) return STATUS_EVENT_ITERATION;
         int done = equal(m->d, m->e.d_before, DISCRETE);
         jumped(m, t, m->x, u, m->e.x_before, m->e.d_before, m->e.next_x);
         copy(m->e.next_x, m->x, STATES);
         for (int i = 0; i < GUARDS; i++) /* it has set what it reads: its number counts from now on */
             if (resets[i] && m->d[i] > R(0.5) && m->e.d_before[i] < R(0.5)) m->e.band[i] = -1;
-        if (done && !turned) {
-            turned = 1;
-            done = !turn(m, t, u, along_u);
+        if (done && !looked) {
+            looked = 1;
+            done = !switched(m, t, u, along_u);
         }
         if (done) return STATUS_OK;
     }
-    return STATUS_UNSETTLED;
+    return STATUS_EVENT_ITERATION;
 }
 
 /* When conditions change whose time is known: m->e.due, and how fast their numbers grow: m->e.rate. */
@@ -95,12 +95,12 @@ static void find_due(Model *m, const real *u) {
 }
 
 /* Conditions whose time has come change, whatever rounding makes of their numbers. */
-static void decree(Model *m, const real t, const real *u, const real apart) {
+static void force(Model *m, const real t, const real *u, const real apart) {
     find_due(m, u);
     for (int i = 0; i < GUARDS; i++) {
         const int near = fabs(m->e.due[i] - t) <= apart;
         m->e.band[i] = near ? 2 * apart * fabs(m->e.rate[i]) : (real)-1;
-        m->e.decreed[i] = m->e.rate[i] > 0;
+        m->e.forced[i] = m->e.rate[i] > 0;
     }
 }
 
@@ -124,34 +124,34 @@ static void look_at_points(Model *m, const real t, const real h) {
 }
 
 /* The next length to try: false position, sometimes the middle. */
-static real next_length(const model_hunt *hunt) {
-    real share = hunt->off_low / (hunt->off_low - hunt->off_high);
-    if (!isfinite(share) || hunt->tries % (hunt->off_low >= -CLOSE ? 2 : 6) == 1) share = R(0.5);
+static real next_length(const model_bracketing *bracketing) {
+    real share = bracketing->off_low / (bracketing->off_low - bracketing->off_high);
+    if (!isfinite(share) || bracketing->tries % (bracketing->off_low >= -CLOSE ? 2 : 6) == 1) share = R(0.5);
     else share = share < R(1e-9) ? R(1e-9) : share > 1 - R(1e-9) ? 1 - R(1e-9) : share;
-    return hunt->low + share * (hunt->high - hunt->low);
+    return bracketing->low + share * (bracketing->high - bracketing->low);
 }
 
 /* See whether conditions, whose time is not known, change in a step of length h: 1 if it ends there. */
 static int look(Model *m, const real t, const real h) {
-    model_hunt *const hunt = &m->e.hunt;
+    model_bracketing *const bracketing = &m->e.bracketing;
     real off[POINTS];
     for (int k = 0; k < POINTS; k++) off[k] = -INFINITY;
-    hunt->which = 0;
+    bracketing->which = 0;
     for (int i = 0; i < GUARDS; i++) {
         const int holds = m->d[i] > R(0.5);
         real over[POINTS];
         int touches[POINTS];
         for (int k = 0; k < POINTS; k++) {
             const real g = m->e.number[k * GUARDS + i];
-            over[k] = (holds ? -g : g) - m->e.dead[i]; /* positive where it is no longer what it was */
+            over[k] = (holds ? -g : g) - m->e.deadband[i]; /* positive where it is no longer what it was */
             touches[k] = over[k] == 0 && holds == strict[i];
             if (touches[k]) over[k] = TINY;
         }
-        if (!hunt->active) m->e.scale[i] = fabs(over[0]) + fabs(over[POINTS - 1]) + TINY;
+        if (!bracketing->active) m->e.scale[i] = fabs(over[0]) + fabs(over[POINTS - 1]) + TINY;
         const int is_left = over[0] > 0 && over[0] <= BAND * m->e.scale[i] && !touches[0];
         if (is_left) /* what rounding has left of the event before */
             for (int k = POINTS - 1; k >= 0; k--) over[k] -= over[0];
-        int later = hunt->active && m->e.later[i];
+        int later = bracketing->active && m->e.later[i];
         for (int k = 1; k < POINTS; k++) later = later || (over[k] > 0 && !timed[i]);
         m->e.later[i] = later;
         m->e.over[i] = over[POINTS - 1];
@@ -160,44 +160,44 @@ static int look(Model *m, const real t, const real h) {
             const real share = touches[k] ? CLOSE : over[k] / m->e.scale[i];
             if (!(share > off[k])) continue;
             off[k] = share;
-            if (k == POINTS - 1) hunt->which = i;
+            if (k == POINTS - 1) bracketing->which = i;
         }
     }
-    if (!hunt->active) {
-        for (int k = 0; k + 1 < POINTS && !hunt->active; k++) {
+    if (!bracketing->active) {
+        for (int k = 0; k + 1 < POINTS && !bracketing->active; k++) {
             if (!(off[k + 1] > 0)) continue;
             const real part = h / (POINTS - 1);
-            *hunt = (model_hunt){.active = 1, .low = (real)k * part, .high = (real)(k + 1) * part,
+            *bracketing = (model_bracketing){.active = 1, .low = (real)k * part, .high = (real)(k + 1) * part,
                                 .off_low = off[k] < 0 ? off[k] : 0, .off_high = off[k + 1], .away = off[k] < -CLOSE};
-            hunt->h = next_length(hunt);
+            bracketing->h = next_length(bracketing);
         }
         return 0;
     }
     const real value = off[POINTS - 1];
     const int above = value > 0;
-    const real stays = above == hunt->above && hunt->tries > 0 ? R(0.5) : R(1.0);
+    const real stays = above == bracketing->above && bracketing->tries > 0 ? R(0.5) : R(1.0);
     if (above) {
-        hunt->high = h;
-        hunt->off_low *= stays;
-        hunt->off_high = value;
+        bracketing->high = h;
+        bracketing->off_low *= stays;
+        bracketing->off_high = value;
     } else {
-        hunt->low = h;
-        hunt->off_low = value;
-        hunt->off_high *= stays;
+        bracketing->low = h;
+        bracketing->off_low = value;
+        bracketing->off_high *= stays;
     }
-    hunt->above = above;
-    hunt->tries++;
-    hunt->h = next_length(hunt);
+    bracketing->above = above;
+    bracketing->tries++;
+    bracketing->h = next_length(bracketing);
     const real size = fabs(t) > h ? fabs(t) : h;
-    const int close = fabs(value) <= CLOSE && value != 0 && hunt->away; /* not what is left of the event before */
-    hunt->away = hunt->away || value < -CLOSE;
-    if (!(close || hunt->high - hunt->low <= 4 * ROUNDING * size || hunt->tries >= TRIES))
+    const int close = fabs(value) <= CLOSE && value != 0 && bracketing->away; /* not what is left of the event before */
+    bracketing->away = bracketing->away || value < -CLOSE;
+    if (!(close || bracketing->high - bracketing->low <= 4 * ROUNDING * size || bracketing->tries >= TRIES))
         return 0;
-    hunt->active = 0;
+    bracketing->active = 0;
     for (int i = 0; i < GUARDS; i++) {
         const int near = m->e.later[i] && m->e.over[i] >= -BAND * m->e.scale[i];
-        m->e.band[i] = near || i == hunt->which ? BAND * m->e.scale[i] : (real)-1;
-        m->e.decreed[i] = m->d[i] < R(0.5);
+        m->e.band[i] = near || i == bracketing->which ? BAND * m->e.scale[i] : (real)-1;
+        m->e.forced[i] = m->d[i] < R(0.5);
     }
     return 1;
 }
@@ -207,19 +207,20 @@ static Status end_with_event(Model *m, const real *u, const real *along_u, const
     copy(m->e.x_end, m->x, STATES);
     copy(m->d, m->e.d_last, DISCRETE);
     for (int i = 0; i < GUARDS; i++) m->e.touched[i] = m->e.band[i];
-    const Status status = happen(m, m->time, u, along_u);
+    const Status status = fire(m, m->time, u, along_u);
     if (status) return status;
     /* an event that rounding has made changes nothing: the number must go farther next time */
     const int moved = !searched || !equal(m->d, m->e.d_last, DISCRETE) || !equal(m->x, m->e.x_end, STATES);
     for (int i = 0; i < GUARDS; i++) {
-        const real farther = DEADER * m->e.dead[i] > m->e.touched[i] ? DEADER * m->e.dead[i] : m->e.touched[i];
-        m->e.dead[i] = moved ? 0 : m->e.touched[i] >= 0 ? farther : m->e.dead[i];
+        const real grown = DEADBAND_GROWTH * m->e.deadband[i];
+        const real farther = grown > m->e.touched[i] ? grown : m->e.touched[i];
+        m->e.deadband[i] = moved ? 0 : m->e.touched[i] >= 0 ? farther : m->e.deadband[i];
     }
     if (moved) {
-        m->e.crowd = m->time - m->e.last_event < NEAR * span ? m->e.crowd + 1 : 0;
+        m->e.chattering = m->time - m->e.last_event < NEAR * span ? m->e.chattering + 1 : 0;
         m->e.last_event = m->time;
     }
-    return m->e.crowd >= CROWD ? STATUS_CROWDED : STATUS_OK;
+    return m->e.chattering >= CHATTERING ? STATUS_CHATTERING : STATUS_OK;
 }
 
 /* Divided at events. */
@@ -229,7 +230,7 @@ Status model_step(Model *m, const real h, const real *u_end) {
         m->e.u_begin[i] = m->u[i];
         m->e.along_u[i] = u_end ? (u_end[i] - m->u[i]) / h : 0;
     }
-    m->e.hunt.active = 0;
+    m->e.bracketing.active = 0;
     while (m->time < end) {
         const real t = m->time, apart = COINCIDE * (fabs(t) > h ? fabs(t) : h);
         real stop = end, soonest = INFINITY;
@@ -248,17 +249,17 @@ Status model_step(Model *m, const real h, const real *u_end) {
             if (!(m->e.due[i] > t + apart)) m->e.due[i] = INFINITY;
             m->e.rounding[i] = 2 * apart * fabs(m->e.rate[i]);
             m->e.band[i] = is_timed && m->e.due[i] <= soonest + apart ? m->e.rounding[i] : (real)-1;
-            m->e.decreed[i] = m->d[i] < R(0.5);
+            m->e.forced[i] = m->d[i] < R(0.5);
         }
-        const int hunted = m->e.hunt.active;
-        const real length = hunted ? m->e.hunt.h : stop - t;
+        const int searching = m->e.bracketing.active;
+        const real length = searching ? m->e.bracketing.h : stop - t;
         for (int i = 0; i < INPUTS; i++)
             m->e.u_to[i] = m->e.u_begin[i] + (t + length - begin) * m->e.along_u[i];
         Status status = attempt(m, t, length);
-        if (status && !hunted) return status;
+        if (status && !searching) return status;
         look_at_points(m, t, length);
         const int found = look(m, t, length);
-        if (m->e.hunt.active) continue;
+        if (m->e.bracketing.active) continue;
         status = STATUS_OK;
         if (found) {
             m->time = t + length;
@@ -283,29 +284,29 @@ Status model_step(Model *m, const real h, const real *u_end) {
 
 Status model_begin(Model *m) {
     fill_d(m->d);
-    for (int i = 0; i < GUARDS; i++) m->e.band[i] = -1, m->e.dead[i] = m->e.usual[i] = 0;
-    m->e.crowd = 0;
+    for (int i = 0; i < GUARDS; i++) m->e.band[i] = -1, m->e.deadband[i] = m->e.usual[i] = 0;
+    m->e.chattering = 0;
     m->e.last_event = -INFINITY;
     copy(m->x, m->e.x_before, STATES);
     copy(m->d, m->e.d_before, DISCRETE);
-    if (!settle(m, m->time, m->u, 1)) return STATUS_UNSETTLED;
-    decree(m, m->time, m->u, COINCIDE * fabs(m->time));
-    return happen(m, m->time, m->u, NULL);
+    if (!iterate(m, m->time, m->u, 1)) return STATUS_EVENT_ITERATION;
+    force(m, m->time, m->u, COINCIDE * fabs(m->time));
+    return fire(m, m->time, m->u, NULL);
 }
 
 Status model_event(Model *m) {
-    decree(m, m->time, m->u, COINCIDE * fabs(m->time));
+    force(m, m->time, m->u, COINCIDE * fabs(m->time));
     conditions(m, m->time, m->x, m->u, m->x, m->d, m->e.number);
     for (int i = 0; i < GUARDS; i++) {
         const int was_away = !timed[i] && m->e.usual[i] > 0;
         if (was_away && fabs(m->e.number[i]) <= BAND * m->e.usual[i]) {
             m->e.band[i] = BAND * m->e.usual[i];
-            m->e.decreed[i] = m->d[i] < R(0.5);
+            m->e.forced[i] = m->d[i] < R(0.5);
         }
         m->e.usual[i] = 0;
     }
     for (int i = 0; i < INPUTS; i++) m->e.along_u[i] = 0;
-    return happen(m, m->time, m->u, m->e.along_u);
+    return fire(m, m->time, m->u, m->e.along_u);
 }
 
 Status model_conditions(Model *m) {

@@ -9,10 +9,23 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from acausal.codegen import Events, Values, guards, jumped, updated
+from acausal.codegen import Values
+from acausal.events import (
+    ALL_AT_ONCE,
+    BAND,
+    CLOSE,
+    COINCIDE,
+    FORCED,
+    ONE_BY_ONE,
+    PASSES,
+    TRIES,
+    Events,
+    guards,
+    jumped,
+    updated,
+)
 from acausal.export.vector import ParameterVector
-from acausal.initialization import COINCIDE, DECREED, ONE_BY_ONE, PASSES, ROUNDS
-from acausal.simulation import BAND, CLOSE, CROWD, DEADER, NEAR, TRIES
+from acausal.simulation import CHATTERING, DEADBAND_GROWTH, NEAR
 
 ARGUMENTS: Mapping[str, tuple[tuple[str, ...], str]] = {
     "conditions": (("x_before", "d_before"), "number"),
@@ -64,13 +77,19 @@ def argument_sizes(events: Events, states: int, inputs: int) -> dict[str, int | 
 
 def constants() -> Iterator[str]:
     """The limits of event iteration and search, those of `acausal.simulate`."""
-    reals = {"CLOSE": CLOSE, "BAND": BAND, "NEAR": NEAR, "DEADER": DEADER, "COINCIDE": COINCIDE}
+    reals = {
+        "CLOSE": CLOSE,
+        "BAND": BAND,
+        "NEAR": NEAR,
+        "DEADBAND_GROWTH": DEADBAND_GROWTH,
+        "COINCIDE": COINCIDE,
+    }
     counts = {
         "TRIES": TRIES,
-        "CROWD": CROWD,
-        "ROUNDS": ROUNDS,
+        "CHATTERING": CHATTERING,
         "PASSES": PASSES,
-        "DECREED": DECREED,
+        "ALL_AT_ONCE": ALL_AT_ONCE,
+        "FORCED": FORCED,
         "ONE_BY_ONE": ONE_BY_ONE,
     }
     yield from (f"#define {name} R({value!r})" for name, value in reals.items())

@@ -4,8 +4,11 @@ In: a `Run` and a solver, or rows of samples. Out: a `Solution`, or an `Integrat
 of models without events.
 """
 
-from acausal.simulation.steps.between_events import CROWD as CROWD, DEADER as DEADER, NEAR as NEAR
-from acausal.simulation.steps.locate import BAND as BAND, CLOSE as CLOSE, TRIES as TRIES
+from acausal.simulation.steps.between_events import (
+    CHATTERING as CHATTERING,
+    DEADBAND_GROWTH as DEADBAND_GROWTH,
+    NEAR as NEAR,
+)
 from acausal.simulation.steps.over_rows import (
     Adaptive as Adaptive,
     integrate_in_steps as integrate_in_steps,

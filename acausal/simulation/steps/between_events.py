@@ -10,16 +10,14 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import cond_any, without_derivatives
-from acausal.codegen import Events, due, guards
-from acausal.initialization import COINCIDE
+from acausal.events import COINCIDE, POINTS, Bracketing, Events, due, guards, look, no_bracketing
 from acausal.simulation.log import Log
-from acausal.simulation.steps.coinciding import follow_in_turn
-from acausal.simulation.steps.locate import POINTS, Hunt, look, no_hunt
 from acausal.simulation.steps.one_step import Memory
 from acausal.simulation.steps.problem import Attempt, Counts, Problem
 from acausal.simulation.steps.rows import EDGE, JUMP, STATE, TIMED, Reach, Row, follow, reach
+from acausal.simulation.steps.simultaneous_events import follow_in_turn
 
-CROWD = 12
+CHATTERING = 12
 """So many events in sequence, each within `NEAR` of the one before: the model slides, or bounces for ever."""
 
 NEAR = 1e-10
@@ -28,7 +26,7 @@ NEAR = 1e-10
 LESS = 0.3
 """Of a step in whose change of a condition nobody believes: the next one's length."""
 
-DEADER = 10.0
+DEADBAND_GROWTH = 10.0
 """So many times farther must a condition's number go after an event that changed nothing."""
 
 
@@ -37,18 +35,18 @@ class EventState(NamedTuple):
 
     Attributes:
         d: discrete variables. log: what has happened.
-        crowd: how many of the last events followed the one before at once. last: the time of the last event.
-        hunt: for the instant of the next.
-        dead: how far beyond zero a condition's number must be to count: more than zero where rounding and the errors of
-            steps have made an event that changed nothing.
+        chattering: how many of the last events followed the one before at once. last: the time of the last event.
+        bracketing: for the instant of the next.
+        deadband: how far beyond zero a condition's number must be to count: more than zero where rounding and the
+            errors of steps have made an event that changed nothing.
     """
 
     d: Float[Array, " n_discrete"]
     log: Log
-    crowd: Int[Array, ""]
+    chattering: Int[Array, ""]
     last: Float[Array, ""]
-    hunt: Hunt
-    dead: Float[Array, " n_guards"]
+    bracketing: Bracketing
+    deadband: Float[Array, " n_guards"]
 
 
 class Stop(NamedTuple):
@@ -56,7 +54,7 @@ class Stop(NamedTuple):
 
     Attributes:
         t: time. kind: what it is. which: its number, or that of the condition.
-        band: the conditions that change there, see `happen`; None without events.
+        band: the conditions that change there, see `fire`; None without events.
         times: at which conditions are known to change; None where none has such a time.
         rounding: of their numbers. apart: times so near are the same instant.
     """
@@ -75,13 +73,13 @@ class Seen(NamedTuple):
 
     Attributes:
         ok: whether it counts. stop: where it ends.
-        hunt: how the search for an instant goes on. grazes: whether the condition hardly changes there.
+        bracketing: how the search for an instant goes on. grazes: whether the condition hardly changes there.
         doubted: whether the step is made shorter before its change of a condition is believed.
     """
 
     ok: Bool[Array, ""]
     stop: Stop
-    hunt: Hunt
+    bracketing: Bracketing
     grazes: Bool[Array, ""]
     doubted: Bool[Array, ""]
 
@@ -91,7 +89,7 @@ class Landing(NamedTuple):
 
     Attributes:
         t, x: time and state. memory: the method's. cost: of what happened.
-        d: discrete variables, and settled: whether they agree; None without events.
+        d: discrete variables, and converged: whether they agree; None without events.
         within: the interpolation within the step and its length, where they have derivatives of their own.
     """
 
@@ -100,14 +98,16 @@ class Landing(NamedTuple):
     memory: Any
     cost: Counts
     d: Any = None
-    settled: Any = None
+    converged: Any = None
     within: tuple[Any, Array] | None = None
 
 
 def none_yet(events: Events, t: Array, d: Array, log: Log) -> EventState:
     """Before the first event."""
     zero, before = jnp.zeros((), jnp.int32), jnp.full_like(t, -jnp.inf)
-    return EventState(d, log, zero, before, no_hunt(events, t), jnp.zeros(events.n_guards, t.dtype))
+    return EventState(
+        d, log, zero, before, no_bracketing(events, t), jnp.zeros(events.n_guards, t.dtype)
+    )
 
 
 def sooner(held: Problem, t: Array, x: Array, stop: Stop) -> Stop:
@@ -143,26 +143,26 @@ def look_within(
     stop: Stop,
 ) -> Seen:
     """See whether a condition changes in a step, and whether that ends where it does."""
-    events, ok, hunt = held.watched, made.accepted, state.hunt
+    events, ok, bracketing = held.watched, made.accepted, state.bracketing
     if events.timed.all():
-        return Seen(ok, stop, hunt, jnp.array(False), jnp.array(False))
+        return Seen(ok, stop, bracketing, jnp.array(False), jnp.array(False))
     numbers = _numbers(method, held, made, t, h)
-    found = look(events, hunt, numbers, state.dead, state.d, *lax.stop_gradient((t, h)))
+    found = look(events, bracketing, numbers, state.deadband, state.d, *lax.stop_gradient((t, h)))
     # a fast mode swings where stability limits the steps, and what depends on it changes to and fro
-    doubted = ok & made.limited & found.hunt.active & ~hunt.active
-    goes_on_hunting = found.hunt.active & (ok | hunt.active) & ~doubted
+    doubted = ok & made.limited & found.bracketing.active & ~bracketing.active
+    searches = found.bracketing.active & (ok | bracketing.active) & ~doubted
     is_event, changing = found.is_event, found.band
     if stop.times is not None:  # a condition whose time has come would be missed after the event
         near = jnp.abs(stop.times - (t + h)) <= stop.apart
         changing = jnp.where(near, jnp.maximum(changing, stop.rounding), changing)
     return Seen(
-        (ok | is_event) & ~goes_on_hunting & ~doubted,
+        (ok | is_event) & ~searches & ~doubted,
         stop._replace(
             kind=jnp.where(is_event, STATE, stop.kind).astype(jnp.int32),
             which=jnp.where(is_event, found.which, stop.which).astype(jnp.int32),
             band=jnp.where(is_event, changing, stop.band),
         ),
-        found.hunt._replace(active=goes_on_hunting),
+        found.bracketing._replace(active=searches),
         found.grazes,
         doubted,
     )
@@ -196,7 +196,7 @@ def land(
         in_turn = follow_in_turn if forward and problem.watched.n_guards > 1 else None
         t, after = follow(problem, row, end, row.d, in_turn)
         there = (end.dense, end.h) if forward else None
-        return plain._replace(t=t, x=after.x, d=after.d, settled=after.settled, within=there)
+        return plain._replace(t=t, x=after.x, d=after.d, converged=after.converged, within=there)
 
     def goes_on() -> Landing:
         shorter = memory._replace(
@@ -204,10 +204,10 @@ def land(
             limited=memory.limited + seen.doubted,
             free=jnp.where(seen.doubted, 0, memory.free),
         )
-        stays = seen.hunt.active | seen.doubted
+        stays = seen.bracketing.active | seen.doubted
         kept = jax.tree.map(lambda a, b: jnp.where(stays, a, b), shorter, made.memory)
         within = (made.dense, h) if forward else None
-        return plain._replace(memory=kept, d=row.d, settled=jnp.array(True), within=within)
+        return plain._replace(memory=kept, d=row.d, converged=jnp.array(True), within=within)
 
     landing, begins = cond_any(happens, event, goes_on), happens
     if problem.field.has_edges:
@@ -237,9 +237,11 @@ def after(
     d, t = landing.d, landing.t
     span = problem.end - problem.begin
     moved = jnp.any(d != state.d) | jnp.any(landing.x != made.x) | (row.kind != STATE)
-    dead = jnp.where(row.band >= 0, jnp.maximum(DEADER * state.dead, row.band), state.dead)
-    dead = lax.stop_gradient(jnp.where(moved, 0.0, dead))
-    dead = jnp.where(happened, dead, state.dead)
+    deadband = jnp.where(
+        row.band >= 0, jnp.maximum(DEADBAND_GROWTH * state.deadband, row.band), state.deadband
+    )
+    deadband = lax.stop_gradient(jnp.where(moved, 0.0, deadband))
+    deadband = jnp.where(happened, deadband, state.deadband)
     happened = happened & moved
     fired = jnp.where(row.kind == JUMP, -1, row.which)
     log = state.log.with_event(
@@ -251,9 +253,9 @@ def after(
         seen.grazes & (row.kind == STATE),
     )
     near = happened & (t - state.last < NEAR * span)
-    crowd = jnp.where(happened, jnp.where(near, state.crowd + 1, 0), state.crowd)
+    chattering = jnp.where(happened, jnp.where(near, state.chattering + 1, 0), state.chattering)
     last = jnp.where(happened, lax.stop_gradient(t), state.last)
-    return EventState(d, log, crowd.astype(jnp.int32), last, seen.hunt, dead)
+    return EventState(d, log, chattering.astype(jnp.int32), last, seen.bracketing, deadband)
 
 
 def _numbers(

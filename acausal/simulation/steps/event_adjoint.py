@@ -1,4 +1,4 @@
-"""Derivatives of one event in reverse mode: its conditions in turn, each through its rounds, last to first."""
+"""Derivatives of one event in reverse mode: its conditions in turn, each through its passes, last to first."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array
 
-from acausal.initialization import Round, after_round, rounds_of
-from acausal.simulation.steps import coinciding
+from acausal.events import After, Pass, after_pass, fire
+from acausal.simulation.steps import simultaneous_events
 from acausal.simulation.steps.loop import Start
 from acausal.simulation.steps.problem import Problem
 from acausal.simulation.steps.rows import RESTART, Reach, Row, rates_at, restarted, values_at
@@ -51,8 +51,8 @@ def through_event(
         if events.n_guards > 1:
             return _through_turns(of_moved, own, row, end, then, behind)
         at = values_at(problem, end.t, end.x, row.d)
-        rounds, n, _ = rounds_of(events, at, row.band, rates_at(problem, end.t))
-        return _through_rounds(of_moved, own, end.t, rounds, n, behind)
+        after = fire(events, at, row.band, rates_at(problem, end.t), keep=True)
+        return _through_passes(of_moved, own, end.t, after, behind)
 
     if problem.first is None:
         return event()
@@ -73,31 +73,29 @@ def through_restart(
     return Adjoint(behind.t, x, d, totals)
 
 
-def _through_rounds(
+def _through_passes(
     of_moved: OfMoved,
     own: list[Array],
     t: Array,
-    rounds: Round,
-    n: Array,
+    event: After,
     behind: Adjoint,
 ) -> Adjoint:
-    """The cotangents before the rounds of an event, from those behind them: from the last to the first."""
+    """The cotangents before the passes of an event, from those behind them: from the last to the first."""
 
     def step(state: tuple[Array, Adjoint]) -> tuple[Array, Adjoint]:
         k, behind = state
-        this = jax.tree.map(lambda a: a[k], rounds)
+        this = jax.tree.map(lambda a: a[k], event.passes)
 
-        def after(own: list[Array], t: Array, x: Array, x_before: Array, d: Array) -> Any:
+        def after(own: list[Array], t: Array, x: Array, d: Array) -> Any:
             problem = of_moved(own)[1]
             at = values_at(problem, t, x, d)
-            return after_round(problem.watched, at, Round(x, x_before, d, this.found))
+            return after_pass(problem.watched, at, Pass(x, d, this.found))
 
-        args = own, t, this.x, this.x_before, this.d_before
-        by_own, to_t, to_x, to_before, to_d = jax.vjp(after, *args)[1]((behind.x, behind.d))
+        by_own, to_t, to_x, to_d = jax.vjp(after, own, t, this.x, this.d)[1]((behind.x, behind.d))
         totals = [a + b for a, b in zip(behind.own, by_own, strict=True)]
-        return k - 1, Adjoint(behind.t + to_t, to_x + to_before, to_d, totals)
+        return k - 1, Adjoint(behind.t + to_t, to_x, to_d, totals)
 
-    return lax.while_loop(lambda s: s[0] >= 0, step, (n - 1, behind))[1]
+    return lax.while_loop(lambda s: s[0] >= 0, step, (event.n - 1, behind))[1]
 
 
 class _Turns(NamedTuple):
@@ -125,28 +123,25 @@ def _through_turns(
     then: tuple[Array, Array],
     behind: Adjoint,
 ) -> Adjoint:
-    """The cotangents before an event, from those behind it: of each condition in turn, see `coinciding`."""
+    """The cotangents before an event, from those behind it: of each condition in turn, see `simultaneous_events`."""
     problem = of_moved(own)[1]
     events = problem.watched
     rates = rates_at(problem, end.t)
-    last = coinciding.count(row) - 1
-    most = min(coinciding.MOST, events.n_guards)
+    last = simultaneous_events.count(row) - 1
+    most = min(simultaneous_events.MOST, events.n_guards)
     none = jnp.zeros_like(last)
 
     def one(state: _Turns) -> _Turns:
         i, x, d = state.i, state.xs[state.i], state.ds[state.i]
-        turn = coinciding.turn(row, d, i, state.together)
+        turn = simultaneous_events.turn(row, d, i, state.together)
         at = values_at(problem, end.t, x, d)
-        rounds, n, settled = rounds_of(
-            events, at, row.band, turn.rates(rates), decreed=turn.decreed
-        )
+        event = fire(events, at, row.band, turn.rates(rates), forced=turn.forced, keep=True)
 
         def onwards() -> _Turns:
-            this = jax.tree.map(lambda a: a[n - 1], rounds)
-            after = after_round(events, at, this)
-            waits = coinciding.still_wait(problem, row, turn, end.t, *after)
+            after = event.x, event.d
+            waits = simultaneous_events.still_wait(problem, row, turn, end.t, *after)
             arrived = i == state.last
-            fits = settled & waits & (~arrived | coinciding.same(after, then))
+            fits = event.converged & waits & (~arrived | simultaneous_events.same(after, then))
             following = jnp.where(fits, jnp.minimum(i + 1, state.last), 0)
             is_next = jnp.arange(most) == following
             xs, ds = (
@@ -165,13 +160,13 @@ def _through_turns(
             )
 
         def backwards() -> _Turns:
-            before = _through_rounds(of_moved, own, end.t, rounds, n, state.behind)
+            before = _through_passes(of_moved, own, end.t, event, state.behind)
             previous = jnp.maximum(i - 1, 0)
-            guard = coinciding.guard_of(row, i)
+            guard = simultaneous_events.guard_of(row, i)
 
             def until(own: list[Array], t: Array, x: Array, d: Array) -> tuple[Array, Array]:
                 problem = of_moved(own)[1]
-                later = coinciding.until(problem, row, guard, t, x, d)
+                later = simultaneous_events.until(problem, row, guard, t, x, d)
                 return jnp.where(i > 0, later[0], t), jnp.where(i > 0, later[1], x)
 
             pull = jax.vjp(until, own, end.t, x, d)[1]

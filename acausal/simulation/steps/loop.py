@@ -16,7 +16,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from acausal._jax import cond_any, while_any, without_derivatives
-from acausal.codegen import Ahead
+from acausal.events import Ahead
 from acausal.simulation.log import Log
 from acausal.simulation.steps import between_events
 from acausal.simulation.steps.between_events import EventState, Landing
@@ -33,7 +33,7 @@ from acausal.simulation.steps.rows import (
     stop_at,
 )
 
-REACHED, STIFF, EXHAUSTED, TOO_SHORT, UNSETTLED, CROWDED = range(6)
+REACHED, STIFF, EXHAUSTED, TOO_SHORT, NOT_CONVERGED, CHATTERS = range(6)
 """Why a loop stopped: at the end; as the model is stiff; at the limit of steps; with steps that became too short; at an
 event without solution; as events follow each other without end."""
 
@@ -221,8 +221,8 @@ def advance(
         to_stop = proposed * LEFT >= left
         h = jnp.where(to_stop, left, proposed)
         if c.events is not None and not problem.watched.timed.all():
-            hunt = c.events.hunt
-            h, to_stop = jnp.where(hunt.active, hunt.h, h), to_stop & ~hunt.active
+            bracketing = c.events.bracketing
+            h, to_stop = jnp.where(bracketing.active, bracketing.h, h), to_stop & ~bracketing.active
         made: Attempt = method.attempt(held, c.memory, c.t, h)
         stop = stop._replace(kind=jnp.where(to_stop, stop.kind, FREE))
         ok, seen = made.accepted, None
@@ -255,9 +255,9 @@ def advance(
         t, x, memory = landing.t, landing.x, landing.memory
         at_break = ok & to_stop & (t >= stop_at(problem, c.ahead))
         ahead = (c.ahead + (at_break & (c.ahead < len(problem.breaks)))).astype(jnp.int32)
-        hunting = jnp.array(False) if seen is None else seen.hunt.active
+        searching = jnp.array(False) if seen is None else seen.bracketing.active
         counts = c.counts.plus(made.counts).plus(landing.cost)
-        counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~hunting))
+        counts = counts.plus(Counts.of(steps=ok, rejected=~ok & ~searching))
         made_of = counts.steps + counts.rejected
         if problem.field.has_edges:
             at_edge = ok & ((row.kind == BEND) | (row.kind == EDGE))
@@ -267,14 +267,14 @@ def advance(
             free = ok & ~to_stop
             counts = counts.plus(Counts.of(by_wave=free & by_wave, by_span=free & by_span))
         why = jnp.where(made_of >= problem.max_steps, EXHAUSTED, -1)
-        why = jnp.where(~ok & ~hunting & (c.t + memory.h <= c.t), TOO_SHORT, why)
+        why = jnp.where(~ok & ~searching & (c.t + memory.h <= c.t), TOO_SHORT, why)
         reached, events = t >= problem.end, None
         if seen is not None:
             assert c.events is not None
             events = between_events.after(problem, c.events, row, made, seen, landing, happens)
-            why = jnp.where(events.crowd >= between_events.CROWD, CROWDED, why)
-            why = jnp.where(landing.settled, why, UNSETTLED)
-            reached = reached & landing.settled
+            why = jnp.where(events.chattering >= between_events.CHATTERING, CHATTERS, why)
+            why = jnp.where(landing.converged, why, NOT_CONVERGED)
+            reached = reached & landing.converged
         if until_stiff:
             is_stiff = made.stiff if seen is None else made.stiff & ~happens
             why = jnp.where(is_stiff, STIFF, why)

@@ -14,7 +14,8 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from acausal.codegen import Ahead, Field, Packed, Values
+from acausal.codegen import Field, Packed, Values
+from acausal.events import Ahead
 from acausal.simulation.fixed_steps import Integrated, Runs, Step, Steps
 from acausal.simulation.log import Log
 from acausal.simulation.solvers import Scheme, Solver

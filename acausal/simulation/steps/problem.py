@@ -9,7 +9,8 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import Ahead, Events, Field
+from acausal.codegen import Field
+from acausal.events import Ahead, Events
 
 SIDE = 16.0
 """Two times are apart if they differ by so many rounding errors."""

@@ -11,8 +11,8 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from acausal._jax import without_derivatives
-from acausal.codegen import Values, due, guards
-from acausal.initialization import After, Rates, happen
+from acausal.codegen import Values
+from acausal.events import After, Rates, due, fire, guards
 from acausal.simulation.steps.problem import Problem
 
 FREE, STOP, BEND, EDGE, RESTART, JUMP, TIMED, STATE = range(8)
@@ -32,7 +32,7 @@ class Row(NamedTuple):
         ahead: the first of the known times at which steps end that lies behind its start.
         x: the state at its end; with events, which may change it there, that at its start.
         own: what the method needs.
-        d: discrete variables at its start. band: the conditions that change at its end; see `happen`. None without
+        d: discrete variables at its start. band: the conditions that change at its end; see `fire`. None without
             events.
     """
 
@@ -192,7 +192,7 @@ def follow(
         if in_turn is not None:
             return in_turn(problem, row, end, d)
         at = values_at(problem, end.t, end.x, d)
-        return end.t, happen(problem.watched, at, row.band, rates_at(problem, end.t))
+        return end.t, fire(problem.watched, at, row.band, rates_at(problem, end.t))
 
     if problem.first is None:
         return event()

@@ -10,16 +10,16 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from acausal._jax import array, cast, known, traced
-from acausal.codegen import Ahead, Field, Packed
+from acausal.codegen import Field, Packed
 from acausal.errors import SimulationError, StepLimitError, listing
-from acausal.initialization import restless
+from acausal.events import Ahead, non_converged
 from acausal.simulation import solvers
 from acausal.simulation.inputs import TimeFunction, breaks, evaluate, evaluate_all
 from acausal.simulation.log import FEW_VALUES, VALUES, Log
 from acausal.simulation.run import Run
 from acausal.simulation.solution import Solution
 from acausal.simulation.statistics import Statistics
-from acausal.simulation.steps.loop import CROWDED, EXHAUSTED, REACHED, UNSETTLED, Found
+from acausal.simulation.steps.loop import CHATTERS, EXHAUSTED, NOT_CONVERGED, REACHED, Found
 from acausal.simulation.steps.methods import paced
 from acausal.simulation.steps.problem import Problem
 from acausal.simulation.steps.solve import Solved, solve
@@ -155,13 +155,13 @@ def _stopped(
     )
     last, events = _last(run, found), run.system.events
     at = run.at(found.t, found.x)._replace(d=found.d)
-    if why == UNSETTLED and events is not None:
-        places = restless(events, at)
+    if why == NOT_CONVERGED and events is not None:
+        places = non_converged(events, at)
         circle = listing(map(run.system.describe_discrete, places), 6) or "conditions"
         return SimulationError(
             f"{where}: at an event {circle} change each other without end{last}. Break the circle by pre(...)."
         )
-    if why == CROWDED:
+    if why == CHATTERS:
         return SimulationError(
             f"{where}: events follow each other without end{last}. The model slides along this condition, or bounces "
             "for ever: give it a state of rest, or a hysteresis."

@@ -78,8 +78,9 @@ def text() -> str:
     system = ac.compile(Several())
     assert system.events is not None
     events = system.events
-    formulas = [*(g.formula for g in events.guards), *events.updates, *events.jumps]
-    lines = [f"{f.origin}: {f.expression} -> {f.places.tolist()}" for f in formulas]
+    lines = [str(guard.formula.expression) for guard in events.guards]
+    updates = [*events.updates, *events.jumps]
+    lines += [f"{u.formula.expression} -> {u.places.tolist()}" for u in updates]
     return "\n".join([*lines, str(system.discrete), str(system.states), str(system.equations)])
 
 

@@ -1,6 +1,6 @@
 """Edges: the times, known ahead, at which a right-hand side jumps or bends, and how long a step may be meanwhile.
 
-They are read from the formulas of a program; `acausal.codegen.lines` walks each of them. Lines are followed from one
+They are read from the formulas of a program; `acausal.events.lines` walks each of them. Lines are followed from one
 formula to the next, so a threshold behind a ramp is found, too. Nothing is listed ahead: the next edge is computed from
 the present time, with traced parameters, and it can be differentiated by them.
 """
@@ -8,66 +8,64 @@ the present time, with traced parameters, and it can be differentiated by them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 import sympy as sp
 from jax import Array
 from jax.typing import ArrayLike
 
-from acausal.codegen.gather import Gather
-from acausal.codegen.instructions import Accumulate, Evaluate, Instruction, SolveTornLoop
-from acausal.codegen.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
-from acausal.codegen.program import DISCRETE, ZERO, Program
-from acausal.codegen.reading import chosen_module, read_elements
-from acausal.codegen.values import Packed
+from acausal.codegen import (
+    DISCRETE,
+    ZERO,
+    Accumulate,
+    Arguments,
+    Formula,
+    Gather,
+    Instruction,
+    Packed,
+    Program,
+    SolveTornLoop,
+    add_up,
+    fill,
+    read_elements,
+)
+from acausal.events.lines import BENT, EDGED, NOTHING, Ahead, Line, Walk, is_straight
 from acausal.flattening import LeavesCaches
 from acausal.modeling import time
 
 
 @dataclass(frozen=True, eq=False)
-class _Formula:
-    """An expression, what fills its slots, and the array that it fills; its other symbols are unknown."""
+class _Part:
+    """A formula or a sum, and the array that it fills; its other symbols are unknown."""
 
-    expression: sp.Expr
-    variables: tuple[tuple[sp.Symbol, Gather], ...]
-    parameters: tuple[tuple[sp.Symbol, Gather], ...]
-    modules: tuple[tuple[sp.Symbol, tuple[int, ...]], ...]
-    size: int
+    formula: Formula | Accumulate
     fills: int | None = None
 
     @property
     def sources(self) -> set[int]:
         """The arrays that are read."""
-        return {s for _, g in self.variables for s in g.sources}
+        return self.formula.sources
+
+    @property
+    def expression(self) -> sp.Expr:
+        """That of a formula; nothing for a sum, which has no edges of its own."""
+        return self.formula.expression if isinstance(self.formula, Formula) else sp.S.Zero
+
+    @property
+    def arguments(self) -> Arguments:
+        """Those of a formula."""
+        return self.formula.arguments if isinstance(self.formula, Formula) else Arguments()
 
     def is_known(self, known: set[int]) -> bool:
         """Whether the value follows from time, parameters and known arrays."""
-        filled = {s for part in (self.variables, self.parameters, self.modules) for s, _ in part}
-        return self.sources <= known and self.expression.free_symbols <= {time, *filled}
-
-
-@dataclass(frozen=True, eq=False)
-class _Sum:
-    """A sum, as `Accumulate` forms it."""
-
-    instruction: Accumulate
-    fills: int
-
-    @property
-    def sources(self) -> set[int]:
-        """The arrays that are read."""
-        return self.instruction.sources
-
-    def is_known(self, known: set[int]) -> bool:
-        """Whether all terms are known."""
-        return self.sources <= known
-
-
-_Part = _Formula | _Sum
+        free = self.expression.free_symbols
+        return self.sources <= known and free <= {time, *self.arguments.symbols}
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,15 +95,15 @@ class Edges(LeavesCaches):
         point = _Point(packed, t, t + apart, self.program, d)
         found = NOTHING
         for part in self._plan:
-            if isinstance(part, _Sum):
-                point.add(part)
+            if isinstance(part.formula, Accumulate):
+                point.add(part, part.formula)
                 continue
-            walk = point.walk(part)
+            walk = point.walk(part.arguments)
             if part in self._watched:
                 found = found.joined(Ahead(*map(jnp.min, walk.visit(part.expression))))
             if part.fills is not None and part.is_known(self._known):
                 value, line = walk.value(part.expression), walk.line(part.expression)
-                point.fill(part.fills, part.size, value, line)
+                point.fill(part, value, line)
         return found
 
     @cached_property
@@ -115,15 +113,12 @@ class Edges(LeavesCaches):
         That is where states or inputs make it, or a curve of time, such as a sine that is clipped.
         """
         for part in self._parts:
-            if not isinstance(part, _Formula):
-                continue
-            settled = {time, *(s for s, _ in part.parameters), *(s for s, _ in part.modules)}
-            settled |= {
-                s for s, g in part.variables if set(g.sources) <= self._known - self._curved
-            }
+            straight = self._known - self._curved
+            bent = {s for s, g in part.arguments.variables if not set(g.sources) <= straight}
+            known = {time, *part.arguments.symbols} - bent
             timed = self._symbols(part, self._timed)
             for node in part.expression.atoms(*BENT):
-                if node.free_symbols - settled or not all(is_straight(a, timed) for a in node.args):
+                if node.free_symbols - known or not all(is_straight(a, timed) for a in node.args):
                     return True
         return False
 
@@ -150,8 +145,7 @@ class Edges(LeavesCaches):
         """Those that depend on time, too."""
         timed: set[int] = set()
         for part in self._parts:
-            by_time = isinstance(part, _Formula) and part.expression.has(time)
-            if part.fills is not None and (by_time or part.sources & timed):
+            if part.fills is not None and (part.expression.has(time) or part.sources & timed):
                 timed |= {part.fills} & self._known
         return timed
 
@@ -162,26 +156,23 @@ class Edges(LeavesCaches):
         for part in self._parts:
             if part.fills is None or part.fills not in self._timed:
                 continue
-            bent = isinstance(part, _Formula) and not is_straight(
-                part.expression, self._symbols(part, self._timed)
-            )
+            bent = not is_straight(part.expression, self._symbols(part, self._timed))
             curved |= {part.fills} if bent or part.sources & curved else set()
         return curved
 
-    def _symbols(self, part: _Formula, arrays: set[int]) -> set[sp.Symbol]:
+    def _symbols(self, part: _Part, arrays: set[int]) -> set[sp.Symbol]:
         """Time, and the symbols of a formula that some arrays fill."""
-        return {time, *(s for s, g in part.variables if arrays & set(g.sources))}
+        return {time, *(s for s, g in part.arguments.variables if arrays & set(g.sources))}
 
     @cached_property
-    def _watched(self) -> tuple[_Formula, ...]:
+    def _watched(self) -> tuple[_Part, ...]:
         """The formulas that may have edges."""
-        found: list[_Formula] = []
+        found: list[_Part] = []
         for part in self._parts:
-            if isinstance(part, _Formula):
-                timed = self._symbols(part, self._timed)
-                nodes = sp.preorder_traversal(part.expression)
-                if any(isinstance(n, EDGED) and n.free_symbols & timed for n in nodes):
-                    found.append(part)
+            timed = self._symbols(part, self._timed)
+            nodes = sp.preorder_traversal(part.expression)
+            if any(isinstance(n, EDGED) and n.free_symbols & timed for n in nodes):
+                found.append(part)
         return tuple(found)
 
     @cached_property
@@ -199,29 +190,23 @@ class Edges(LeavesCaches):
 
 def _parts(instruction: Instruction, first: int) -> Iterator[_Part]:
     """The formulas of an instruction; unknowns of loops stay unknown."""
-    if isinstance(instruction, Evaluate):
-        a = instruction.arguments
-        yield _Formula(
-            instruction.expression, a.variables, a.parameters, a.modules, instruction.size, first
-        )
-    elif isinstance(instruction, Accumulate):
-        yield _Sum(instruction, first)
+    if isinstance(instruction, Formula | Accumulate):
+        yield _Part(instruction, first)
     elif isinstance(instruction, SolveTornLoop):
-        a = instruction.arguments
-        outer, numbers = ([v for _, v in p] for p in (a.variables, a.parameters))
-        modules = [v for _, v in a.modules]
+        outer, n = instruction.arguments, instruction.outputs
+        own = (*outer.variables, *outer.parameters, *outer.modules)
+        ends = np.cumsum([0, *map(len, (outer.variables, outer.parameters, outer.modules))])
         for f in instruction.equations:
-            yield _Formula(
-                f.expression,
-                tuple((s, outer[-1 - n]) for s, n in f.variables if n < 0),
-                tuple((s, numbers[n]) for s, n in f.parameters),
-                tuple((s, modules[n]) for s, n in f.modules),
-                instruction.size,
-            )
+            places = {s: g.sources[0] - n for s, g in f.arguments.variables}
+            places |= {s: m for s, (m,) in f.arguments.modules}
+            parts: list[Any] = [
+                tuple((s, own[p][1]) for s, p in places.items() if begin <= p < end)
+                for begin, end in pairwise(ends)
+            ]
+            yield _Part(Formula(f.expression, Arguments(*parts), instruction.size))
     else:
         for f in instruction.formulas:
-            a = f.arguments
-            yield _Formula(f.residual, a.variables, a.parameters, a.modules, f.size)
+            yield _Part(Formula(f.residual, f.arguments, f.size))
 
 
 class _Point:
@@ -237,41 +222,35 @@ class _Point:
         for array, value in ((ZERO, jnp.zeros(())), (DISCRETE, jnp.asarray(held))):
             self.values[array], self.lines[array] = value, Line(value, 0.0)
 
-    def walk(self, formula: _Formula) -> Walk:
+    def walk(self, arguments: Arguments) -> Walk:
         """A walk through a formula."""
-        numbers = {s: read_elements(g, [self.packed.values]) for s, g in formula.parameters}
-        now: dict[sp.Symbol, Any] = {time: self.later, **numbers}
-        lines: dict[Any, Line | None] = {time: Line(0.0, 1.0)}
-        lines |= {s: Line(v, 0.0) for s, v in numbers.items()}
-        for symbol, gather in formula.variables:
-            if all(self.values[s] is not None for s in gather.sources):
-                now[symbol] = read_elements(gather, self.values)
-                lines[symbol] = self._line(gather)
-        now |= {s: chosen_module(self.packed, chosen) for s, chosen in formula.modules}
+        known = {
+            s: g
+            for s, g in arguments.variables
+            if all(self.values[i] is not None for i in g.sources)
+        }
+        arguments = replace(arguments, variables=tuple(known.items()))
+        now = fill(arguments, self.packed, self.values, self.later)
+        lines: dict[Any, Line | None] = {s: Line(now[s], 0.0) for s, _ in arguments.parameters}
+        lines |= {time: Line(0.0, 1.0), **{s: self._line(g) for s, g in known.items()}}
         return Walk(now, lines, self.t, self.later)
 
-    def add(self, part: _Sum) -> None:
+    def add(self, part: _Part, one: Accumulate) -> None:
         """Compute a sum."""
-        one = part.instruction
-
-        def total(terms: Any) -> Any:
-            terms = jnp.broadcast_to(terms, (one.terms * one.size,)).reshape(one.terms, one.size)
-            found = (terms * jnp.asarray(one.weights)).sum(axis=0)
-            return found[0] if one.size == 1 else found
-
-        line = self._line(one.values)
+        line, terms = self._line(one.values), read_elements(one.values, self.values)
         if line is not None:
-            rate = line.rate if line.constant else total(line.rate)
-            line = Line(total(line.at_zero), rate)
-        self.fill(part.fills, one.size, total(read_elements(one.values, self.values)), line)
+            rate = line.rate if line.constant else add_up(one, line.rate)
+            line = Line(add_up(one, line.at_zero), rate)
+        self.fill(part, add_up(one, terms), line)
 
-    def fill(self, array: int, size: int, value: Any, line: Line | None) -> None:
+    def fill(self, part: _Part, value: Any, line: Line | None) -> None:
         """Keep a value, and its line."""
-        shape = () if size == 1 else (size,)
+        assert part.fills is not None
+        shape = () if part.formula.size == 1 else (part.formula.size,)
         if line is not None:
             rate = line.rate if line.constant else jnp.broadcast_to(line.rate, shape)
             line = Line(jnp.broadcast_to(line.at_zero, shape), rate)
-        self.values[array], self.lines[array] = jnp.broadcast_to(value, shape), line
+        self.values[part.fills], self.lines[part.fills] = jnp.broadcast_to(value, shape), line
 
     def _line(self, gather: Gather) -> Line | None:
         """The line of what is read."""

@@ -6,18 +6,11 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
-import numpy as np
-import sympy as sp
 from jax.typing import ArrayLike
 from jaxtyping import Array, Bool, Float
 
-from acausal.codegen.events import Events, Formula
-from acausal.codegen.interpreter import run
-from acausal.codegen.lower import evaluate
-from acausal.codegen.program import DISCRETE
-from acausal.codegen.reading import Arrays, chosen_module, read_elements, read_parameters
-from acausal.codegen.values import Values
-from acausal.modeling import INITIAL, time
+from acausal.codegen import DISCRETE, Arrays, Formula, Values, compute, run
+from acausal.events.event_formulas import Events, Update
 
 
 def guards(
@@ -30,14 +23,13 @@ def guards(
         timed: only those of conditions whose time is known, which need no equation of the model; zero for the others.
     """
     wanted = [g.formula for g in events.guards if g.timed or not timed]
-    arrays, earlier = _arrays(events, wanted, now, now if before is None else before)
+    arrays = _arrays(events, wanted, now, now if before is None else before)
     numbers = [
-        _value(events, g.formula, now, arrays, earlier, 0.0)
-        if g.timed or not timed
-        else jnp.zeros(g.formula.size, now.x.dtype)
-        for g in events.guards
+        _value(g.formula, now, arrays) if g.timed or not timed else 0.0 for g in events.guards
     ]
-    return jnp.concatenate([jnp.zeros(0, now.x.dtype), *numbers])
+    sizes = [g.formula.size for g in events.guards]
+    each = [jnp.broadcast_to(n, size) for n, size in zip(numbers, sizes, strict=True)]
+    return jnp.concatenate([jnp.zeros(0, now.x.dtype), *each])
 
 
 def holds(events: Events, values: Float[Array, " n_guards"]) -> Bool[Array, " n_guards"]:
@@ -82,56 +74,38 @@ def updated(
         conditions: 1 where a condition holds, else 0.
         initial: 1 while initial values are being found.
     """
-    arrays, earlier = _arrays(events, events.updates, now, before)
+    arrays = _arrays(events, [u.formula for u in events.updates], now, before)
     assert now.d is not None
     d = jnp.concatenate([conditions.astype(now.d.dtype), now.d[events.n_guards :]])
-    for formula in events.updates:
+    for update in events.updates:
         arrays[DISCRETE] = d
-        value = _value(events, formula, now, arrays, earlier, initial)
-        d = d.at[formula.places].set((value * formula.signs).astype(d.dtype))
+        d = _put(d, update, _value(update.formula, now, arrays, initial))
     return d
 
 
 def jumped(events: Events, now: Values, before: Values) -> Float[Array, " n_states"]:
     """The states, where some jump."""
-    arrays, earlier = _arrays(events, events.jumps, now, before)
+    arrays = _arrays(events, [jump.formula for jump in events.jumps], now, before)
     x = now.x
-    for formula in events.jumps:
-        value = _value(events, formula, now, arrays, earlier, 0.0)
-        x = x.at[formula.places].set((value * formula.signs).astype(x.dtype))
+    for jump in events.jumps:
+        x = _put(x, jump, _value(jump.formula, now, arrays))
     return x
 
 
-def _arrays(
-    events: Events, formulas: Sequence[Formula], now: Values, before: Values
-) -> tuple[list[Any], list[Any]]:
-    """What the formulas read: the values now, and those before the event."""
-    program = events.program
-    return (
-        run(program, events.sources(formulas, previous=False), now),
-        run(program, events.sources(formulas, previous=True), before),
-    )
+def _arrays(events: Events, formulas: Sequence[Formula], now: Values, before: Values) -> list[Any]:
+    """What the formulas read: the program's arrays now, and those before the event."""
+    sources, program = {s for f in formulas for s in f.sources}, events.program
+    return [
+        a
+        for k, at in enumerate((now, before))
+        for a in run(program, program.in_copy(sources, k), at)
+    ]
 
 
-def _value(
-    events: Events,
-    formula: Formula,
-    now: Values,
-    arrays: Arrays,
-    earlier: Arrays,
-    initial: ArrayLike,
-) -> Array:
-    filled: dict[sp.Symbol, Any] = {time: now.t, INITIAL: initial}
-    for slot in formula.slots:
-        value = read_elements(slot.values, earlier if slot.previous else arrays)
-        filled[slot.symbol] = value if (slot.signs == 1).all() else value * slot.signs
-    for symbol, read in formula.parameters:
-        filled[symbol] = (
-            read_parameters(events.layout, read, now.packed)
-            if isinstance(read, np.ndarray)
-            else read_elements(read, [now.packed.values])
-        )
-    for symbol, chosen in formula.modules:
-        filled[symbol] = chosen_module(now.packed, chosen)
-    value = jnp.asarray(evaluate(formula.expression, filled), now.x.dtype)
-    return jnp.broadcast_to(value, (formula.size,))
+def _value(formula: Formula, now: Values, arrays: Arrays, initial: ArrayLike = 0.0) -> Array:
+    return compute(formula, now.packed, arrays, now.t, initial).astype(now.x.dtype)
+
+
+def _put(values: Array, update: Update, value: Array) -> Array:
+    """Values with the update's in their places."""
+    return values.at[update.places].set((value * update.signs).astype(values.dtype))

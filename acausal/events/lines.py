@@ -15,7 +15,7 @@ import sympy as sp
 from jax.typing import ArrayLike
 from sympy.core.relational import Relational
 
-from acausal.codegen.lower import ModuleValue, evaluate
+from acausal.codegen import ModuleValue, evaluate
 from acausal.modeling import ModuleCall, time
 
 PART_OF_PERIOD = 0.125

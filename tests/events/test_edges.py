@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import acausal as ac
-from acausal.codegen import Edges
 from acausal.components import blocks, electrical
+from acausal.events import Edges
 from tests.support.parts import Equations, model
 
 SPAN = 10.0

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import Events
+from acausal.events.event_formulas import Events
 
 POINTS = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Where a step is looked at: a condition may change twice within it."""
@@ -31,7 +31,7 @@ BAND = 1e-9
 """The same: conditions whose numbers are so small change at the same event."""
 
 
-class Hunt(NamedTuple):
+class Bracketing(NamedTuple):
     """The search for an instant, between two steps.
 
     Attributes:
@@ -60,32 +60,34 @@ class Found(NamedTuple):
     """What a step has shown.
 
     Attributes:
-        hunt: how the search goes on, if it does.
-        is_event: whether the step ends where a condition changes. which: the one. band: see `happen`.
+        bracketing: how the search goes on, if it does.
+        is_event: whether the step ends where a condition changes. which: the one. band: see `fire`.
         grazes: whether that one hardly changes there, so that its instant has no derivative, or a huge one.
     """
 
-    hunt: Hunt
+    bracketing: Bracketing
     is_event: Bool[Array, ""]
     which: Int[Array, ""]
     band: Float[Array, " n_guards"]
     grazes: Bool[Array, ""]
 
 
-def no_hunt(events: Events, like: Float[Array, ""]) -> Hunt:
+def no_bracketing(events: Events, like: Float[Array, ""]) -> Bracketing:
     """None is going on."""
     zero = jnp.zeros_like(like)
     n = events.n_guards
     no = jnp.array(False)
     scale = jnp.zeros(n, like.dtype)
-    return Hunt(no, zero, zero, zero, zero, zero, scale, jnp.zeros(n, bool), jnp.asarray(0), no, no)
+    return Bracketing(
+        no, zero, zero, zero, zero, zero, scale, jnp.zeros(n, bool), jnp.asarray(0), no, no
+    )
 
 
 def look(
     events: Events,
-    hunt: Hunt,
+    bracketing: Bracketing,
     numbers: Float[Array, "n_points n_guards"],
-    dead: Float[Array, " n_guards"],
+    deadband: Float[Array, " n_guards"],
     d: Float[Array, " n_discrete"],
     t: Float[Array, ""],
     h: Float[Array, ""],
@@ -93,41 +95,47 @@ def look(
     """See whether conditions, whose time is not known, change in a step.
 
     Arguments:
-        events: of the model. hunt: the search so far.
-        numbers: those of `guards` at the `POINTS` of the step. dead: how far beyond zero they must be to count.
+        events: of the model. bracketing: the search so far.
+        numbers: those of `guards` at the `POINTS` of the step. deadband: how far beyond zero they must be to count.
         d: discrete variables. t, h: the step's start and length.
     """
     tiny = jnp.finfo(h.dtype).tiny
     holds = d[: events.n_guards] > 0.5
-    over = jnp.where(holds, -numbers, numbers) - dead  # positive where it is no longer what it was
+    over = (
+        jnp.where(holds, -numbers, numbers) - deadband
+    )  # positive where it is no longer what it was
     touches = (over == 0) & (holds == events.strict)
     over = jnp.where(touches, tiny, over)
-    scale = jnp.where(hunt.active, hunt.scale, jnp.abs(over[0]) + jnp.abs(over[-1]) + tiny)
+    scale = jnp.where(
+        bracketing.active, bracketing.scale, jnp.abs(over[0]) + jnp.abs(over[-1]) + tiny
+    )
     is_left = (over[0] > 0) & (over[0] <= BAND * scale) & ~touches[0]
     over = over - jnp.where(is_left, over[0], 0.0)  # what rounding has left of the event before
     last = over[-1]
     later = jnp.any(over[1:] > 0, axis=0) & ~events.timed
-    later = later | (hunt.active & hunt.later)  # some change there and back within the whole step
+    later = later | (
+        bracketing.active & bracketing.later
+    )  # some change there and back within the whole step
     share = jnp.where(touches, CLOSE, over / scale)  # tiny over another number may be zero
     share = jnp.where(later, share, -jnp.inf)
     off = jnp.max(share, axis=1, initial=-jnp.inf)
-    begun = _begin(hunt, off, later, scale, h)
-    gone_on = _go_on(hunt._replace(later=later), off[-1], h)
+    begun = _begin(bracketing, off, later, scale, h)
+    gone_on = _go_on(bracketing._replace(later=later), off[-1], h)
     width = 4 * jnp.finfo(h.dtype).eps * jnp.maximum(jnp.abs(t), h)
     narrow = (gone_on.high - gone_on.low <= width) | (gone_on.tries >= TRIES)
     there = (
         (
-            (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & hunt.away
+            (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & bracketing.away
         )  # a number may be zero long before it changes
         | (narrow & (off[-1] > 0))  # a number may jump: before it does, nothing has changed
         | (gone_on.tries >= TRIES + 2)
     )
     gone_on = gone_on._replace(h=jnp.where(narrow, gone_on.high, gone_on.h))
-    is_event = hunt.active & there
+    is_event = bracketing.active & there
     which = jnp.argmax(share[-1])
     is_near = later & (last >= -BAND * scale)
     band = jnp.where(is_near | (jnp.arange(len(last)) == which), BAND * scale, -1.0)
-    going = _either(hunt.active, gone_on, begun)
+    going = _either(bracketing.active, gone_on, begun)
     return Found(
         going._replace(active=going.active & ~is_event),
         is_event,
@@ -144,31 +152,33 @@ def _grazes(number: Float[Array, " n_points"]) -> Bool[Array, ""]:
     return (jnp.abs(rate) <= GRAZES * size) & (size > 0)
 
 
-def _begin(hunt: Hunt, off: Array, changed: Array, scale: Array, h: Array) -> Hunt:
+def _begin(
+    bracketing: Bracketing, off: Array, changed: Array, scale: Array, h: Array
+) -> Bracketing:
     """A search, if a condition has changed somewhere in the step."""
     behind = off[1:] > 0
     i = jnp.argmax(behind)
     points = jnp.asarray(POINTS, h.dtype) * h
     low, high = points[i], points[i + 1]
     off_low, off_high = jnp.minimum(off[i], 0.0), off[i + 1]
-    none = jnp.zeros_like(hunt.tries)
+    none = jnp.zeros_like(bracketing.tries)
     length = _next(low, high, off_low, off_high, none)
     away = off_low < -CLOSE
-    return Hunt(
+    return Bracketing(
         jnp.any(behind), length, low, high, off_low, off_high, scale, changed, none, none < 0, away
     )
 
 
-def _go_on(hunt: Hunt, value: Array, h: Array) -> Hunt:
+def _go_on(bracketing: Bracketing, value: Array, h: Array) -> Bracketing:
     """The search behind one more step, by false position; an end that stays twice counts half (Illinois)."""
     above = value > 0
-    stays = jnp.where((above == hunt.above) & (hunt.tries > 0), 0.5, 1.0)
-    low, high = jnp.where(above, hunt.low, h), jnp.where(above, h, hunt.high)
-    off_low = jnp.where(above, hunt.off_low * stays, value)
-    off_high = jnp.where(above, value, hunt.off_high * stays)
-    tries = hunt.tries + 1
+    stays = jnp.where((above == bracketing.above) & (bracketing.tries > 0), 0.5, 1.0)
+    low, high = jnp.where(above, bracketing.low, h), jnp.where(above, h, bracketing.high)
+    off_low = jnp.where(above, bracketing.off_low * stays, value)
+    off_high = jnp.where(above, value, bracketing.off_high * stays)
+    tries = bracketing.tries + 1
     length = _next(low, high, off_low, off_high, tries)
-    return hunt._replace(
+    return bracketing._replace(
         h=length,
         low=low,
         high=high,
@@ -176,7 +186,7 @@ def _go_on(hunt: Hunt, value: Array, h: Array) -> Hunt:
         off_high=off_high,
         tries=tries,
         above=above,
-        away=hunt.away | (value < -CLOSE),
+        away=bracketing.away | (value < -CLOSE),
     )
 
 
@@ -189,6 +199,6 @@ def _next(low: Array, high: Array, off_low: Array, off_high: Array, tries: Array
     return low + share * (high - low)
 
 
-def _either(condition: Array, first: Hunt, second: Hunt) -> Hunt:
+def _either(condition: Array, first: Bracketing, second: Bracketing) -> Bracketing:
     pairs = zip(first, second, strict=True)
-    return Hunt(*(jnp.where(condition, a, b) for a, b in pairs))
+    return Bracketing(*(jnp.where(condition, a, b) for a, b in pairs))

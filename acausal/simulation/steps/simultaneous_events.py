@@ -14,8 +14,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from acausal.codegen import due, guards
-from acausal.initialization import After, Rates, happen
+from acausal.events import After, Rates, due, fire, guards
 from acausal.simulation.steps.problem import Problem
 from acausal.simulation.steps.rows import Reach, Row, chosen, grazes, rates_at, values_at
 
@@ -27,10 +26,10 @@ class Turn(NamedTuple):
     """Which conditions of an event change now.
 
     Attributes:
-        decreed: what conditions within their band are. waits: those that change later.
+        forced: what conditions within their band are. waits: those that change later.
     """
 
-    decreed: Float[Array, " n_guards"]
+    forced: Float[Array, " n_guards"]
     waits: Bool[Array, " n_guards"]
 
     def rates(self, rates: Rates) -> Rates:
@@ -112,7 +111,7 @@ def follow_in_turn(
         later = until(problem, row, guard_of(row, k - 1), t, x, d_now)
         t, x = (jnp.where(k > 1, a, b) for a, b in zip(later, (t, x), strict=True))
         at = values_at(problem, t, x, d_now)
-        after = happen(problem.watched, at, row.band, own.rates(rates), decreed=own.decreed)
+        after = fire(problem.watched, at, row.band, own.rates(rates), forced=own.forced)
         fits = fits & still_wait(problem, row, own, t, after.x, after.d)
         first = k == 0
         whole = jax.tree.map(lambda a, b: jnp.where(first, a, b), after, whole)
@@ -120,7 +119,7 @@ def follow_in_turn(
             jnp.where(first, a, b)
             for a, b in zip((end.t, end.x, d), (t, after.x, after.d), strict=True)
         )
-        return k + 1, t, x, d_now, whole, fits & after.settled
+        return k + 1, t, x, d_now, whole, fits & after.converged
 
     def goes_on(state: tuple[Any, ...]) -> Array:
         return (state[0] == 0) | ((n > 1) & (state[0] <= n))
@@ -134,7 +133,7 @@ def follow_in_turn(
         for a, b in zip((t, x, d_end), (end.t, whole.x, whole.d), strict=True)
     )
     t, x, d_end = picked
-    return t, After(x, d_end, whole.settled)
+    return t, After(x, d_end, whole.converged)
 
 
 def same(a: tuple[Array, Array], b: tuple[Array, Array]) -> Bool[Array, ""]:

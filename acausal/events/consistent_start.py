@@ -1,0 +1,136 @@
+"""Consistent start: discrete variables that agree with the initial values, and what happens at the first time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+from acausal._jax import known, without_derivatives
+from acausal.codegen import Values
+from acausal.errors import InitializationError, listing
+from acausal.events.event_formulas import Events
+from acausal.events.event_iteration import (
+    COINCIDE,
+    PASSES,
+    After,
+    Pass,
+    after_pass,
+    equal,
+    fire,
+    iterate,
+    once_more,
+)
+from acausal.events.zero_crossings import due, updated
+
+STARTS = 10
+"""So often initial values and discrete variables are found in turn, if they depend on each other."""
+
+CIRCLE = 10
+"""After so many iterations what changes is taken to be part of a circle."""
+
+
+@eqx.filter_jit
+def _begun(events: Events, at: Values) -> Float[Array, " n_discrete"]:
+    """Discrete variables that agree with the initial values, as they are before the first event.
+
+    Arguments:
+        events: of the model. at: the values at the start, with the discrete variables' start values.
+    """
+    none = -jnp.ones(events.n_guards, at.x.dtype)
+    d, _ = iterate(events, at, none, none, 1.0)
+    smooth = updated(events, at._replace(d=d), at, d[: events.n_guards], 1.0)
+    return jnp.where(events.exact, d, smooth)
+
+
+@eqx.filter_jit
+def _fire_at_start(events: Events, at: Values) -> After:
+    """What happens at the first time, once initial values are found; with derivatives in both modes.
+
+    A condition whose time it is, but for rounding, has changed.
+    """
+    fixed = without_derivatives(at)
+    band, forced = -jnp.ones(events.n_guards, at.x.dtype), None
+    if events.timed.any():
+        when = due(events, fixed)
+        apart = COINCIDE * jnp.abs(fixed.t)
+        near = jnp.abs(when.t - fixed.t) <= apart
+        band = jnp.where(near, 2 * apart * jnp.abs(when.rate), band)
+        forced = (when.rate > 0).astype(at.x.dtype)
+    after = fire(events, fixed, band, forced=forced, keep=True)
+    assert at.d is not None
+
+    def again(state: tuple[Array, Array], k: Array) -> tuple[tuple[Array, Array], None]:
+        this = Pass(*state, after.passes.found[k])
+        return lax.cond(k < after.n, lambda: after_pass(events, at, this), lambda: state), None
+
+    (x, d), _ = lax.scan(again, (at.x, at.d), jnp.arange(PASSES))
+    return After(x, d, after.converged)
+
+
+def non_converged(events: Events, at: Values) -> list[int]:
+    """Places of discrete variables that change with each iteration, where none agree with the known values."""
+    assert at.d is not None
+    d, none = at.d, -jnp.ones(events.n_guards, at.x.dtype)
+    changed = np.zeros(len(d), bool)
+    for k in range(2 * CIRCLE):
+        new = once_more(events, at, d, none, none)
+        if k >= CIRCLE:
+            changed |= ~np.asarray(equal(new, d))
+        d = new
+    return np.flatnonzero(changed).tolist()
+
+
+def before_events(
+    events: Events,
+    values: Values,
+    start: Float[Array, " n_discrete"],
+    initial_state: Callable[[Array], Float[Array, " n_states"]],
+) -> tuple[Float[Array, " n_states"], Float[Array, " n_discrete"]]:
+    """States and discrete variables that agree, before what happens at the first time.
+
+    Arguments as for `start_of`.
+    """
+    d = start
+    x = initial_state(d)
+    for _ in range(STARTS):
+        found = _begun(events, values._replace(x=x, d=start))
+        now, before = (initial_state(found), found), (x, d)
+        x, d = now
+        compared = known((now, before))
+        if compared is None or all(map(np.array_equal, *compared)):
+            break
+    return x, d
+
+
+def start_of(
+    events: Events,
+    values: Values,
+    start: Float[Array, " n_discrete"],
+    initial_state: Callable[[Array], Float[Array, " n_states"]],
+    describe: Callable[[int], str],
+) -> Values:
+    """Initial values with the discrete variables that belong to them, behind the events at the first time.
+
+    Arguments:
+        events: of the model. values: at the start; their states do not count.
+        start: the discrete variables' start values.
+        initial_state: finds the states for given discrete variables.
+        describe: names the discrete variable at a place.
+
+    Raises:
+        InitializationError: if no discrete variables agree with the initial values.
+    """
+    x, d = before_events(events, values, start, initial_state)
+    after = _fire_at_start(events, values._replace(x=x, d=d))
+    if (converged := known(after.converged)) is not None and not bool(converged):
+        circle = listing(map(describe, non_converged(events, values._replace(x=x, d=d))), 6)
+        raise InitializationError(
+            f"At the start no discrete variables agree with the initial values: {circle or 'conditions'} change each "
+            "other without end; break the circle by pre(...), or give other starts."
+        )
+    return values._replace(x=after.x, d=after.d)

@@ -1,0 +1,200 @@
+"""Events as formulas: conditions that are watched, discrete variables in order, and states that jump.
+
+`acausal.events.zero_crossings` computes them with JAX.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+
+import numpy as np
+import sympy as sp
+
+from acausal.codegen import DISCRETE, STATES, Formula, ParameterLayout, Program, formula_of
+from acausal.flattening import GuardGroup, Integers, LeavesCaches, UpdateGroup
+from acausal.modeling import time
+from acausal.structure import ReducedModel
+
+
+@dataclass(frozen=True)
+class Update:
+    """A formula, and where its values go; it reads what was before the event in a second copy of the program's arrays.
+
+    Attributes:
+        places: in the discrete variables, or the states. signs: what they are multiplied by before.
+        components: (n,) by number, which component states each. text: how.
+    """
+
+    formula: Formula
+    places: Integers
+    signs: Integers
+    components: Integers
+    text: str
+
+
+@dataclass(frozen=True)
+class Guard(Update):
+    """Conditions ``formula > 0``, or ``>= 0`` unless ``strict``.
+
+    Attributes:
+        ticks: whether they are clocks'.
+        timed: whether their time is known from parameters and discrete variables.
+    """
+
+    strict: bool
+    ticks: bool
+    timed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Events(LeavesCaches):
+    """What holds at events of a model.
+
+    The discrete variables begin with the conditions, in order of the guards.
+
+    Attributes:
+        program: of the model. layout: of its parameters.
+        guards: the conditions. updates: the discrete variables, those that others read first. jumps: of states.
+        exact: which discrete variables are whole numbers or truth values, shape (n_discrete,).
+        resets: which conditions read a state that jumps when they come true, shape (n_guards,).
+    """
+
+    program: Program
+    layout: ParameterLayout
+    guards: tuple[Guard, ...]
+    updates: tuple[Update, ...]
+    jumps: tuple[Update, ...]
+    exact: np.ndarray
+    resets: np.ndarray
+
+    @cached_property
+    def n_guards(self) -> int:
+        """How many conditions are watched."""
+        return sum(g.formula.size for g in self.guards)
+
+    @cached_property
+    def timed(self) -> np.ndarray:
+        """Which conditions have a known time, shape (n_guards,)."""
+        return self._each([g.timed for g in self.guards])
+
+    @cached_property
+    def strict(self) -> np.ndarray:
+        """Which conditions are false at zero, shape (n_guards,)."""
+        return self._each([g.strict for g in self.guards])
+
+    @cached_property
+    def ticks(self) -> np.ndarray:
+        """Which conditions are clocks', shape (n_guards,)."""
+        return self._each([g.ticks for g in self.guards])
+
+    def _each(self, flags: Sequence[bool]) -> np.ndarray:
+        return np.repeat(np.asarray(flags, bool), [g.formula.size for g in self.guards])
+
+    @cached_property
+    def clocks(self) -> Events:
+        """These with the conditions of clocks alone."""
+        return replace(self, guards=tuple(guard for guard in self.guards if guard.ticks))
+
+    def describe(self, place: int) -> str:
+        """A condition, or what gives a discrete variable, and the component that states it; empty if nothing does."""
+        component, text = self._stated.get(place, ("", ""))
+        return f"{component}: {text}" if component else text
+
+    def component(self, place: int) -> str:
+        """The dotted path of the component that states it; empty for the model itself."""
+        return self._stated[place][0]
+
+    @cached_property
+    def _stated(self) -> dict[int, tuple[str, str]]:
+        """By place of a discrete variable, the component and the text."""
+        paths = self.layout.model.layout.paths
+        return {
+            place: (paths[component], each.text)
+            for each in (*self.updates, *self.guards)
+            for place, component in zip(each.places.tolist(), each.components.tolist(), strict=True)
+        }
+
+
+def generate_events(
+    reduced: ReducedModel, program: Program, layout: ParameterLayout
+) -> Events | None:
+    """The events of a model; None if it has none."""
+    if not len(reduced.discrete):
+        return None
+    stated, update = reduced.model.events, partial(_update, reduced, program, layout)
+    guards = tuple(_guard(group, update(group), program) for group in stated.guards)
+    jumps = tuple(map(update, stated.jumps))
+    order = _in_order(list(map(update, stated.updates)), len(reduced.discrete), program)
+    updates = tuple(update(stated.updates[i], rows) for i, rows in order)
+    exact = np.zeros(len(reduced.discrete), dtype=bool)
+    for variable in reduced.model.discrete.tolist():
+        kind = getattr(reduced.model.layout.variable_declaration(variable), "kind", "real")
+        exact[program.positions[1][reduced.resolve(variable)[0]]] |= kind != "real"
+    resets = _resets(guards, jumps, program)
+    return Events(program, layout, guards, updates, jumps, exact, resets)
+
+
+def _update(
+    reduced: ReducedModel,
+    program: Program,
+    layout: ParameterLayout,
+    group: UpdateGroup | GuardGroup,
+    rows: Integers | None = None,
+) -> Update:
+    rows = np.arange(len(group.targets)) if rows is None else rows
+    own = group.group.rows(rows)
+    nodes, signs = zip(*(reduced.resolve(int(v)) for v in group.targets[rows]), strict=True)
+    formula = formula_of(own, reduced, program, layout, copies=group.previous)
+    places = program.positions[1][np.asarray(nodes)]
+    return Update(formula, places, np.asarray(signs), own.components, own.origins[0].text)
+
+
+def _guard(group: GuardGroup, own: Update, program: Program) -> Guard:
+    arguments, expression = own.formula.arguments, own.formula.expression
+    fixed = all(s % len(program.nodes) == DISCRETE for s in arguments.sources)
+    rate = expression.diff(time) if fixed and not arguments.modules else sp.S.Zero
+    timed = rate != 0 and rate.free_symbols <= {s for s, _ in arguments.parameters}
+    return Guard(**vars(own), strict=group.strict, ticks=group.ticks, timed=timed)
+
+
+def _in_order(updates: list[Update], n: int, program: Program) -> list[tuple[int, Integers]]:
+    """Rows of updates in order: a discrete variable that others read, at the same event, comes before them.
+
+    Arguments:
+        n: how many discrete variables there are.
+    """
+    level = np.zeros(n, dtype=np.int64)
+    reads = [pair for u in updates for pair in _reads(u, DISCRETE, program)]
+    for _ in range(n):
+        before = level.copy()
+        for own, other in reads:
+            if own != other:
+                level[own] = min(max(level[own], level[other] + 1), n)
+        if (level == before).all():
+            break
+    parts = [(number, i) for i, u in enumerate(updates) for number in np.unique(level[u.places])]
+    return [(i, np.flatnonzero(level[updates[i].places] == number)) for number, i in sorted(parts)]
+
+
+def _resets(guards: Sequence[Guard], jumps: Sequence[Update], program: Program) -> np.ndarray:
+    """Which conditions read a state that jumps when they come true; the edge of one reads what it was before."""
+    before = len(program.nodes) + DISCRETE
+    pairs = {pair for jump in jumps for pair in _reads(jump, before, program)}
+    resets = np.zeros(sum(guard.formula.size for guard in guards), dtype=bool)
+    for guard in guards:
+        for place, state in _reads(guard, STATES, program):
+            resets[place] |= (state, place) in pairs
+    return resets
+
+
+def _reads(update: Update, array: int, program: Program) -> Iterator[tuple[int, int]]:
+    """The places that values go to, each with a place in an array that it is computed from; row by row."""
+    size = update.formula.size
+    gathers = [g.positions(program.sizes * 2) for _, g in update.formula.arguments.variables]
+    columns = [[np.broadcast_to(side, size).tolist() for side in sides] for sides in gathers]
+    for row, place in enumerate(update.places.tolist()):
+        for source, index in columns:
+            if source[row] == array:
+                yield place, index[row]
