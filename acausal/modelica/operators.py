@@ -257,15 +257,15 @@ class Operators(Arithmetic):
                 {k: self.chosen(holds, v, otherwise.fields[k]) for k, v in value.fields.items()}
             )
         if isinstance(value, str) or isinstance(otherwise, str):
-            if isinstance(value, Literal) and isinstance(otherwise, Literal):
-                value, otherwise = value.number, otherwise.number
+            sides = [v.number if isinstance(v, Literal) else v for v in (value, otherwise)]
+            if not any(isinstance(v, str) for v in sides):
+                value, otherwise = sides
             else:
                 return value if self.known(holds, "the condition of a text") else otherwise
         events = self.frame.events and self.varies(holds)
-        both = "Boolean" in (type_of(value), type_of(otherwise))
 
         def one(a: Any, b: Any) -> Any:
-            if both:
+            if "Boolean" in (type_of(a), type_of(b)):
                 a, b = self.truth(a), self.truth(b)
                 return self._plain(sp.Or(sp.And(holds, a), sp.And(sp.Not(holds), b)))
             return where(holds, self.number(a), self.number(b), events=events)
