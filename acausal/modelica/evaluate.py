@@ -195,8 +195,8 @@ class Evaluator(Operators):
         for number in range(size, 0, -1):
             rest = [*subscripts[:k], Constant(number, at), *subscripts[k + 1 :]]
             one = self.subscripted(value, rest)
-            holds = self.relation("==", index, number)
-            found = one if found is None else self.chosen(holds, one, found)
+            below = self.relation("<", index, number + 0.5)
+            found = one if found is None else self.chosen(below, one, found)
         return found
 
     def places(self, shape: tuple[int, ...], subscripts: list[Expression]) -> list[Any]:

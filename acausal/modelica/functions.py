@@ -49,6 +49,11 @@ REFUSED = {
     "getInstanceName": "write the name as a text",
     "terminate": "give the end of the simulation",
 }
+TEXTS: dict[str, Callable[..., Any]] = {
+    "ModelicaStrings_length": len,
+    "ModelicaStrings_substring": lambda text, first, last: text[first - 1 : last],
+}
+"""Functions of texts that are known when the model is built, by their name in C."""
 REFUSED_PACKAGES = ("Connections.", "Modelica.Utilities.", "Clock", "previous", "hold", "interval")
 
 
@@ -169,6 +174,8 @@ class Interpreter(Evaluator):
         if external is not None:
             given = [self.value(a) for a in call.arguments]
             plain = known_function(external)
+            if external in TEXTS and all(isinstance(v, str | int) for v in given):
+                return [TEXTS[external](*given)]
             if plain is None:
                 raise self.wrong(
                     f"'{call.function.text}' is written in another language; write it in Modelica",

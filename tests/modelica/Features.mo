@@ -152,7 +152,24 @@ package Features "What libraries use: connectors within connectors, inner and ou
     Real y = clipped(4*time);
     Boolean any = max({time > 2, time > 1}), all = min({time > 2, time > 1});
     Real top = table[upper[2]];
+    Watch watch(level = level);
+    parameter String group = "Dy5";
+    final parameter Real turns = if part(group, 1, 1) == "D" then 3 else 1;
   end Choices;
+
+  block Watch
+    input Level level;
+    output Boolean middle = level == Level.X;
+    output Boolean outside = level <> Level.X;
+  end Watch;
+
+  function part "A function of texts that is written in C"
+    input String text;
+    input Integer first, last;
+    output String result;
+
+    external "C" result = ModelicaStrings_substring(text, first, last);
+  end part;
 
   record Data
     parameter Real a = 2;

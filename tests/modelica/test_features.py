@@ -72,6 +72,12 @@ def test_choices_of_a_model_that_runs(running: ac.Solution, t: float, expected: 
     found = {name: float(running[f"choices.{name}"][i]) for name in expected}
     assert found == pytest.approx(expected)
     assert float(running["choices.top"][i]) == 30
+    middle = [float(running[f"choices.watch.{name}"][i]) for name in ("middle", "outside")]
+    assert middle == [expected["n"] == 2, expected["n"] != 2]
+
+
+def test_texts_decide_what_is_known_when_the_model_is_built() -> None:
+    assert ac.load(FILE, "Features.Choices")._node.modifiers["turns"] == 3
 
 
 @pytest.mark.slow
