@@ -233,6 +233,15 @@ package Features "What libraries use: connectors within connectors, inner and ou
     connect(local, constant3.y);
   end Passing;
 
+  model Tabled "Elements of a parameter decide a table; a unit of reactive power"
+    parameter Real x[:] = {0, 1, 2}, y[3] = 2*x;
+    Modelica.Blocks.Tables.CombiTable1Ds table(table = {{x[i], y[i]} for i in 1:3});
+    Real Q(unit = "var");
+  equation
+    Q = 3;
+    table.u = 1.5;
+  end Tabled;
+
   model Running
     Passing passing;
     Surrounded surrounded;

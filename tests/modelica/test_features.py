@@ -102,6 +102,11 @@ def running() -> ac.Solution:
     return ac.simulate(system, (0.0, 4.0), saveat=[0.25, 0.5, 1.2, 1.6, 3.5], rtol=1e-8, atol=1e-10)
 
 
+def test_elements_of_a_parameter_decide_a_table() -> None:
+    system = ac.compile(ac.load(FILE, "Features.Tabled"))
+    assert float(system.observe("table.y[1]", 0.0, [], None, system.parameters())) == 3
+
+
 def test_the_text_of_an_interface_is_read_where_the_library_lacks_its_members(
     tmp_path: Path,
 ) -> None:
