@@ -103,7 +103,7 @@ class Program(LeavesCaches):
     def iterates(self, nodes: Sequence[int]) -> bool:
         """Whether values of some nodes depend on loops that are not linear."""
         some = [self.instructions[i] for i in self.needed(self.gather(nodes).sources)]
-        return any(not isinstance(one, Evaluate | Accumulate) and not one.is_linear for one in some)
+        return any(not isinstance(one, Formula | Accumulate) and not one.is_linear for one in some)
 
     @cached_property
     def is_long(self) -> bool:

@@ -10,21 +10,31 @@ import numpy as np
 from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode, Entry
+from acausal.modelica.connectors import connector
 from acausal.modelica.functions import Interpreter
-from acausal.modelica.library_parts import make_part, modify_connector, modify_part
+from acausal.modelica.library_parts import make_part, modify_part
 from acausal.modelica.modifications import Bound, Given, Index, Modification, given_by, modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import (
     Type,
-    connector_class,
     is_component,
     type_of_declared,
 )
-from acausal.modelica.values import ABSENT, of
+from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
-from acausal.modeling import Component, charge, check_size
+from acausal.modeling import (
+    Component,
+    Connector,
+    Discrete,
+    Input,
+    Parameter,
+    Reference,
+    Variable,
+    charge,
+    check_size,
+)
 
 MAX_DEPTH = 60
 
@@ -41,7 +51,13 @@ class Model(Component):
     _build: Build
 
     def __init__(
-        self, /, *, _given: Sequence[Given] = (), _above: Build | None = None, **modifiers: Any
+        self,
+        /,
+        *,
+        _given: Sequence[Given] = (),
+        _above: Build | None = None,
+        _variability: str = "",
+        **modifiers: Any,
     ) -> None:
         own = [
             Given(
@@ -54,6 +70,7 @@ class Model(Component):
             if name in self._class.view().entries and isinstance(value, int | float | str | list)
         ]
         build = Build(self, self._class, [*own, *_given], _above)
+        build.variability = _variability
         self.__dict__["_build"] = build
         build.make(super().__init__)
         self.modify(**{n: v for n, v in modifiers.items() if n not in {g.name for g in own}})
@@ -113,6 +130,11 @@ class Build:
         absent: components that their condition leaves out.
         classes: replaceable classes that are redeclared.
         bindings: part, variable and the expression that it equals.
+        parts_of_text: its parts whose classes are Modelica text.
+        variability: ``parameter`` or ``constant`` of a record that is declared so.
+        connected: whether all connections of the model have been made.
+        outer: variables of components around it, and what stands for each here.
+        given_inwards: variables of parts that equal one of this component, and that one.
         decided: expressions of parameters that decided what there is, and their values.
     """
 
@@ -125,9 +147,13 @@ class Build:
         self.absent: set[str] = set()
         self.classes: dict[str, Any] = {}
         self.bindings: list[tuple[Component, str, Bound]] = []
+        self.variability, self.connected = "", False
+        self.outer: dict[Reference, Reference] = {}
+        self.given_inwards: list[tuple[Reference, Reference]] = []
         self.decided: dict[str, float] = {}
+        self.parts_of_text: list[Model] = []
         self._making: dict[str, None] = {}
-        self._later: list[Callable[[], None]] = []
+        self.later: list[Callable[[], None]] = []
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -146,7 +172,10 @@ class Build:
     # -- making ----------------------------------------------------------------------------------------
 
     def make(self, base: Any) -> None:
-        """Declare everything; ``base`` is the constructor of the classes of libraries that it extends."""
+        """Begin with the component; ``base`` is the constructor of the classes of libraries that it extends.
+
+        A part is completed when all others have begun, so that modifiers can name members of each other.
+        """
         definition = self.node.definition
         if definition.partial:
             self._refuse(
@@ -175,13 +204,34 @@ class Build:
             )
         else:
             base()
-        for name in view.entries:
+        self.later.insert(0, lambda: modify_part(self, self.component, native))
+        if self.above is None:
+            self.complete()
+
+    def complete(self) -> None:
+        """Make all members that no expression has asked for, connect them, and read what they state."""
+        self._make_all()
+        self._connect_all()
+        self._finish()
+
+    def _make_all(self) -> None:
+        for name in self.entries:
             self.member(name)
-        modify_part(self, self.component, native)
-        for modify in self._later:
+        for part in self.parts_of_text:
+            part._build._make_all()
+        for modify in self.later:
             modify()
         self._in_order()
+
+    def _connect_all(self) -> None:
         statements.connect(self)
+        for part in self.parts_of_text:
+            part._build._connect_all()
+        self.connected = True
+
+    def _finish(self) -> None:
+        for part in self.parts_of_text:
+            part._build._finish()
         self._distinguish()
 
     def _refuse(self, reason: str) -> None:
@@ -238,9 +288,9 @@ class Build:
 
     def _make(self, name: str, entry: Entry) -> None:
         declared, frame = entry.declared, self.frame(entry.node)
-        if declared.prefixes.outer or declared.prefixes.inner:
-            word = "outer" if declared.prefixes.outer else "inner"
-            raise entry.wrong(f"'{word}' is not supported; connect the parts")
+        if declared.prefixes.outer:
+            self.made[name] = self._inner(name, entry)
+            return
         given = [
             *self.given,
             *(g for a, n in entry.modifiers for g in given_by([a], self.frame(n))),
@@ -260,14 +310,65 @@ class Build:
         if found.predefined:
             declare(self, name, entry, found, mod, sizes)
         else:
-            value = self._parts(name, entry, found, mod, [self.size(s, f) for s, f in sizes])
+            value = self.parts(name, entry, found, mod, [self.size(s, f) for s, f in sizes])
             self.assign(name, entry, value)
 
+    def _inner(self, name: str, entry: Entry) -> Any:
+        """What an ``outer`` component stands for: the ``inner`` one of that name in a model around this one."""
+        if entry.declared.prefixes.inner:
+            raise entry.wrong("'inner outer' is not supported; give one of them another name")
+        above = self.above
+        while above is not None:
+            known = above.entries.get(name)
+            if known is not None and known.declared.prefixes.inner:
+                return above.member(name)
+            above = above.above
+        raise entry.wrong(
+            f"there is no 'inner {entry.declared.type.text} {name}' around this; declare it in the model"
+        )
+
+    def inwards(self, symbol: Any) -> Any:
+        """What stands here for a variable or parameter of an ``outer`` component: it gets its value from there."""
+        node: Any = self.component._node
+        if not isinstance(symbol, Reference) or symbol.owner.route_from(node) is not None:
+            return symbol
+        if symbol not in self.outer:
+            owner: Any = symbol.owner
+            name, declared = f"{owner.name}.{symbol.path}", symbol.declaration
+            kind: Any = Parameter if isinstance(declared, Parameter) else Variable
+            given: Any = {"unit": declared.unit}
+            if isinstance(declared, Discrete | Input) and declared.kind != "real":
+                kind, given["kind"] = Discrete, declared.kind
+            self.outer[symbol] = node.declare(name, kind(**given))
+            if kind is Parameter:
+                self.component.modify(**{name: symbol})
+            else:
+                around = self.around(symbol.owner)
+                around.given_inwards.append((self.outer[symbol], symbol))
+        return self.outer[symbol]
+
+    def around(self, *owners: Any) -> Build:
+        """The build of the innermost component that all owners are, or are parts of; this one, if it may be."""
+        found = self
+        while found.above is not None and any(
+            owner.route_from(found.component._node) is None for owner in owners
+        ):
+            found = found.above
+        return found
+
     def assign(self, name: str, entry: Entry, value: Any) -> None:
-        """Give the component an attribute."""
+        """Give the component an attribute; what belongs to a connector, or consists of several, is kept here."""
         try:
-            self.component._claim(name)
-            setattr(self.component, name, value)
+            if "." in name:
+                add: Any = (
+                    self.component._add_all if isinstance(value, list) else self.component._add
+                )
+                self.made[name] = value if _is_composite(value) else as_array(add(name, value))
+            elif _is_composite(value):
+                self.made[name] = value
+            else:
+                self.component._claim(name)
+                setattr(self.component, name, value)
         except ModelicaError:
             raise
         except ModelError as error:
@@ -277,7 +378,10 @@ class Build:
         """The size of an array."""
         interpreter = Interpreter(frame)
         interpreter.at = expression.at
-        number = interpreter.whole(interpreter.value(expression), "a size")
+        value = interpreter.value(expression)
+        if isinstance(value, np.ndarray):  # of a type: a value for each of its values
+            return len(value)
+        number = interpreter.whole(value, "a size")
         if number < 0:
             raise interpreter.wrong(f"a size is not negative; this is {number}")
         check_size(number, "the array")
@@ -285,7 +389,7 @@ class Build:
 
     # -- parts -------------------------------------------------------------------------------------------
 
-    def _parts(
+    def parts(
         self, name: str, entry: Entry, found: Type, mod: Modification, sizes: list[int]
     ) -> Any:
         """A part or connector, or nested lists of them."""
@@ -308,18 +412,29 @@ class Build:
         ):
             raise value.wrong(f"'{entry.declared.name}' is a part, which has no value")
         if found.is_connector:
-            self._later.append(lambda: modify_connector(self, name, inner))
-            return found.native() if found.node is None else connector_class(found.node)()
-        if found.node is None:
+            return connector(self, name, found, inner)
+        node = found.node
+        if node is None:
             if not is_component(found.native):
                 raise entry.node.wrong(entry.declared.type.at, "this is not a class of components")
+            node = self._instead(entry, found, inner)
+        if node is None:
             part = make_part(found.native, inner)
-            self._later.append(lambda: modify_part(self, part, inner))
+            self.later.append(lambda: modify_part(self, part, inner))
             return part
         if value is not None:
-            inner += _fields(found.node, value)
+            inner += _fields(node, value)
         charge("components", 1, entry.declared.name)
-        return class_of(found.node)(_given=inner, _above=self)
+        variability = entry.declared.prefixes.variability or self.variability
+        part = class_of(node)(_given=inner, _above=self, _variability=variability)
+        self.parts_of_text.append(part)
+        return part
+
+    def _instead(self, entry: Entry, found: Type, inner: list[Given]) -> ClassNode | None:
+        """The text of a library's class, where that has a replaceable member which the class here lacks."""
+        if all(g.redeclared is None for g in inner):
+            return None
+        return entry.node.tree.text(found.full)
 
     # -- the record of the component -----------------------------------------------------------------------
 
@@ -343,11 +458,12 @@ class Build:
             constants[f"value of {name}"] = _plain(value)
         constants["absent"] = tuple(sorted(self.absent))
         constants["classes"] = tuple((n, str(id(c))) for n, c in self.classes.items())
+        constants["given inwards"] = tuple(str(id(a)) for a, _ in self.given_inwards)
         constants["decided"] = tuple(self.decided.items())
         constants["bindings"] = tuple(
             (name, str(id(bound.expression)), bound.index) for _, name, bound in self.bindings
         )
-        self.given, self._later = [], []
+        self.given, self.later = [], []
 
 
 def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
@@ -389,11 +505,22 @@ def _fields(node: ClassNode, value: Bound) -> list[Given]:
     return found
 
 
+def _is_composite(value: Any) -> bool:
+    """Whether this is a connector of connectors, or a list of such."""
+    return isinstance(value, Record) or (isinstance(value, list) and any(map(_is_composite, value)))
+
+
 def _plain(value: Any) -> Any:
     """A value as something that can be compared."""
     if isinstance(value, np.ndarray):
-        return value.tolist()
-    return value if isinstance(value, bool | int | float | str | list) else str(id(value))
+        return _plain(value.tolist())
+    if isinstance(value, Record):
+        return [(name, _plain(v)) for name, v in value.fields.items()]
+    if isinstance(value, list):
+        return [_plain(v) for v in value]
+    if isinstance(value, Connector | Reference):
+        return None
+    return value if isinstance(value, bool | int | float | str) else str(id(value))
 
 
 def element_name(name: str, index: Index) -> str:

@@ -46,6 +46,14 @@ class Entry:
                 return argument.modifier.value, node
         return self.declared.modifier.value, self.node
 
+    @property
+    def started(self) -> tuple[Expression | None, ClassNode]:
+        """What it is given, or where it is given nothing its start."""
+        if self.stated[0] is not None:
+            return self.stated
+        own = self.declared.modifier.arguments
+        return next((a.modifier.value for a in own if a.name == "start"), None), self.node
+
     def wrong(self, reason: str) -> ModelicaError:
         """The error at its declaration."""
         return self.node.wrong(self.declared.at, reason, len(self.declared.name))
@@ -141,10 +149,14 @@ class ClassNode:
         return self.children[name]
 
     def _own(self, name: str) -> Any:
-        if "." in self.full or self.full == "Modelica":
+        if self.definition.kind == "package":
             native = self.tree.native(f"{self.full}.{name}")
             if native is not None:
                 return native
+        return self.text(name)
+
+    def text(self, name: str) -> ClassNode | None:
+        """A class that is defined here, even where a library has one of its name."""
         if name in self._elements:
             return ClassNode(self._elements[name], self, self.tree)
         if self.folder is not None:
@@ -302,6 +314,8 @@ class ClassNode:
             raise self.refused(f"'{self.definition.name}' extends itself")
         self._viewed = True
         view, short = View(), self.definition.short
+        if self.definition.literals is not None:
+            view.predefined = Predefined(self.full)
         for element in self.definition.elements:
             match element:
                 case Extends():
@@ -337,6 +351,8 @@ class ClassNode:
                 view.predefined = base
                 view.attributes = [*arguments, *view.attributes]
                 return
+            case Native() if (text := self._with_all(base)) is not None:
+                base = text
             case Native():
                 view.natives.append((base, arguments))
                 return
@@ -376,6 +392,13 @@ class ClassNode:
                 reason = f"'{base.definition.name}' has no '{argument.name}'; {hint}"
                 raise self.wrong(argument.at, reason, len(argument.name))
         view.sections += inherited.sections
+
+    def _with_all(self, base: Native) -> ClassNode | None:
+        """The text of a library's interface that has members which the class here lacks, where there is one."""
+        text = self.tree.text(base.name) if ".Interfaces." in base.name else None
+        declared = getattr(base.cls, "_declared", {})
+        lacks = text is not None and any(n not in declared for n in text.view().entries)
+        return text if lacks else None
 
     @staticmethod
     def _for_native(

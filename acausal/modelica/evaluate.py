@@ -33,6 +33,7 @@ from acausal.modelica.values import (
     Record,
     array_of,
     as_array,
+    each,
     elements,
     is_array,
     of,
@@ -45,7 +46,13 @@ from acausal.modeling import (
 
 
 class Evaluator(Operators):
-    """Evaluates the expressions of one statement."""
+    """Evaluates the expressions of one statement.
+
+    Attributes:
+        connecting: whether these are ends of a connection.
+    """
+
+    connecting = False
 
     def value(self, expression: Expression) -> Any:
         """The value of an expression: a number, truth value, text, sympy expression, array, part or record.
@@ -105,9 +112,9 @@ class Evaluator(Operators):
     def _range(self, expression: Range) -> Any:
         first, last = self.value(expression.first), self.value(expression.last)
         step = 1 if expression.step is None else self.value(expression.step)
+        if isinstance(first, Literal) and isinstance(last, Literal):
+            return array_of(first.among[first.number - 1 : last.number])
         numbers = [self.known(v, "a range") for v in (first, step, last)]
-        if isinstance(first, Literal) or isinstance(last, Literal):
-            raise self.wrong("ranges of enumerations are not supported; give the values as {a, b}")
         begin, by, end = (self.number(v) for v in numbers)
         if by == 0:
             raise self.wrong("the step of a range is zero")
@@ -163,8 +170,34 @@ class Evaluator(Operators):
             return value
         if not is_array(value):
             raise self.wrong("this is not an array; it takes no subscripts")
-        places = self.places(np.shape(_shape(value)), subscripts)
-        return _pick(value, places)
+        shape = np.shape(_shape(value))
+        for k, (size, subscript) in enumerate(zip(shape, subscripts, strict=False)):
+            index = self._changing(subscript, size)
+            if index is not None:
+                return self._selected(value, subscripts, k, index, size)
+        return _pick(value, self.places(shape, subscripts))
+
+    def _changing(self, subscript: Expression, size: int) -> Any:
+        """The value of a subscript that changes with time; None of others."""
+        if isinstance(subscript, Constant | Whole | Range):
+            return None
+        self.ends.append(size)
+        index = self.value(subscript)
+        self.ends.pop()
+        return index if isinstance(index, sp.Basic) and self.varies(index) else None
+
+    def _selected(
+        self, value: Any, subscripts: list[Expression], k: int, index: Any, size: int
+    ) -> Any:
+        """The elements among which a subscript chooses while the model runs."""
+        at = subscripts[k].at
+        found: Any = None
+        for number in range(size, 0, -1):
+            rest = [*subscripts[:k], Constant(number, at), *subscripts[k + 1 :]]
+            one = self.subscripted(value, rest)
+            below = self.relation("<", index, number + 0.5)
+            found = one if found is None else self.chosen(below, one, found)
+        return found
 
     def places(self, shape: tuple[int, ...], subscripts: list[Expression]) -> list[Any]:
         """Positions from 0 for each dimension: a number, or a list of them."""
@@ -207,7 +240,10 @@ class Evaluator(Operators):
             if i in name.subscripts:
                 value = self.subscripted(value, name.subscripts[i])
             i += 1
-        return value
+        build, word = self.frame.build, name.words[0]
+        known = None if build is None or self.connecting else build.entries.get(word)
+        outer = known is not None and known.declared.prefixes.outer
+        return each(build.inwards, value) if outer else value  # pyright: ignore[reportOptionalMemberAccess]
 
     def _first(self, name: Name) -> tuple[Any, int]:
         """The value of the first words, and how many they are."""
@@ -231,9 +267,12 @@ class Evaluator(Operators):
                 return found.value, i
             case Imported():
                 return self.constant(found.node, found.name), i
+            case ClassNode() if not rest and found.definition.literals is not None:
+                return array_of(literals(found)), i
+            case Predefined("Boolean"):
+                return array_of([False, True]), i
             case ClassNode() if rest:
-                literals = found.definition.literals
-                if literals is not None and rest[0] in literals:
+                if found.definition.literals is not None and rest[0] in found.definition.literals:
                     return literal(found, rest[0]), i + 1
                 if rest[0] in found.view().entries:
                     return self.constant(found, rest[0]), i + 1
@@ -345,9 +384,14 @@ class Evaluator(Operators):
 
 def literal(node: ClassNode, word: str) -> Literal:
     """The value of an enumeration."""
-    assert node.definition.literals is not None
-    found = Literal(word)
-    found.number = node.definition.literals.index(word) + 1
+    return literals(node)[list(node.definition.literals or ()).index(word)]
+
+
+def literals(node: ClassNode) -> list[Literal]:
+    """All values of an enumeration."""
+    found = [Literal(text) for text in (node.definition.literals or {}).values()]
+    for number, one in enumerate(found, start=1):
+        one.number, one.among = number, found
     return found
 
 

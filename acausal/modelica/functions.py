@@ -31,6 +31,7 @@ from acausal.modelica.syntax import (
 )
 from acausal.modelica.values import (
     Record,
+    as_record,
     each,
     elements,
     with_fields,
@@ -45,10 +46,14 @@ REFUSED = {
     "terminal": "use an equation of time",
     "inStream": "use connectors without stream variables",
     "actualStream": "use connectors without stream variables",
-    "cardinality": "use a parameter that says what is connected",
     "getInstanceName": "write the name as a text",
     "terminate": "give the end of the simulation",
 }
+TEXTS: dict[str, Callable[..., Any]] = {
+    "ModelicaStrings_length": len,
+    "ModelicaStrings_substring": lambda text, first, last: text[first - 1 : last],
+}
+"""Functions of texts that are known when the model is built, by their name in C."""
 REFUSED_PACKAGES = ("Connections.", "Modelica.Utilities.", "Clock", "previous", "hold", "interval")
 
 
@@ -61,9 +66,14 @@ class Interpreter(Evaluator):
 
     Attributes:
         statements: how many were executed.
+        path: under which condition that changes with time the present statements are executed.
+        left: under which condition ``break`` or ``return`` has left them; ``returned``: ``return`` alone.
     """
 
     statements: int = 0
+    path: Any = True
+    left: Any = False
+    returned: Any = False
 
     # -- calls -----------------------------------------------------------------------------------------
 
@@ -143,7 +153,7 @@ class Interpreter(Evaluator):
             if name in stated:
                 fields[name] = stated[name]
                 continue
-            expression, owner = entry.stated
+            expression, owner = entry.started
             frame = Frame(owner, None, fields)
             fields[name] = None if expression is None else self.elsewhere(frame).value(expression)
         return Record(fields)
@@ -164,6 +174,8 @@ class Interpreter(Evaluator):
         if external is not None:
             given = [self.value(a) for a in call.arguments]
             plain = known_function(external)
+            if external in TEXTS and all(isinstance(v, str | int) for v in given):
+                return [TEXTS[external](*given)]
             if plain is None:
                 raise self.wrong(
                     f"'{call.function.text}' is written in another language; write it in Modelica",
@@ -189,7 +201,7 @@ class Interpreter(Evaluator):
         inner.statements = self.statements
         for name, entry in view.entries.items():
             if name in values:
-                local[name] = values[name]
+                local[name] = as_record(values[name])
                 continue
             expression = entry.declared.modifier.value
             if expression is not None:
@@ -214,7 +226,10 @@ class Interpreter(Evaluator):
         return [local[name] for name in outputs]
 
     def empty(self, entry: Entry) -> Any:
-        """A variable before it is assigned: None, or an array of None."""
+        """A variable before it is assigned: None, or an array or record of None."""
+        found, rest = Frame(entry.node).find(entry.declared.type.words)
+        if isinstance(found, ClassNode) and found.definition.kind == "record" and not rest:
+            return self.record_of(found, [], {})
         sizes = [self.value(s) for s in entry.declared.subscripts if not isinstance(s, Whole)]
         if not sizes or len(sizes) < len(entry.declared.subscripts):
             return None
@@ -247,6 +262,9 @@ class Interpreter(Evaluator):
                 case Do():
                     word = statement.call.function.text
                     if word in ("break", "return"):
+                        self.left = self.logical(sp.Or, self.left, self.path)
+                        if word == "return":
+                            self.returned = self.logical(sp.Or, self.returned, self.path)
                         raise _Left(word)
                     self.perform(statement.call)
                 case Branches() | Connect():
@@ -277,7 +295,10 @@ class Interpreter(Evaluator):
             what = target.text if isinstance(target, Name) else "this"
             raise self.wrong(f"'{what}' cannot be assigned here")
         word = target.words[0]
-        local[word] = self._changed(local[word], target, 0, value)
+        if self.left is not True:
+            changed = self._changed(local[word], target, 0, value)
+            kept = self.left is not False
+            local[word] = self._merged(self.left, local[word], changed) if kept else changed
 
     def _changed(self, old: Any, target: Name, i: int, value: Any) -> Any:
         """The value of a variable after one of its elements or fields has changed."""
@@ -320,17 +341,17 @@ class Interpreter(Evaluator):
         elif holds is False:
             self._branch(rest, local)
         else:
-            before = dict(local)
-            try:
+            before, path = dict(local), self.path
+            self.path = self.logical(sp.And, path, holds)
+            with suppress(_Left):
                 self.execute(body, local)
-                first = dict(local)
-                local.clear()
-                local.update(before)
+            first = dict(local)
+            local.clear()
+            local.update(before)
+            self.path = self.logical(sp.And, path, self.logical(sp.Not, holds))
+            with suppress(_Left):
                 self._branch(rest, local)
-            except _Left as error:
-                raise self.wrong(
-                    f"'{error}' in an if whose condition changes with time is not supported; assign in both branches"
-                ) from None
+            self.path = path
             for name, value in first.items():
                 local[name] = self._merged(holds, value, local.get(name))
 
@@ -341,10 +362,13 @@ class Interpreter(Evaluator):
             return None
         if isinstance(value, np.ndarray) and isinstance(otherwise, np.ndarray):
             return each(lambda a, b: self._merged(holds, a, b), value, otherwise)
+        if isinstance(value, Record) and isinstance(otherwise, Record):
+            fields = otherwise.fields
+            return Record({k: self._merged(holds, v, fields[k]) for k, v in value.fields.items()})
         return self.chosen(holds, value, otherwise)
 
     def _loop(self, loop: Loop, local: dict[str, Any]) -> None:
-        frame = self.frame
+        frame, left = self.frame, self.left
         try:
             if loop.condition is not None:
                 while self._goes_on(loop):
@@ -361,6 +385,7 @@ class Interpreter(Evaluator):
                 raise
         finally:
             self.frame = frame
+            self.left = self.logical(sp.Or, left, self.returned)
 
     def _goes_on(self, loop: Loop) -> bool:
         assert loop.condition is not None

@@ -94,7 +94,7 @@ class _Reader(Expressions):
             found.comment = self.string_comment()
             self._composition(found)
             self.take("end")
-            if self.peek != found.name:
+            if self.peek not in (found.name, f"'{found.name}'"):
                 raise self.wrong(f"'end {found.name}' expected, 'end {self.peek}' found")
             self.position += 1
         self.depth -= 1
@@ -104,10 +104,11 @@ class _Reader(Expressions):
         at = self.at
         if self.accept("enumeration"):
             self.take("(")
-            found.literals = []
+            found.literals = {}
             if not self.accept(":"):
                 while self.peek != ")":
-                    found.literals.append(self.identifier())
+                    name = self.identifier()
+                    found.literals[name] = self.texts[self.position - 1]
                     self.comment(found)
                     if not self.accept(","):
                         break

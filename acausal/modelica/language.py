@@ -12,8 +12,18 @@ import sympy as sp
 
 from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.syntax import Call, Comprehension, Expression
-from acausal.modelica.values import array_of, as_array, each, elements, identity, is_array, type_of
-from acausal.modeling import change, check_size, der, edge, initial, pre, sample
+from acausal.modelica.values import (
+    Record,
+    array_of,
+    as_array,
+    each,
+    elements,
+    identity,
+    is_array,
+    is_end,
+    type_of,
+)
+from acausal.modeling import change, check_size, der, edge, initial, owner_and_name, pre, sample
 from acausal.netlist import function as known_function
 
 
@@ -101,6 +111,10 @@ def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
         if name in FOLDED:
             operator, first = FOLDED[name]
             return reduce(lambda a, b: self.arithmetic(operator, a, b), values, first)
+        if values and all(type_of(v) == "Boolean" for v in values):
+            return reduce(
+                lambda a, b: self.logical(sp.And if name == "min" else sp.Or, a, b), values
+            )
         numbers = [self.number(v) for v in values]
         if numbers and all(isinstance(v, int | float) for v in numbers):
             return min(numbers) if name == "min" else max(numbers)
@@ -229,7 +243,24 @@ def _rem(self: Evaluator, x: Any, y: Any) -> Any:
 
 
 def _integer_of(self: Evaluator, x: Any, _: Any) -> Any:
-    return self.whole(x, "Integer(...)")
+    return x if isinstance(x, sp.Expr) else self.whole(x, "Integer(...)")
+
+
+def _cardinality(self: Evaluator, call: Call) -> Any:
+    self.connecting = True
+    (end,) = self.arguments(call, 1)
+    self.connecting = False
+    if self.frame.build is None or not self.frame.build.connected:
+        raise self.wrong("cardinality(...) stands in equations only", len("cardinality"))
+    while isinstance(end, Record) or is_array(
+        end
+    ):  # all parts of a connector are connected at once
+        end = next(
+            v for v in (end.fields.values() if isinstance(end, Record) else end) if is_end(v)
+        )
+    wanted, node = owner_and_name(end), self.frame.build.component._node
+    pairs = [pair for n in (node, *node.ancestors()) for pair in n.connections]
+    return sum(owner_and_name(e) == wanted for pair in pairs for e in pair)
 
 
 def _assertion(self: Evaluator, call: Call) -> Any:
@@ -260,6 +291,6 @@ SPECIAL: dict[str, Callable[[Evaluator, Call], Any]] = {
     "cat": _cat, "array": _array, "cross": _cross,
     "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
-    "Integer": _rounding(_integer_of, 1), "String": _string, "assert": _assertion,
+    "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
 }  # fmt: skip
 """Functions of the language that need more than the values of their arguments."""

@@ -9,6 +9,7 @@ import sympy as sp
 
 from acausal.errors import ModelError
 from acausal.modelica.functions import Interpreter
+from acausal.modelica.meanings import Literal
 from acausal.modelica.modifications import Given, Modification
 from acausal.modelica.values import nested, of
 from acausal.modeling import Component, Eq, Option, Variable, check_nested
@@ -127,6 +128,8 @@ def _raw(mod: Modification) -> Any:
     if not mod.inner:
         return value
     rest = {name: _raw(inner) for name, (inner, _) in grouped(mod.inner).items()}
+    if isinstance(rest.get("start"), Literal):
+        rest["start"] = rest["start"].number
     return rest if value is None else {"=": value, **rest}
 
 

@@ -61,13 +61,13 @@ def load(
 
 def _wanted(file: Path, tree: Tree, nodes: list[ClassNode], name: str | None) -> ClassNode:
     """The class that is meant."""
-    models = [inner for node in nodes for inner in node.models()]
-    if name is None:
-        if not models:
-            raise ModelicaError(f"{file.name}: there is no model in it that is not partial")
-        return models[-1]
-    found = tree.resolve(name)
+    found = tree.resolve(name) if name is not None else None
     if not isinstance(found, ClassNode):
+        models = [inner for node in nodes for inner in node.models()]
+        if name is None:
+            if not models:
+                raise ModelicaError(f"{file.name}: there is no model in it that is not partial")
+            return models[-1]
         same = [m for m in models if m.full.endswith(f".{name}")]
         if len(same) != 1:
             known = [m.full for m in models]

@@ -41,6 +41,8 @@ class Literal(str):
 
     Attributes:
         number: from 1.
+        among: all values of the enumeration.
     """
 
     number: int = 0
+    among: list[Literal]

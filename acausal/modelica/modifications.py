@@ -7,12 +7,11 @@ from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
-
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Argument, Declared, Expression, Modifier
 from acausal.modelica.tokens import ModelicaError
+from acausal.modelica.values import is_array
 
 Index = tuple[tuple[int, int], ...]
 """Of an element of an array of parts: for each dimension its position from 0, and the size."""
@@ -67,7 +66,7 @@ class Bound:
         """Its value."""
         found = Interpreter(self.frame).value(self.expression)
         for i, size in self.index:
-            if not isinstance(found, np.ndarray):
+            if not is_array(found):
                 return found
             if len(found) != size:
                 raise self.wrong(f"{size} elements are needed here, not {len(found)}")

@@ -25,6 +25,7 @@ from acausal.modelica.values import (
 )
 from acausal.modeling import (
     Parameter,
+    Previous,
     Reference,
     check_size,
     condition,
@@ -152,6 +153,10 @@ class Operators(Arithmetic):
 
     def relation(self, sign: str, left: Any, right: Any) -> Any:
         """A comparison; values of enumerations are compared by their numbers."""
+        if sign in ("==", "<>") and self._are_whole(left, right):
+            sides = [v.number if isinstance(v, Literal) else v for v in (left, right)]
+            apart = self.arithmetic("-", *sides)
+            return self.relation("<" if sign == "==" else ">=", sp.Abs(apart), 0.5)
         if isinstance(left, sp.Basic) and isinstance(right, Literal):
             right = right.number
         if isinstance(right, sp.Basic) and isinstance(left, Literal):
@@ -168,6 +173,17 @@ class Operators(Arithmetic):
         if isinstance(left, np.ndarray) or isinstance(right, np.ndarray):
             raise self.wrong("arrays cannot be compared")
         return super().relation(sign, left, right)
+
+    @staticmethod
+    def _are_whole(*sides: Any) -> bool:
+        """Whether these are integers or values of enumerations that change with time: equal, or at least 1 apart."""
+        kinds = [
+            type_of(v.reference if isinstance(v, Previous) else v)
+            for v in sides
+            if isinstance(v, sp.Expr)
+        ]
+        whole = all(kind not in ("", "Real", "Boolean", "String") for kind in kinds)
+        return bool(kinds) and (whole or any(isinstance(v, Literal) for v in sides))
 
     def truth(self, value: Any) -> Any:
         """A condition; a Boolean variable is one, too."""
@@ -257,15 +273,15 @@ class Operators(Arithmetic):
                 {k: self.chosen(holds, v, otherwise.fields[k]) for k, v in value.fields.items()}
             )
         if isinstance(value, str) or isinstance(otherwise, str):
-            if isinstance(value, Literal) and isinstance(otherwise, Literal):
-                value, otherwise = value.number, otherwise.number
+            sides = [v.number if isinstance(v, Literal) else v for v in (value, otherwise)]
+            if not any(isinstance(v, str) for v in sides):
+                value, otherwise = sides
             else:
                 return value if self.known(holds, "the condition of a text") else otherwise
         events = self.frame.events and self.varies(holds)
-        both = "Boolean" in (type_of(value), type_of(otherwise))
 
         def one(a: Any, b: Any) -> Any:
-            if both:
+            if "Boolean" in (type_of(a), type_of(b)):
                 a, b = self.truth(a), self.truth(b)
                 return self._plain(sp.Or(sp.And(holds, a), sp.And(sp.Not(holds), b)))
             return where(holds, self.number(a), self.number(b), events=events)

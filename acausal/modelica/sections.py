@@ -30,17 +30,20 @@ from acausal.modelica.values import (
     each,
     elements,
     is_array,
+    is_end,
     nested,
     of,
     type_of,
 )
 from acausal.modeling import (
     Component,
+    Connector,
     Discrete,
     Eq,
     Reference,
     Reinit,
     When,
+    owner_and_name,
     pre,
 )
 
@@ -68,17 +71,42 @@ class Reader(Interpreter):
                     pass
 
     def _connect(self, statement: Connect) -> None:
+        self.connecting = True
         ends = [self.value(end) for end in statement.ends]
-        self.at = statement.at
+        self.at, self.connecting = statement.at, False
         assert self.frame.build is not None
         if any(isinstance(end, Absent) for end in ends) or all(
             is_array(e) and not len(e) for e in ends
         ):
             return
-        try:
-            self.frame.build.component.connect(*(nested(end) for end in ends))
-        except ModelError as error:
-            raise self.wrong(str(error), len("connect")) from None
+        self._join(*(nested(end) for end in ends))
+
+    def _join(self, left: Any, right: Any) -> None:
+        """Connect two ends; of those that consist of several each with that of its name."""
+        assert self.frame.build is not None
+        match left, right:
+            case Record(), Record():
+                ends = [
+                    {k: nested(v) for k, v in r.fields.items() if is_end(v)} for r in (left, right)
+                ]
+                if ends[0].keys() != ends[1].keys():
+                    names = ", ".join(f"'{n}'" for n in sorted(ends[0].keys() ^ ends[1].keys()))
+                    raise self.wrong(f"unlike connectors: only one has {names}", len("connect"))
+                for name, end in ends[0].items():
+                    self._join(end, ends[1][name])
+            case list(), list() if len(left) == len(right):
+                for a, b in zip(left, right, strict=True):
+                    self._join(a, b)
+            case _:
+                try:
+                    owners = [
+                        owner_and_name(e)[0]
+                        for e in (left, right)
+                        if isinstance(e, Connector | Reference)
+                    ]
+                    self.frame.build.around(*owners).component.connect(left, right)
+                except ModelError as error:
+                    raise self.wrong(str(error), len("connect")) from None
 
     def _repeated(self, loop: Loop) -> Iterator[None]:
         """Once for all values of the loop's variables."""
@@ -370,17 +398,28 @@ def _is_when(statement: Statement) -> bool:
 
 def _connects(stated: Iterable[Statement]) -> bool:
     """Whether statements connect something."""
+    return any(True for _ in _connections(stated))
+
+
+def ends_of(stated: Iterable[Statement]) -> set[str]:
+    """The signals and connectors of a class itself that statements connect."""
+    ends = [end for one in _connections(stated) for end in one.ends]
+    return {end.words[0] for end in ends if len(end.words) == 1}
+
+
+def _connections(stated: Iterable[Statement]) -> Iterator[Connect]:
+    """The connections among statements, at any depth."""
     for statement in stated:
         match statement:
             case Connect():
-                return True
-            case Loop() if _connects(statement.body):
-                return True
-            case Branches() if any(_connects(body) for _, body in statement.branches):
-                return True
+                yield statement
+            case Loop():
+                yield from _connections(statement.body)
+            case Branches():
+                for _, body in statement.branches:
+                    yield from _connections(body)
             case _:
                 pass
-    return False
 
 
 def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:
@@ -388,7 +427,11 @@ def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:
     for statement in stated:
         match statement:
             case Equation() if within:
-                left = statement.left
+                left = (
+                    statement.left
+                    if isinstance(statement.left, Name | Several)
+                    else statement.right
+                )
                 targets = left.items if isinstance(left, Several) else [left]
                 found |= {t.words[0] for t in targets if isinstance(t, Name)}
             case Branches():

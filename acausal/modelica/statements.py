@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
 from acausal.modelica.modifications import Bound
-from acausal.modelica.sections import Reader, collect
+from acausal.modelica.sections import Reader, collect, ends_of
 from acausal.modelica.values import (
     as_array,
 )
 from acausal.modeling import (
     Component,
+    Discrete,
     Eq,
     Input,
     Output,
+    Reference,
+    When,
     references,
 )
 from acausal.netlist import attribute
@@ -23,9 +27,35 @@ from acausal.netlist import attribute
 
 def equations(build: Any) -> Iterator[Any]:
     """The equations and algorithms of a component, and those of variables that are given a value."""
-    yield from _read(build, "equations", "algorithms")
+    stated = [*_read(build, "equations", "algorithms")]
     for part, path, bound in build.bindings:
-        yield from _bound(part, path, bound)
+        stated += _bound(part, path, bound)
+    for local, symbol in build.given_inwards:
+        stated += Reader(build.frame(build.node)).pairs(local, symbol)
+    yield from _oriented(stated)
+
+
+def _oriented(stated: list[Any]) -> Iterator[Any]:
+    """The statements; an equation between two discrete variables gives the one that no other gives."""
+    given = Counter(e.lhs for e in stated if isinstance(e, Eq) and _is_discrete(e.lhs))
+    given.update(
+        e.lhs
+        for when in stated
+        if isinstance(when, When)
+        for link in when.chain()
+        for e in link.statements
+        if isinstance(e, Eq)
+    )
+    for one in stated:
+        both = isinstance(one, Eq) and _is_discrete(one.lhs) and _is_discrete(one.rhs)
+        if both and given[one.lhs] > 1 and not given[one.rhs]:
+            given.update({one.lhs: -1, one.rhs: 1})
+            one = Eq(one.rhs, one.lhs)
+        yield one
+
+
+def _is_discrete(side: Any) -> bool:
+    return isinstance(side, Reference) and isinstance(side.declaration, Discrete)
 
 
 def initial_equations(build: Any) -> Iterator[Any]:
@@ -78,6 +108,19 @@ def assigned_at_events(build: Any) -> frozenset[str]:
             collect(stated, found, within=False)
         node.__dict__["at_events"] = frozenset(found)
     return node.__dict__["at_events"]
+
+
+def fed_by_connections(build: Any) -> frozenset[str]:
+    """The signals of a class that it connects, and that no equation gives a value."""
+    node = build.node
+    if "fed" not in node.__dict__:
+        connected, given = set[str](), set[str]()
+        for kind, stated, _ in node.view().sections:
+            if kind in ("equations", "algorithms"):
+                collect(stated, given, within=True)
+                connected |= ends_of(stated)
+        node.__dict__["fed"] = frozenset(connected - given)
+    return node.__dict__["fed"]
 
 
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:

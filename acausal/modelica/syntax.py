@@ -217,6 +217,7 @@ class ClassDefinition:
     Attributes:
         kind: ``model``, ``package``, ``function`` and so on.
         elements: imports, bases, components and classes, in their order.
+        literals: of an enumeration, by name as it is written, with its quotes.
         short: of a short class, what it is made of.
         experiment: the arguments of its annotation of that name.
     """
@@ -233,7 +234,7 @@ class ClassDefinition:
     comment: str = ""
     elements: list[Import | Extends | Declared | ClassDefinition] = field(default_factory=list)
     short: Short | None = None
-    literals: list[str] | None = None
+    literals: dict[str, str] | None = None
     equations: list[Statement] = field(default_factory=list)
     initial_equations: list[Statement] = field(default_factory=list)
     algorithms: list[list[Statement]] = field(default_factory=list)

@@ -146,6 +146,17 @@ class Tree:
             found = self.inside(found, word)
         return found
 
+    def text(self, full: str) -> ClassNode | None:
+        """The text of a class that a library has, too; None where there is none."""
+        above, _, word = full.rpartition(".")
+        package = self.resolve(above)
+        if not isinstance(package, ClassNode):
+            return None
+        key = f"text of {word}"
+        if key not in package.children:
+            package.children[key] = package.text(word)
+        return package.children[key]
+
     def inside(self, package: Any, word: str) -> Any:
         """A member of a package."""
         if isinstance(package, ClassNode):

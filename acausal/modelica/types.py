@@ -1,19 +1,18 @@
-"""What a name of a class means for a component of it, and connectors that Modelica text defines."""
+"""What a name of a class means for a component of it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, is_dataclass
-from typing import Any, cast
+from typing import Any
 
 from acausal.errors import nearest
-from acausal.modelica.classes import ClassNode, Entry, View
-from acausal.modelica.functions import Interpreter
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.meanings import Native, Predefined, Prefix, Value
-from acausal.modelica.modifications import Bound, Given, given_by, modification
+from acausal.modelica.modifications import Bound, Given, given_by
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Argument, Declared, Expression
-from acausal.modeling import Component, Connector, Flow, Input, Output, Potential, Variable
+from acausal.modeling import Component, Connector, Input, Output
 
 ATTRIBUTES = ("start", "fixed", "nominal", "stateSelect", "unit", "min", "max")
 IGNORED = ("displayUnit", "quantity", "unbounded")
@@ -32,6 +31,7 @@ class Type:
         causality, connection: prefixes that the type brings along.
         subscripts: of a type that is an array.
         record: of a library, with its default values.
+        full: the Modelica name of the class of a library.
     """
 
     native: Any = None
@@ -42,6 +42,7 @@ class Type:
     causality: str = ""
     subscripts: Sequence[tuple[Expression, ClassNode]] = ()
     record: Any = None
+    full: str = ""
 
     @property
     def is_connector(self) -> bool:
@@ -66,7 +67,7 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
                 raise frame.node.wrong(declared.type.at, f"{found.name} is not supported")
             return Type(predefined=found.name, attributes=found.attributes)
         case Native():
-            return Type(native=found.cls, predefined=_signal_kind(found))
+            return Type(native=found.cls, predefined=_signal_kind(found), full=found.name)
         case ClassNode():
             return type_of_class(found)
         case Value() if is_dataclass(found.value):
@@ -80,8 +81,6 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
 
 def type_of_class(node: ClassNode) -> Type:
     """What a component of a class of the text is."""
-    if node.definition.literals is not None:
-        return Type(predefined=node.full)
     view = node.view()
     if view.predefined is not None:
         return Type(
@@ -110,64 +109,6 @@ def _signal_kind(native: Native) -> str:
     if native.cls not in (Input, Output):
         return ""
     return next((kind for kind in ("Boolean", "Integer") if word.startswith(kind)), "Real")
-
-
-def connector_class(node: ClassNode) -> type[Connector]:
-    """The Python class of a connector.
-
-    Raises:
-        ModelicaError: for a connector that is not made of potentials and flows.
-    """
-    if node.python is None:
-        view = node.view()
-        bases = tuple(n.cls for n, _ in view.natives) or (Connector,)
-        declared = {name: _variable(entry) for name, entry in view.entries.items()}
-        if node.definition.expandable:
-            raise node.refused("expandable connectors are not supported")
-        _check(node, view, declared)
-        node.python = type(node.definition.name, bases, {**declared, "__module__": __name__})
-    return cast("type[Connector]", node.python)
-
-
-def _check(node: ClassNode, view: View, declared: dict[str, Variable]) -> None:
-    flows = sum(isinstance(v, Flow) for v in declared.values())
-    if not declared and not view.natives:
-        raise node.refused("a connector without variables is not supported")
-    if not view.natives and flows != len(declared) - flows:
-        reason = f"a connector has as many flow variables as others, not {flows} and {len(declared) - flows}"
-        raise node.refused(reason)
-
-
-def _variable(entry: Entry) -> Variable:
-    """A variable of a connector."""
-    declared, frame = entry.declared, Frame(entry.node)
-    found = type_of_declared(frame, declared)
-    prefixes = declared.prefixes
-
-    def refuse(what: str) -> Exception:
-        return entry.wrong(f"{what} in a connector is not supported")
-
-    if prefixes.connection == "stream":
-        raise refuse("a stream variable")
-    if found.predefined != "Real" or found.native is not None:
-        raise refuse("what is not a Real")
-    if prefixes.causality or found.causality:
-        raise refuse("an input or output")
-    if prefixes.variability:
-        raise refuse(f"a {prefixes.variability}")
-    sizes = [*((s, entry.node) for s in declared.subscripts), *found.subscripts]
-    shape = tuple(
-        Interpreter(f := Frame(n)).whole(Interpreter(f).value(s), "a size") for s, n in sizes
-    )
-    given = [g for a, n in entry.modifiers for g in given_by([a], Frame(n))]
-    stated = attributes_of(found, modification(declared, given, frame).inner)
-    unit = stated.get("unit", "")
-    kind = Flow if prefixes.connection == "flow" else Potential
-    return kind(
-        unit=unit.value() if isinstance(unit, Bound) else unit,
-        shape=shape or None,
-        doc=declared.comment,
-    )
 
 
 def attributes_of(found: Type, inner: Sequence[Given]) -> dict[str, Any]:

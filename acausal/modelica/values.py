@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from acausal.modeling import Component, Connector, Reference, Variable
+from acausal.modeling import Component, Connector, Input, Output, Reference, Variable
 from acausal.netlist import member
 
 
@@ -118,6 +118,8 @@ def of(value: Any, word: str) -> Any:
                 return ABSENT
             if build is not None and word in build.made:
                 return build.made[word]
+            if build is not None and word in build.entries and word not in vars(value):
+                return build.member(word)  # of a part that is not complete yet
             return as_array(member(value, word))
         case Connector():
             return as_array(getattr(value, word, None)) if _has(value, word) else None
@@ -144,6 +146,22 @@ def type_of(value: Any) -> str:
     if isinstance(value, sp.Expr) and (value.is_Add or value.is_Mul or value.is_Pow):
         return "Real"
     return "Integer" if isinstance(value, int) else "Real" if isinstance(value, float) else ""
+
+
+def is_end(value: Any) -> bool:
+    """Whether this part of a connector is connected by itself: a connector, a signal, or several."""
+    if is_array(value):
+        return any(is_end(v) for v in value)
+    signal = isinstance(value, Reference) and isinstance(value.declaration, Input | Output)
+    return signal or isinstance(value, Connector | Record)
+
+
+def as_record(value: Any) -> Any:
+    """A part that is a record as a value; others as they are."""
+    build = value.__dict__.get("_build") if isinstance(value, Component) else None
+    if build is None or build.node.definition.kind != "record":
+        return value
+    return Record({name: as_record(of(value, name)) for name in build.entries})
 
 
 def with_fields(record: Any, given: dict[str, Any]) -> Any:

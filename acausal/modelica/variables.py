@@ -16,7 +16,7 @@ from acausal.modelica.modifications import Bound, Modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.syntax import Whole
 from acausal.modelica.types import Type, attributes_of
-from acausal.modelica.values import array_of, elements, nested, type_of, with_fields
+from acausal.modelica.values import array_of, each, elements, nested, type_of, with_fields
 from acausal.modeling import (
     Discrete,
     InitialParameter,
@@ -52,7 +52,7 @@ def declare(
         return
     stated = attributes_of(found, mod.inner)
     build.types[name] = found.predefined
-    variability = entry.declared.prefixes.variability
+    variability = entry.declared.prefixes.variability or build.variability
     if variability in ("parameter", "constant"):
         _fixed(build, name, entry, found, mod, stated, sizes)
         return
@@ -64,6 +64,9 @@ def declare(
     declared = _variable(build, name, entry, found, mod, shape, _text(stated.pop("unit", "")))
     build.assign(name, entry, declared)
     start = {k: _value(v) for k, v in stated.items() if k not in ("min", "max")}
+    for key in ("fixed", "stateSelect"):
+        if isinstance(start.get(key), np.ndarray):
+            start[key] = _common(entry, key, start[key])
     if start:
         scope = Values()
         build.component.modify(
@@ -98,11 +101,16 @@ def _variable(
     if found.native is not None:
         causality = "input" if found.native is Input else "output"
     given: dict[str, Any] = {"unit": unit, "shape": shape or None, "doc": entry.declared.comment}
+    fed = mod.value is None and name in statements.fed_by_connections(build)
+    if fed and prefixes.protected and causality == "input":
+        causality = (
+            "output"  # nothing reaches it from outside, it passes on what it is connected to within
+        )
     jumps = (
         kind != "real"
         or prefixes.variability == "discrete"
         or name in statements.assigned_at_events(build)
-    )
+    ) and not (fed and causality == "output")
     if causality == "input" and mod.value is None:
         return Input(kind=kind, **given)
     if causality == "output":
@@ -134,7 +142,8 @@ def _fixed(
         if "start" in stated:
             build.component.modify(**{name: Start(_value(stated["start"]))})
         return
-    given = value.value() if value is not None else _value(stated.get("start"))
+    value = value or stated.get("start")
+    given = value.value() if isinstance(value, Bound) else value
     if given is None and (constant or not real):
         raise entry.wrong(f"'{name}' has no value; give one")
     if given is not None:
@@ -205,6 +214,14 @@ def _sizes(build: Any, entry: Entry, value: Any, sizes: list[tuple[Any, Frame]])
     return found
 
 
+def _common(entry: Entry, key: str, values: Any) -> Any:
+    """The attribute that all elements of an array share."""
+    first, *others = elements(values)
+    if any(v != first for v in others):
+        raise entry.wrong(f"'{key}' has to be the same for all elements of '{entry.declared.name}'")
+    return first
+
+
 def _spread(entry: Entry, name: str, given: Any, sizes: list[int], bound: Bound | None) -> Any:
     """An array of the declared size; a single value goes to all elements."""
     if isinstance(given, np.ndarray):
@@ -224,7 +241,9 @@ def _spread(entry: Entry, name: str, given: Any, sizes: list[int], bound: Bound 
 
 
 def _value(stated: Any) -> Any:
-    return stated.value() if isinstance(stated, Bound) else stated
+    """An attribute; values of enumerations are numbers while a model runs."""
+    value = stated.value() if isinstance(stated, Bound) else stated
+    return each(lambda v: v.number if isinstance(v, Literal) else v, value)
 
 
 def _text(stated: Any) -> str:

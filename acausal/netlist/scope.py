@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 
 from acausal.errors import shortened
@@ -145,7 +146,12 @@ def evaluated(expression: sp.Expr, where: str, values: dict[Any, Any]) -> float:
             raise NetlistError(
                 f"{where}: '{symbol}' changes with time; a structural choice is fixed"
             )
-        given = symbol.owner.modifiers.get(symbol.path, symbol.declaration.default)
+        name, _, index = symbol.path.partition("[")
+        given: Any = symbol.owner.modifiers.get(name, symbol.declaration.default)
+        if index and np.ndim(given):
+            given = np.asarray(given, dtype=object)[
+                tuple(int(i) - 1 for i in index.removesuffix("]").split(","))
+            ]
         if isinstance(given, sp.Expr) and symbol not in values:
             values[symbol] = None
             given = evaluated(given, where, values)

@@ -23,7 +23,7 @@ BASE = {"kg": "[mass]", "m": "[length]", "s": "[time]", "A": "[current]",
 
 DERIVED = {
     **dict.fromkeys(("rad", "sr", "deg", "rev"), "1"),
-    "N": "kg.m/s2", "Pa": "kg/(m.s2)", "J": "kg.m2/s2", "W": "kg.m2/s3",
+    "N": "kg.m/s2", "Pa": "kg/(m.s2)", "J": "kg.m2/s2", "W": "kg.m2/s3", "var": "W",
     "V": "kg.m2/(A.s3)", "Ohm": "kg.m2/(A2.s3)", "S": "A2.s3/(kg.m2)", "C": "A.s",
     "F": "A2.s4/(kg.m2)", "H": "kg.m2/(A2.s2)", "Wb": "kg.m2/(A.s2)", "T": "kg/(A.s2)",
     "Hz": "1/s", "g": "kg", "t": "kg", "l": "m3", "bar": "kg/(m.s2)", "mbar": "bar", "eV": "kg.m2/s2", "lm": "cd",

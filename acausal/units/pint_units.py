@@ -20,6 +20,7 @@ def registry() -> pint.UnitRegistry[Any]:
     known = pint.UnitRegistry(cache_folder=None)
     known.define("@alias turn = rev")
     known.define("@alias ohm = Ohm")
+    known.define("var = watt")  # of reactive power
     return known
 
 

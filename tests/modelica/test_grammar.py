@@ -74,7 +74,7 @@ def test_every_form_of_the_language_is_read() -> None:
     classes = {
         e.name: e for e in package.elements if not isinstance(e, Import | Declared | Extends)
     }
-    assert classes["Mode"].literals == ["off", "on"]
+    assert classes["Mode"].literals == {"off": "off", "on": "on"}
     assert classes["h"].external == "h_"
     model = classes["M"]
     assert [type(s) for s in model.equations] == [Connect, Branches, Branches, Loop, Do, Equation]

@@ -63,7 +63,16 @@ WRONG = {
     "connector C Real p; Real q; flow Real f; end C; model M C c; end M;": "not 1 and 2",
     # not supported
     "model M Real x=delay(time,1); end M;": "delay.* is not supported; use the block",
-    "model M inner Real x=1; end M;": "'inner' is not supported",
+    "connector C Real p; flow Real f; end C; model M C c; parameter Integer n=cardinality(c); end M;":
+    "stands in equations only",
+    "model M outer Real x; end M;": "no 'inner Real x' around this; declare it in the model",
+    "model A inner outer Real x; end A; model M inner Real x=1; A a; end M;": "'inner outer' is not supported",
+    "connector C parameter Integer n=1; Real p[n]; flow Real f; stream Real h; end C; model M C c; end M;":
+    "a stream variable",
+    "connector C Boolean b; Real p; flow Real f; end C; model M C c; end M;":
+    "a Boolean in a connector is an input or output",
+    "connector C Real p; flow Real f; end C; connector A C x; end A; connector B C x; C y; end B;"
+    "model M A a; B b; equation connect(a,b); end M;": "unlike connectors: only one has 'y'",
     "model M Clock c; end M;": "Clock is not supported",
     "connector C Real p; flow Real f; stream Real h; end C; model M C c; end M;": "a stream variable",
     "expandable connector B end B; model M B b; end M;": "expandable connectors are not supported",

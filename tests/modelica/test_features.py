@@ -1,0 +1,134 @@
+"""What libraries use: connectors in connectors, ``inner`` and ``outer``, enumerations, records in functions."""
+
+import copy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import acausal as ac
+
+FILE = Path(__file__).with_name("Features.mo")
+START = {
+    "plugged.w.c.v[1]": 1.0,
+    "plugged.w.c.v[2]": 2.0,
+    "named.p.x": 1.0,
+    "named.q.x": 1.0,
+    "bundled.store.T[1]": 1.0,
+    "bundled.store.T[2]": 2.0,
+}
+
+
+@pytest.fixture(scope="module")
+def model() -> Any:
+    return ac.load(FILE, "Features.All")
+
+
+@pytest.fixture(scope="module")
+def system(model: Any) -> ac.System:
+    return ac.compile(model)
+
+
+def test_states_move_as_their_equations_say(system: ac.System) -> None:
+    x = [START[name] for name in system.states]
+    found = np.asarray(system.vector_field(0.5, x, None, system.parameters()))
+    wanted = {
+        # capacitors of 1 F over resistors of 1 and 2 ohm, through the plug of a composite, times a signal in the plug
+        "plugged.w.c.v[1]": -2.5 * 1,
+        "plugged.w.c.v[2]": -2.5 * 2 / 2,
+        # two losses at a store of 2 J/K: vectors, and a connector within
+        "bundled.store.T[1]": -(1 + 1) * 1 / 2,
+        "bundled.store.T[2]": -(2 + 2) * 2 / 2,
+        # records: p has a = 1, b = 3, c = 0.5; q has a = 4, b = 12; doubled by a function
+        "named.p.x": -(2 * 1 + 3 + 0.5 + 1),
+        "named.q.x": -(2 * 4 + 12 + 7 + 1),
+    }
+    assert dict(zip(system.states, found, strict=True)) == pytest.approx(wanted)
+
+
+def test_a_copy_moves_in_the_same_way(model: Any, system: ac.System) -> None:
+    assert [str(e) for e in ac.compile(copy.deepcopy(model)).equations] == [
+        str(e) for e in system.equations
+    ]
+
+
+def test_how_often_a_connector_is_connected(model: Any) -> None:
+    assert "n = 2" in [str(e).rpartition("plugged.r.")[2] for e in model.plugged.r.equations()]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("t", "expected"),
+    [
+        (0.5, {"x": 10, "n": 1, "found": 0, "y": 4, "any": 0, "all": 0}),
+        (1.2, {"x": 20, "n": 2, "found": 3, "y": 9.6, "any": 1, "all": 0}),
+        (1.6, {"x": 20, "n": 2, "found": 2, "y": 12.8, "any": 1, "all": 0}),
+        (3.5, {"x": 30, "n": 3, "found": 1, "y": 10, "any": 1, "all": 1}),
+    ],
+)
+def test_choices_of_a_model_that_runs(running: ac.Solution, t: float, expected: Any) -> None:
+    i = int(np.argmin(np.abs(np.asarray(running.t) - t)))
+    found = {name: float(running[f"choices.{name}"][i]) for name in expected}
+    assert found == pytest.approx(expected)
+    assert float(running["choices.top"][i]) == 30
+    middle = [float(running[f"choices.watch.{name}"][i]) for name in ("middle", "outside")]
+    assert middle == [expected["n"] == 2, expected["n"] != 2]
+
+
+def test_texts_decide_what_is_known_when_the_model_is_built() -> None:
+    assert ac.load(FILE, "Features.Choices")._node.modifiers["turns"] == 3
+
+
+@pytest.mark.slow
+def test_signals_are_passed_on_by_connections(running: ac.Solution) -> None:
+    assert np.asarray(running["passing.on"]).tolist() == [0, 0, 1, 1, 1]
+    assert np.allclose(running["passing.twice"], 6)
+
+
+@pytest.mark.slow
+def test_inner_parts_reach_all_that_is_within(running: ac.Solution) -> None:
+    t = np.asarray(running.t)
+    y = 2 * t + np.where(t < 0.5, 1.5 * t**2, 1.5 * 0.25)  # the wind ends at 0.5 s
+    for name in ("a.y", "d.body.y"):
+        assert np.allclose(running[f"surrounded.{name}"], y, atol=1e-5)
+    filled = 5 + 2 * (t**2 + np.where(t < 0.5, t**3 / 2, 1.5 * 0.25 * t - 0.125))
+    assert np.allclose(running["surrounded.tank.x"], filled, atol=1e-4)
+
+
+@pytest.fixture(scope="module")
+def running() -> ac.Solution:
+    system = ac.compile(ac.load(FILE, "Features.Running"))
+    return ac.simulate(system, (0.0, 4.0), saveat=[0.25, 0.5, 1.2, 1.6, 3.5], rtol=1e-8, atol=1e-10)
+
+
+def test_elements_of_a_parameter_decide_a_table() -> None:
+    system = ac.compile(ac.load(FILE, "Features.Tabled"))
+    assert float(system.observe("table.y[1]", 0.0, [], None, system.parameters())) == 3
+
+
+def test_the_text_of_an_interface_is_read_where_the_library_lacks_its_members(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "Modelica").mkdir()
+    (
+        tmp_path / "Modelica" / "package.mo"
+    ).write_text("""package Modelica package Blocks package Interfaces
+        connector RealInput = input Real; connector RealOutput = output Real;
+        partial block MIMO
+          parameter Integer nin = 1, nout = 1; RealInput u[nin]; RealOutput y[nout];
+        end MIMO;
+      end Interfaces; end Blocks; end Modelica;""")
+    text = """model M extends Modelica.Blocks.Interfaces.MIMO(final nin = 3, nout = 2);
+      equation y = {u[1] + u[2], u[3]}; end M;"""
+    (tmp_path / "user.mo").write_text(text)
+    system = ac.compile(ac.load(tmp_path / "user.mo"))
+    assert (system.inputs, system.outputs) == (("u[1]", "u[2]", "u[3]"), ("y[1]", "y[2]"))
+
+
+def test_a_class_is_found_without_reading_all_others(tmp_path: Path) -> None:
+    (tmp_path / "P").mkdir()
+    (tmp_path / "P" / "package.mo").write_text("package P end P;")
+    (tmp_path / "P" / "A.mo").write_text("within P; model A Real x = 1; end A;")
+    (tmp_path / "P" / "Other.mo").write_text("within P; this is no Modelica")
+    assert type(ac.load(tmp_path / "P", "P.A")).__name__ == "A"
