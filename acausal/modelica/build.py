@@ -11,30 +11,18 @@ from acausal.errors import ModelError, nearest
 from acausal.modelica import statements
 from acausal.modelica.classes import ClassNode, Entry
 from acausal.modelica.connectors import connector
+from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
 from acausal.modelica.modifications import Bound, Given, Index, Modification, given_by, modification
 from acausal.modelica.operators import Frame
+from acausal.modelica.outer import inner_of
 from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
 from acausal.modelica.tokens import ModelicaError
-from acausal.modelica.types import (
-    Type,
-    is_component,
-    type_of_declared,
-)
+from acausal.modelica.types import Type, is_component, type_of_declared
 from acausal.modelica.values import ABSENT, Record, as_array, of
 from acausal.modelica.variables import declare
-from acausal.modeling import (
-    Component,
-    Connector,
-    Discrete,
-    Input,
-    Parameter,
-    Reference,
-    Variable,
-    charge,
-    check_size,
-)
+from acausal.modeling import Component, Reference, charge, check_size
 
 MAX_DEPTH = 60
 
@@ -232,7 +220,9 @@ class Build:
     def _finish(self) -> None:
         for part in self.parts_of_text:
             part._build._finish()
-        self._distinguish()
+        statements.check(self)
+        note_form(self)
+        self.given, self.later = [], []
 
     def _refuse(self, reason: str) -> None:
         if self.above is not None and self.given:
@@ -289,7 +279,7 @@ class Build:
     def _make(self, name: str, entry: Entry) -> None:
         declared, frame = entry.declared, self.frame(entry.node)
         if declared.prefixes.outer:
-            self.made[name] = self._inner(name, entry)
+            self.made[name] = inner_of(self, name, entry)
             return
         given = [
             *self.given,
@@ -312,49 +302,6 @@ class Build:
         else:
             value = self.parts(name, entry, found, mod, [self.size(s, f) for s, f in sizes])
             self.assign(name, entry, value)
-
-    def _inner(self, name: str, entry: Entry) -> Any:
-        """What an ``outer`` component stands for: the ``inner`` one of that name in a model around this one."""
-        if entry.declared.prefixes.inner:
-            raise entry.wrong("'inner outer' is not supported; give one of them another name")
-        above = self.above
-        while above is not None:
-            known = above.entries.get(name)
-            if known is not None and known.declared.prefixes.inner:
-                return above.member(name)
-            above = above.above
-        raise entry.wrong(
-            f"there is no 'inner {entry.declared.type.text} {name}' around this; declare it in the model"
-        )
-
-    def inwards(self, symbol: Any) -> Any:
-        """What stands here for a variable or parameter of an ``outer`` component: it gets its value from there."""
-        node: Any = self.component._node
-        if not isinstance(symbol, Reference) or symbol.owner.route_from(node) is not None:
-            return symbol
-        if symbol not in self.outer:
-            owner: Any = symbol.owner
-            name, declared = f"{owner.name}.{symbol.path}", symbol.declaration
-            kind: Any = Parameter if isinstance(declared, Parameter) else Variable
-            given: Any = {"unit": declared.unit}
-            if isinstance(declared, Discrete | Input) and declared.kind != "real":
-                kind, given["kind"] = Discrete, declared.kind
-            self.outer[symbol] = node.declare(name, kind(**given))
-            if kind is Parameter:
-                self.component.modify(**{name: symbol})
-            else:
-                around = self.around(symbol.owner)
-                around.given_inwards.append((self.outer[symbol], symbol))
-        return self.outer[symbol]
-
-    def around(self, *owners: Any) -> Build:
-        """The build of the innermost component that all owners are, or are parts of; this one, if it may be."""
-        found = self
-        while found.above is not None and any(
-            owner.route_from(found.component._node) is None for owner in owners
-        ):
-            found = found.above
-        return found
 
     def assign(self, name: str, entry: Entry, value: Any) -> None:
         """Give the component an attribute; what belongs to a connector, or consists of several, is kept here."""
@@ -450,21 +397,6 @@ class Build:
         own = sorted(node.own_declarations.items(), key=lambda item: place(item[0]))
         node.own_declarations = dict(own)
 
-    def _distinguish(self) -> None:
-        """Make all that decides the equations a constant, so that components with other equations have another form."""
-        statements.check(self)
-        constants = self.component._node.constants
-        for name, value in self.made.items():
-            constants[f"value of {name}"] = _plain(value)
-        constants["absent"] = tuple(sorted(self.absent))
-        constants["classes"] = tuple((n, str(id(c))) for n, c in self.classes.items())
-        constants["given inwards"] = tuple(str(id(a)) for a, _ in self.given_inwards)
-        constants["decided"] = tuple(self.decided.items())
-        constants["bindings"] = tuple(
-            (name, str(id(bound.expression)), bound.index) for _, name, bound in self.bindings
-        )
-        self.given, self.later = [], []
-
 
 def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
     """The class that a redeclaration states; the same for the same text."""
@@ -508,19 +440,6 @@ def _fields(node: ClassNode, value: Bound) -> list[Given]:
 def _is_composite(value: Any) -> bool:
     """Whether this is a connector of connectors, or a list of such."""
     return isinstance(value, Record) or (isinstance(value, list) and any(map(_is_composite, value)))
-
-
-def _plain(value: Any) -> Any:
-    """A value as something that can be compared."""
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, Record):
-        return [(name, _plain(v)) for name, v in value.fields.items()]
-    if isinstance(value, list):
-        return [_plain(v) for v in value]
-    if isinstance(value, Connector | Reference):
-        return None
-    return value if isinstance(value, bool | int | float | str) else str(id(value))
 
 
 def element_name(name: str, index: Index) -> str:

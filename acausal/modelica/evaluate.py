@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import partial
 from typing import Any, Self
 
 import numpy as np
@@ -13,6 +14,7 @@ from acausal.errors import nearest, shortened
 from acausal.modelica.classes import ClassNode, Imported
 from acausal.modelica.meanings import Literal, Native, Predefined, Prefix, Value
 from acausal.modelica.operators import Frame, Operators
+from acausal.modelica.outer import inwards
 from acausal.modelica.syntax import (
     Array,
     Call,
@@ -243,7 +245,7 @@ class Evaluator(Operators):
         build, word = self.frame.build, name.words[0]
         known = None if build is None or self.connecting else build.entries.get(word)
         outer = known is not None and known.declared.prefixes.outer
-        return each(build.inwards, value) if outer else value  # pyright: ignore[reportOptionalMemberAccess]
+        return each(partial(inwards, build), value) if build and outer else value
 
     def _first(self, name: Name) -> tuple[Any, int]:
         """The value of the first words, and how many they are."""

@@ -12,6 +12,7 @@ from acausal.errors import DeclarationError, ModelError
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Literal
 from acausal.modelica.operators import Frame
+from acausal.modelica.outer import around
 from acausal.modelica.syntax import (
     Branches,
     Call,
@@ -104,7 +105,7 @@ class Reader(Interpreter):
                         for e in (left, right)
                         if isinstance(e, Connector | Reference)
                     ]
-                    self.frame.build.around(*owners).component.connect(left, right)
+                    around(self.frame.build, *owners).component.connect(left, right)
                 except ModelError as error:
                     raise self.wrong(str(error), len("connect")) from None
 
