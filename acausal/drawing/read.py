@@ -6,6 +6,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
+from networkx.utils import UnionFind
+
 from acausal.drawing.ports import SIGNAL, color_of, joined, ports_of, side_of_gate
 from acausal.drawing.references import with_local_references
 from acausal.drawing.scheme import OPPOSITE, Box, End, Kind, Net, Port, Scheme
@@ -121,16 +123,19 @@ class _Reader:
 
     def _nets(self) -> Iterator[Net]:
         """Connected ends, joined. Of nets between the same ports, as lists have them, one is drawn."""
-        sets = _UnionFind()
+        sets: Any = UnionFind()
         given: dict[_Fine, Any] = {}
         for pair in self._connections():
             a, b = (_at(self, end) for end in pair)
             given.setdefault(a, pair[0])
             given.setdefault(b, pair[1])
-            sets.join(a, b)
+            sets.union(a, b)
+        together: dict[_Fine, list[_Fine]] = {}
+        for fine in given:
+            together.setdefault(sets[fine], []).append(fine)
         seen: set[tuple[End, ...]] = set()
         used: set[End] = set()
-        for fine in sets.all():
+        for fine in together.values():
             ends = list(dict.fromkeys(f.end for f in fine))
             if len(ends) < 2 or self._within_list(ends) or tuple(sorted(ends)) in seen:
                 continue
@@ -177,33 +182,6 @@ class _Fine:
     part: str
     name: str
     end: End
-
-
-class _UnionFind:
-    """Connectors that are joined two by two, as disjoint sets in order of appearance."""
-
-    def __init__(self) -> None:
-        self.parent: dict[_Fine, _Fine] = {}
-
-    def find(self, thing: _Fine) -> _Fine:
-        """What stands for the set of a thing."""
-        self.parent.setdefault(thing, thing)
-        while self.parent[thing] != thing:
-            self.parent[thing] = self.parent[self.parent[thing]]
-            thing = self.parent[thing]
-        return thing
-
-    def join(self, a: _Fine, b: _Fine) -> None:
-        """Unite two sets."""
-        first, second = self.find(a), self.find(b)
-        self.parent[second] = first
-
-    def all(self) -> list[list[_Fine]]:
-        """The sets."""
-        sets: dict[_Fine, list[_Fine]] = {}
-        for thing in list(self.parent):
-            sets.setdefault(self.find(thing), []).append(thing)
-        return list(sets.values())
 
 
 @dataclass(frozen=True)
