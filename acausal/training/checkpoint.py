@@ -43,14 +43,14 @@ class Snapshot(NamedTuple):
     """Everything that a training needs to continue after an update.
 
     Attributes:
-        leg: of the strategy, by number; ``before``: updates done in the legs before it.
-        state: of the leg's trainer.
+        segment: of the strategy, by number; ``before``: updates done in the segments before it.
+        state: of the segment's trainer.
         bests: of each training.
         evaluated: updates that were done at the last evaluation.
         seconds, compiling, updating: what the training took up to now.
     """
 
-    leg: int
+    segment: int
     before: int
     state: State
     bests: tuple[StoredBest, ...]
@@ -72,18 +72,18 @@ class Stored(NamedTuple):
 
     Attributes:
         path: where from.
-        leg: the leg in which it was written.
+        segment: the segment in which it was written.
         columns: of each training's log.
         arrays: of the snapshot, by name.
     """
 
     path: Path
-    leg: int
+    segment: int
     columns: tuple[dict[str, np.ndarray], ...]
     arrays: dict[str, np.ndarray]
 
     def snapshot(self, like: Snapshot) -> Snapshot:
-        """The snapshot; ``like`` is one of the same training in the same leg.
+        """The snapshot; ``like`` is one of the same training in the same segment.
 
         Raises:
             DataError: if that has other parts.
@@ -134,7 +134,7 @@ def read(path: Path, fingerprint: Mapping[str, str]) -> Stored:
         for prefix in prefixes
     )
     snapshot = {n: a for n, a in arrays.items() if not n.startswith(tuple(prefixes))}
-    return Stored(path, int(about["leg"]), columns, snapshot)
+    return Stored(path, int(about["segment"]), columns, snapshot)
 
 
 @contextmanager
@@ -212,7 +212,7 @@ class _Keeper:
             LOG.format(k) + n: a for k, rows in enumerate(logs) for n, a in rows.columns().items()
         }
         about = {
-            "kind": KIND, "leg": snapshot.leg, "members": len(logs), "fingerprint": self.fingerprint
+            "kind": KIND, "segment": snapshot.segment, "members": len(logs), "fingerprint": self.fingerprint
         }  # fmt: skip
         try:
             self.lock.hold()

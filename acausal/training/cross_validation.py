@@ -286,8 +286,8 @@ def _fold(training: Training, part: LeftOut) -> Fold:
     """One fold; its program is that of the others, because its trainers are."""
     own = without(training.problem, part)
     judged = judged_on(training.problem, part, training.records, training.options.x0)
-    plan = tuple(leg.over(own) for leg in training.legs)
-    (fit,) = run(replace(training, problem=own, legs=plan), judged, f"Without '{part.name}': ")
+    plan = tuple(segment.over(own) for segment in training.segments)
+    (fit,) = run(replace(training, problem=own, segments=plan), judged, f"Without '{part.name}': ")
     fit = replace(fit, records=_counting(fit.records), held_out=_counting(fit.held_out))
     loss = float(judged.loss(fit.trained))
     return Fold(part.name, fit, loss if np.isfinite(loss) else np.inf)

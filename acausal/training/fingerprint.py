@@ -4,10 +4,10 @@ Arrays, numbers, words and names count by value. A function counts as the progra
 so that a checkpoint is refused where a constant or a helper that the function uses has changed, and accepted where only
 names or places of code have.
 
-Measured on the quarter vehicle with both networks, three legs and a regularizer (JAX 0.10.2): 0.3 to 0.5 s of processor
-time, once per training with a checkpoint. Hashing bytecode took 0.1 s, but saw neither helpers nor constants outside of
-a function, and changed with the version of Python. The text of a jaxpr takes half of the time, but lacks the values of
-constants.
+Measured on the quarter vehicle with both networks, three segments and a regularizer (JAX 0.10.2): 0.3 to 0.5 s of
+processor time, once per training with a checkpoint. Hashing bytecode took 0.1 s, but saw neither helpers nor
+constants outside of a function, and changed with the version of Python. The text of a jaxpr takes half of the time,
+but lacks the values of constants.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from acausal.system import System
 from acausal.training.objective.held_out import HeldOut
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.trainable import Trainable
-from acausal.training.strategy import Leg, Stage
+from acausal.training.strategy import Segment, Stage
 
 DERIVED = ("context", "shooting", "weighting", "mesh", "first_states", "start_prior")
 """Fields of a problem that follow from the others, or only choose the devices."""
@@ -44,7 +44,7 @@ ARGUMENTS = {
 
 def fingerprint(
     problem: Problem,
-    legs: Sequence[Leg],
+    segments: Sequence[Segment],
     seeds: Sequence[int],
     others: Sequence[Trainable],
     held: HeldOut | None,
@@ -54,7 +54,7 @@ def fingerprint(
 
     Arguments:
         problem: the problem, with the start of the first training.
-        legs: of the strategy.
+        segments: of the strategy.
         seeds: one for each training.
         others: where all but the first training start.
         held: what is held out, if anything is.
@@ -65,7 +65,7 @@ def fingerprint(
     planned = {
         "system": (problem.system, _rates(problem)),
         "targets": (problem.targets, _outputs(problem)),
-        "loss": ([leg.trainer.limit for leg in legs], _loss(problem)),
+        "loss": ([segment.trainer.limit for segment in segments], _loss(problem)),
         "regularizers": {n: _regularizer(problem, r) for n, r in problem.regularizers.items()},
         "record_weights or sample_weights": (problem.weighting, problem.records.weight),
         "data": (
@@ -74,12 +74,12 @@ def fingerprint(
         ),
         "modifiers": (problem.modifiers.names, problem.modifiers.kinds),
         "x0": (problem.first_states, problem.start_prior, problem.shooting is None),
-        "strategy": [_stage(leg.stage) for leg in legs],
-        "epochs": [leg.epochs for leg in legs],
-        "evaluate_every": [leg.evaluate_every for leg in legs],
-        "patience": [leg.patience for leg in legs],
+        "strategy": [_stage(segment.stage) for segment in segments],
+        "epochs": [segment.epochs for segment in segments],
+        "evaluate_every": [segment.evaluate_every for segment in segments],
+        "patience": [segment.patience for segment in segments],
         "validation": held and (held.problem.records, held.problem.first_states),
-        "optimizer": [_optimizer(leg) for leg in legs],
+        "optimizer": [_optimizer(segment) for segment in segments],
         "seed": seeds,
         "members": others,
     }
@@ -131,12 +131,12 @@ def _regularizer(problem: Problem, regularizer: Callable[..., Any]) -> str:
     return program(gradient, problem.params, problem.context)
 
 
-def _optimizer(leg: Leg) -> str:
-    """The start of a leg's optimizer, and one update.
+def _optimizer(segment: Segment) -> str:
+    """The start of a segment's optimizer, and one update.
 
     Both depend on the shapes of the trained arrays: if these change, so does the digest.
     """
-    optimizer = leg.trainer.optimizer
+    optimizer = segment.trainer.optimizer
 
     def first(trainable: Any, gradient: Any) -> Any:
         count = sum(leaf.size for leaf in jax.tree.leaves(trainable))
@@ -150,7 +150,7 @@ def _optimizer(leg: Leg) -> str:
             hessian=jnp.zeros((count, count)),
         )
 
-    start = leg.objective.start()
+    start = segment.objective.start()
     return program(first, start, start)
 
 

@@ -131,7 +131,7 @@ class Member:
         return sum(evaluation.epoch > begin for evaluation in self.log.evaluations)
 
     def gained_less(self, part: float) -> bool:
-        """Whether the last of some evaluations in this leg lowered the loss by less than a part of it."""
+        """Whether the last of some evaluations in this segment lowered the loss by less than a part of it."""
         losses = [e.loss for e in self.log.evaluations if e.epoch >= self.before]
         if part == 0.0 or len(losses) < 3 or not math.isfinite(losses[-2]):
             return False

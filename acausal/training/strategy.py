@@ -1,4 +1,4 @@
-"""Strategies: the legs of a training, one after the other, by name."""
+"""Strategies: the segments of a training, one after the other, by name."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ DIVERGED = 1e3
 """A sequence whose normalised error is larger has diverged."""
 
 EVALUATIONS = 10
-"""Evaluations over the whole record in each leg, by default."""
+"""Evaluations over the whole record in each segment, by default."""
 
 
 class Stage(NamedTuple):
@@ -61,7 +61,7 @@ class Stage(NamedTuple):
     gain: float = 0.0
 
 
-class Leg(NamedTuple):
+class Segment(NamedTuple):
     """A part of a training.
 
     Attributes:
@@ -85,13 +85,13 @@ class Leg(NamedTuple):
         """Of its kind."""
         return self.stage.kind
 
-    def over(self, problem: Problem) -> Leg:
+    def over(self, problem: Problem) -> Segment:
         """The same part with the same trainer, and so the same program, for a problem of the same shapes."""
         return self._replace(objective=_objective(self.stage, problem))
 
 
 class _Kind(NamedTuple):
-    """A kind of leg.
+    """A kind of segment.
 
     Attributes:
         objective: from the problem.
@@ -110,7 +110,7 @@ KINDS = {
     "whole_record": _Kind(over_whole_record, lbfgs),
     "gauss_newton": _Kind(gauss_newton, levenberg_marquardt, with_gauss_newton_hessian),
 }
-"""The kinds of legs; their names and numbers of updates are in `UPDATES` of the options."""
+"""The kinds of segments; their names and numbers of updates are in `UPDATES` of the options."""
 
 
 def stages(options: FitOptions) -> tuple[Stage, ...]:
@@ -119,13 +119,15 @@ def stages(options: FitOptions) -> tuple[Stage, ...]:
     return tuple(Stage(name, count, name.replace("_", " ")) for name, count in parts)
 
 
-def legs(problem: Problem, planned: Sequence[Stage], options: FitOptions) -> tuple[Leg, ...]:
-    """The legs of a training.
+def segments(
+    problem: Problem, planned: Sequence[Stage], options: FitOptions
+) -> tuple[Segment, ...]:
+    """The segments of a training.
 
     Raises:
-        TrainingError: for an optimizer or a problem that a leg cannot have.
+        TrainingError: for an optimizer or a problem that a segment cannot have.
     """
-    return tuple(_leg(problem, stage, options) for stage in planned)
+    return tuple(_segment(problem, stage, options) for stage in planned)
 
 
 def _objective(stage: Stage, problem: Problem) -> Problem:
@@ -134,7 +136,7 @@ def _objective(stage: Stage, problem: Problem) -> Problem:
     return over_windows(problem, stage.rows)
 
 
-def _leg(problem: Problem, stage: Stage, options: FitOptions) -> Leg:
+def _segment(problem: Problem, stage: Stage, options: FitOptions) -> Segment:
     epochs, kind = stage.epochs, KINDS[stage.kind]
     if stage.descent:
         chosen = lbfgs()
@@ -152,7 +154,7 @@ def _leg(problem: Problem, stage: Stage, options: FitOptions) -> Leg:
     every = options.evaluate_every
     if every is None:
         every = max(1, epochs // EVALUATIONS)
-    return Leg(stage, _objective(stage, problem), trainer, epochs, every, options.patience)
+    return Segment(stage, _objective(stage, problem), trainer, epochs, every, options.patience)
 
 
 @cache
@@ -176,20 +178,20 @@ class StageResult(NamedTuple):
 
 
 def stage_results(
-    history: History, legs: Sequence[Leg], linear: float | None
+    history: History, segments: Sequence[Segment], linear: float | None
 ) -> tuple[StageResult, ...]:
     """The stages that a training has gone through.
 
     Arguments:
-        history, legs: of the training.
+        history, segments: of the training.
         linear: the loss of the linear laws that it started from, if there are any.
     """
     found = [] if linear is None else [StageResult("linear law", linear, 0)]
     epochs, losses = history.full_loss.T
-    for i, leg in enumerate(legs):
+    for i, segment in enumerate(segments):
         own = np.flatnonzero(history.part == i)
         if len(own):
             inside = (epochs > own[0]) & (epochs <= own[-1] + 1)
             loss = float(np.min(losses[inside], initial=np.inf))
-            found.append(StageResult(leg.stage.title, loss, len(own)))
+            found.append(StageResult(segment.stage.title, loss, len(own)))
     return tuple(found)

@@ -41,7 +41,7 @@ from acausal.training.options import FitOptions
 from acausal.training.progress import Observer, after, display
 from acausal.training.result import Fit, result
 from acausal.training.starts import Halving, halving, spread_starts, starts_of
-from acausal.training.strategy import Leg, legs, stage_results, stages
+from acausal.training.strategy import Segment, segments, stage_results, stages
 from acausal.training.training_run import TrainingRun
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Training:
         problem: what is trained; parameters that are not trained are those of the first start.
         records: to train on, by name, in the model's units.
         held: what is held out and chooses the best state, if anything is.
-        legs: what to do, one part after the other.
+        segments: what to do, one part after the other.
         options: how to train.
         seeds: one for each training; ``params``: the parameters where each starts.
         automatic: what was chosen from the data, with ``strategy="auto"``.
@@ -67,7 +67,7 @@ class Training:
     problem: Problem
     records: dict[str, Data]
     held: HeldOut | None
-    legs: tuple[Leg, ...]
+    segments: tuple[Segment, ...]
     options: FitOptions
     seeds: Sequence[int]
     params: Sequence[Mapping[str, Any]]
@@ -120,7 +120,7 @@ def prepare(
     problem = build_problem(system, kept.training, names, dict(starts[0]), options)
     held = hold_out(problem, kept, options.x0)
     planned = stages(options) if from_data is None else from_data.stages
-    plan = legs(problem, planned, options)
+    plan = segments(problem, planned, options)
     return Training(problem, kept.training, held, plan, options, seeds, starts, from_data)
 
 
@@ -136,7 +136,7 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
         DataError, TrainingError: as `acausal.fit` does.
     """
     problem, options, from_data = training.problem, training.options, training.automatic
-    plan, seeds = training.legs, training.seeds
+    plan, seeds = training.segments, training.seeds
     problems = [_from(problem, own) for own in training.params]
     starts = [start for p in problems for start in spread_starts(p, options.starts, seeds[0])]
     if from_data is not None and options.starts == 1:
@@ -152,7 +152,7 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
     path = path if jax.process_index() == 0 else None
     with checkpoints.keeping(path, options.checkpoint_every, identity) as keep:
         keys = [jax.random.key(seed) for seed in seeds for _ in range(options.starts)]
-        ends = halving(options.starts, sum(leg.epochs for leg in plan))
+        ends = halving(options.starts, sum(segment.epochs for segment in plan))
         trained = _trained(training, starts, keys, keep, stored, ends)
     spread = None
     if options.starts > 1:
@@ -168,7 +168,7 @@ def run(training: Training, judged: HeldOut | None = None, prefix: str = "") -> 
         later = _trained(finer, begins, keys, lambda *_: None, None, none, trained[0])
         if all(np.isfinite(one.best.loss) for one in later):
             trained = tuple(a.then(b, len(plan)) for a, b in zip(trained, later, strict=True))
-            training, plan = finer, (*plan, *finer.legs)
+            training, plan = finer, (*plan, *finer.segments)
             judged = None if judged is None else HeldOut(step.over(judged.problem))
             problems = [step.over(own) for own in problems]
             errors = _step_errors(training, problems, trained)
@@ -205,13 +205,13 @@ def _trained(
     before: Trained | None = None,
 ) -> tuple[Trained, ...]:
     """Train, and display it; after another training, observers are told of the updates and the time of both."""
-    options, epochs = training.options, sum(leg.epochs for leg in training.legs)
+    options, epochs = training.options, sum(segment.epochs for segment in training.segments)
     observers: tuple[Observer, ...] = (log_progress, *options.all_observers)
     if before is not None:
         observers = tuple(after(one, before.history.epochs, before.seconds) for one in observers)
     with display(options.progress and jax.process_index() == 0, epochs) as show:
         found = TrainingRun(
-            training.problem, training.legs, keys, (show, *observers), keep, training.held, ends
+            training.problem, training.segments, keys, (show, *observers), keep, training.held, ends
         ).train(starts, stored)
     mesh = training.problem.mesh
     return tuple(replace(one, best=on_default_device(one.best, mesh)) for one in found)
@@ -251,7 +251,7 @@ def _in_steps(training: Training, step: StepChoice) -> Training:
         training,
         problem=problem,
         held=None if held is None else HeldOut(step.over(held.problem)),
-        legs=legs(problem, (stage,), training.options),
+        segments=segments(problem, (stage,), training.options),
     )
 
 

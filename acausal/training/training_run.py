@@ -33,18 +33,18 @@ from acausal.training.optimizers.trainer import (
 from acausal.training.progress import Observer, Progress
 from acausal.training.rejections import check_rejections
 from acausal.training.starts import Halving
-from acausal.training.strategy import Leg
+from acausal.training.strategy import Segment
 
 REPORT_EVERY = 0.5
 """Approximate seconds between two reports to the observers."""
 
 
 class TrainingRun:
-    """Trainings of one problem that run in one program: leg by leg, each from the best state of the one before.
+    """Trainings of one problem that run in one program: segment by segment, each from the best state of the one before.
 
     Arguments:
         problem: evaluated over the whole record; the best evaluation is chosen where nothing is held out.
-        legs: what to minimise and how. A leg ends when it has ended for all trainings.
+        segments: what to minimise and how. A segment ends when it has ended for all trainings.
         keys: sources of all batches, one for each training.
         observers: called about twice a second. A `KeyboardInterrupt` in one ends the training as Ctrl-C does.
         keep: called with all that is needed to continue, before the first update and after every few.
@@ -60,7 +60,7 @@ class TrainingRun:
     def __init__(
         self,
         problem: Problem,
-        legs: Sequence[Leg],
+        segments: Sequence[Segment],
         keys: Sequence[PRNGKeyArray],
         observers: Sequence[Observer],
         keep: Keep,
@@ -71,9 +71,9 @@ class TrainingRun:
         self.mesh = problem.mesh
         on_devices = replicate((problem, held), self.mesh)
         self.members = [Member(*on_devices, key) for key in keys]
-        self.legs, self.observers, self.keep = legs, observers, keep
+        self.segments, self.observers, self.keep = segments, observers, keep
         self.halving = halving
-        self.planned = [0, *itertools.accumulate(leg.epochs for leg in legs)]
+        self.planned = [0, *itertools.accumulate(segment.epochs for segment in segments)]
         self.epochs = self.planned[-1]
         self.compiling = self.updating = 0.0
         self.evaluated = self.last = -1
@@ -82,7 +82,7 @@ class TrainingRun:
         self.converged = [False] * len(keys)
 
     def train(self, starts: Sequence[Trainable], stored: Stored | None) -> tuple[Trained, ...]:
-        """Train until the last leg ends or the user interrupts.
+        """Train until the last segment ends or the user interrupts.
 
         Arguments:
             starts: where each training begins.
@@ -100,7 +100,7 @@ class TrainingRun:
         else:
             first, state = self.resume(stored, starts)
         try:
-            for i in range(first, len(self.legs)):
+            for i in range(first, len(self.segments)):
                 if state is None and self.can_skip(i):
                     continue
                 self.follow(i, self.enter(i) if state is None else state)
@@ -125,11 +125,11 @@ class TrainingRun:
         )
 
     def resume(self, stored: Stored, starts: Sequence[Trainable]) -> tuple[int, State]:
-        """Restore a training; returns its leg and the trainer's state."""
+        """Restore a training; returns its segment and the trainer's state."""
         validation = None if self.members[0].held is None else 0.0
         bests = tuple(StoredBest(0.0, validation, 0, start) for start in starts)
-        state = self._begin(stored.leg, starts)
-        like = Snapshot(stored.leg, 0, state, bests, 0, 0.0, 0.0, 0.0)
+        state = self._begin(stored.segment, starts)
+        like = Snapshot(stored.segment, 0, state, bests, 0, 0.0, 0.0, 0.0)
         snapshot = replicate(stored.snapshot(like), self.mesh)
         for member, columns, best in zip(self.members, stored.columns, snapshot.bests, strict=True):
             member.log.go_on(columns)
@@ -138,60 +138,64 @@ class TrainingRun:
         self.before, self.evaluated = snapshot.before, snapshot.evaluated
         epochs = epochs_of(snapshot.state)
         self.done = self.before + max(epochs)
-        self._note_converged(stored.leg, snapshot.state)
+        self._note_converged(stored.segment, snapshot.state)
         for member, count in zip(self.members, epochs, strict=True):
             member.before = member.log.epochs - count
         self.began -= snapshot.seconds
         self.compiling, self.updating = snapshot.compiling, snapshot.updating
-        return stored.leg, snapshot.state
+        return stored.segment, snapshot.state
 
     def enter(self, i: int) -> State:
-        """The trainer's state at the start of a leg."""
+        """The trainer's state at the start of a segment."""
         self.before = self.done
         for member in self.members:
             member.before = member.log.epochs
         entries = [m.best.trainable for m in self.members]
-        if i and self.legs[i - 1].stage.onward and self.last == i - 1:
+        if i and self.segments[i - 1].stage.onward and self.last == i - 1:
             entries = unstacked(self.candidates[-1], len(self.members))
         return replicate(self._begin(i, entries), self.mesh)
 
     def can_skip(self, i: int) -> bool:
-        """Whether all trainings are good enough to leave a leg out."""
-        return all(m.best.loss <= self.legs[i].stage.above for m in self.members)
+        """Whether all trainings are good enough to leave a segment out."""
+        return all(m.best.loss <= self.segments[i].stage.above for m in self.members)
 
     def _begin(self, i: int, entries: Sequence[Trainable]) -> State:
-        leg = self.legs[i]
+        segment = self.segments[i]
         keys = [jax.random.fold_in(m.key, i) if i else m.key for m in self.members]
         begins = [
-            begin(leg.trainer, on_default_device(leg.objective.entry(entry), self.mesh), key)
+            begin(
+                segment.trainer, on_default_device(segment.objective.entry(entry), self.mesh), key
+            )
             for entry, key in zip(entries, keys, strict=True)
         ]
         return stacked(begins)
 
     def follow(self, i: int, state: State) -> None:
-        """Do the remaining updates of a leg."""
-        leg, self.last = self.legs[i], i
-        objective = replicate(leg.objective, self.mesh)
+        """Do the remaining updates of a segment."""
+        segment, self.last = self.segments[i], i
+        objective = replicate(segment.objective, self.mesh)
         self._choose(i)
         self._keep(i, state)
-        if self.done - self.before < leg.epochs:
+        if self.done - self.before < segment.epochs:
             clock = time.perf_counter()
             # This compiles, and makes no update.
             until = jnp.max(state.epoch)
             jax.block_until_ready(
-                advance(objective, leg.trainer, state, until, active=self._active())
+                advance(objective, segment.trainer, state, until, active=self._active())
             )
             self.compiling += time.perf_counter() - clock
         size = 1
-        while (done := self.done - self.before) < leg.epochs and not self._is_over(leg, state):
-            due = min((done // leg.evaluate_every + 1) * leg.evaluate_every, leg.epochs)
+        while (done := self.done - self.before) < segment.epochs and not self._is_over(
+            segment, state
+        ):
+            due = min((done // segment.evaluate_every + 1) * segment.evaluate_every, segment.epochs)
             due = min(due, done + self.halving.until_next(self.planned[i] + done))
             count = min(size, int(due) - done, UPDATES_PER_CALL)
             clock = time.perf_counter()
             until = replicate(jnp.asarray(done + count, int), self.mesh)
             before = state
             state, entries = jax.block_until_ready(
-                advance(objective, leg.trainer, state, until, active=self._active())
+                advance(objective, segment.trainer, state, until, active=self._active())
             )
             ended = time.perf_counter()
             count = max(epochs_of(state)) - done
@@ -231,7 +235,7 @@ class TrainingRun:
 
     def _note_converged(self, i: int, state: State) -> None:
         ended = unstacked(converged(state), len(self.members))
-        self.converged = [bool(c) and i == len(self.legs) - 1 for c in ended]
+        self.converged = [bool(c) and i == len(self.segments) - 1 for c in ended]
 
     def _active(self) -> Bool[Array, " trainings"] | None:
         """Which trainings go on; ``None`` where there is only one."""
@@ -258,12 +262,19 @@ class TrainingRun:
         self.candidates = candidates(state)
         return new
 
-    def _keep(self, leg: int, state: State) -> None:
+    def _keep(self, segment: int, state: State) -> None:
         """Pass all that is needed to continue from here to ``keep``."""
         seconds = time.perf_counter() - self.began
         bests = tuple(StoredBest(*m.best[:-1]) for m in self.members)
         snapshot = Snapshot(
-            leg, self.before, state, bests, self.evaluated, seconds, self.compiling, self.updating
+            segment,
+            self.before,
+            state,
+            bests,
+            self.evaluated,
+            seconds,
+            self.compiling,
+            self.updating,
         )
         self.keep(snapshot, tuple(m.log.rows() for m in self.members))
 
@@ -276,13 +287,13 @@ class TrainingRun:
         for k in self.going:
             self.members[k].evaluate([row[k] for row in rows])
 
-    def _is_over(self, leg: Leg, state: State) -> bool:
-        """Whether a leg has converged, or has not improved for too long, for all members."""
+    def _is_over(self, segment: Segment, state: State) -> bool:
+        """Whether a segment has converged, or has not improved for too long, for all members."""
         ended = unstacked(converged(state), len(self.members))
-        patience = math.inf if leg.patience is None else leg.patience
+        patience = math.inf if segment.patience is None else segment.patience
         return all(
             bool(ended[k])
             or self.members[k].evaluations_without_improvement() >= patience
-            or self.members[k].gained_less(leg.stage.gain)
+            or self.members[k].gained_less(segment.stage.gain)
             for k in self.going
         )

@@ -88,7 +88,7 @@ def interrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.slow
 @pytest.mark.usefixtures("one_by_one")
 def test_a_training_goes_on_after_every_kind_of_break(tmp_path: Path):
-    """Ctrl-C in the first leg, an error of the user's in the second, and once more in the third run."""
+    """Ctrl-C in the first segment, an error of the user's in the second, and once more in the third run."""
     fit = train(checkpoint=tmp_path, resume=True, observers=[stop(12)])  # none there: it begins
     assert (fit.interrupted, fit.history.epochs) == (True, 12)
     with pytest.raises(ZeroDivisionError):
@@ -130,7 +130,7 @@ def killed(path: Path, at: int, never: int | None = None) -> None:
 
 @pytest.mark.slow
 def test_a_killed_training_goes_on(tmp_path: Path):
-    """Killed between updates of the first leg, half-way through a writing, and in the second leg."""
+    """Killed between updates of the first segment, half-way through a writing, and in the second segment."""
     path = tmp_path / NAME
     killed(path, 1)
     killed(path, sum(EPOCHS), never=12)

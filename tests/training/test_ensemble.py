@@ -136,7 +136,7 @@ def test_an_ensemble_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.Mo
 
 
 @pytest.mark.slow
-def test_a_leg_ends_when_it_has_ended_for_all():
+def test_a_segment_ends_when_it_has_ended_for_all():
     """As many evaluations without a better one as patience allows, for every member, and no sooner."""
     patience, epochs = 2, 400
     found = ac.ensemble(

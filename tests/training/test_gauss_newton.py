@@ -170,7 +170,7 @@ def test_a_training_ends_at_the_same_update_however_often_it_is_looked_at(monkey
 
 
 @pytest.mark.slow
-def test_networks_are_trained_with_a_leg_before():
+def test_networks_are_trained_with_a_segment_before():
     fit = ac.fit(
         learned(), record(end=5.0), "mass.a", strategy=("equation_error", "gauss_newton"),
         epochs=(30, 10), x0="model", **QUIET,

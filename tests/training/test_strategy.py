@@ -171,7 +171,7 @@ class Explosive(eqx.Module):
 
 
 @pytest.mark.slow
-def test_a_leg_over_the_whole_record_survives_a_trial_that_diverges():
+def test_a_segment_over_the_whole_record_survives_a_trial_that_diverges():
     params = learned().parameters() | {"extra.net": Explosive(jnp.asarray(0.0))}
     fit = ac.fit(
         learned(), record(end=5.0), "mass.a", params=params, strategy="whole_record", epochs=40, **QUIET
@@ -200,7 +200,7 @@ def test_the_equation_error_finds_a_law_without_simulation():
     assert fit.history.epochs <= 100
 
 
-def test_legs_follow_each_other_from_the_best():
+def test_segments_follow_each_other_from_the_best():
     fit = ac.fit(
         learned(), record(), "mass.a", strategy=("equation_error", "whole_record"),
         epochs=(100, 10), x0="model", evaluate_every=5, **QUIET,

@@ -104,7 +104,7 @@ def converged(state: State) -> Bool[Array, "*trainings"]:
 
 
 def epochs_of(state: State) -> list[int]:
-    """The updates that every training has made in its leg."""
+    """The updates that every training has made in its segment."""
     return np.atleast_1d(np.asarray(state.epoch)).tolist()
 
 
