@@ -267,8 +267,11 @@ def result(
 ) -> Fit:
     """The result of a training; arguments as the attributes of `Fit`."""
     best, history = trained.best, trained.history
-    seen = problem.seen(best.trainable, best.simulated.x)
-    arguments = {n: np.asarray(seen[n]) for n in problem.networks}
+    records = of_records(problem, best.trainable, best.simulated)
+    arguments = {
+        n: np.concatenate([record.arguments[n] for record in records.values()])
+        for n in problem.networks
+    }
     return Fit(
         system=problem.system,
         params=problem.model_params(best.trainable),
@@ -276,7 +279,7 @@ def result(
         loss_before=float(history.full_loss[0, 1]),
         validation_loss=best.validation,
         best_epoch=best.epoch,
-        records=of_records(problem, best.trainable, best.simulated),
+        records=records,
         held_out={} if held is None else _of_held_out(held.problem, best.trainable),
         modifiers={n: float(value) for n, value in problem.changes(best.trainable).items()},
         arguments=arguments,
