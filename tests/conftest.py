@@ -50,7 +50,8 @@ def maps() -> int:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Of a test with the mark ``cases(fast=2, slow=5)`` two cases are fast, five slow, and the others for `machines`.
 
-    They are spread evenly over the cases. Without numbers all are fast, and as many are slow as are fast.
+    They are spread evenly over the cases. Without a number of fast ones none is moved to the slow ones; without one of
+    slow ones as many stay as are fast.
     """
     groups = defaultdict[str, list[pytest.Item]](list)
     for item in items:

@@ -12,14 +12,7 @@ import numpy as np
 import sympy as sp
 from jaxtyping import Array, Float
 
-from acausal.codegen import (
-    Formula,
-    Packed,
-    Values,
-    compute,
-    formula_of,
-    run,
-)
+from acausal.codegen import Formula, Packed, Values, compute, formula_of, run
 from acausal.errors import ModelError, nearest
 from acausal.flattening import EquationGroup, Integers
 from acausal.modeling import ModuleCall, time

@@ -101,21 +101,17 @@ def look(
     """
     tiny = jnp.finfo(h.dtype).tiny
     holds = d[: events.n_guards] > 0.5
-    over = (
-        jnp.where(holds, -numbers, numbers) - deadband
-    )  # positive where it is no longer what it was
+    # Positive where a condition is no longer what it was.
+    over = jnp.where(holds, -numbers, numbers) - deadband
     touches = (over == 0) & (holds == events.strict)
     over = jnp.where(touches, tiny, over)
-    scale = jnp.where(
-        bracketing.active, bracketing.scale, jnp.abs(over[0]) + jnp.abs(over[-1]) + tiny
-    )
+    whole = jnp.abs(over[0]) + jnp.abs(over[-1]) + tiny
+    scale = jnp.where(bracketing.active, bracketing.scale, whole)
     is_left = (over[0] > 0) & (over[0] <= BAND * scale) & ~touches[0]
     over = over - jnp.where(is_left, over[0], 0.0)  # what rounding has left of the event before
     last = over[-1]
     later = jnp.any(over[1:] > 0, axis=0) & ~events.timed
-    later = later | (
-        bracketing.active & bracketing.later
-    )  # some change there and back within the whole step
+    later = later | (bracketing.active & bracketing.later)  # some change there and back
     share = jnp.where(touches, CLOSE, over / scale)  # tiny over another number may be zero
     share = jnp.where(later, share, -jnp.inf)
     off = jnp.max(share, axis=1, initial=-jnp.inf)
@@ -123,13 +119,9 @@ def look(
     gone_on = _go_on(bracketing._replace(later=later), off[-1], h)
     width = 4 * jnp.finfo(h.dtype).eps * jnp.maximum(jnp.abs(t), h)
     narrow = (gone_on.high - gone_on.low <= width) | (gone_on.tries >= TRIES)
-    there = (
-        (
-            (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & bracketing.away
-        )  # a number may be zero long before it changes
-        | (narrow & (off[-1] > 0))  # a number may jump: before it does, nothing has changed
-        | (gone_on.tries >= TRIES + 2)
-    )
+    # A number may be zero long before it changes; and it may jump: before it does, nothing has changed.
+    close = (jnp.abs(off[-1]) <= CLOSE) & (off[-1] != 0) & bracketing.away
+    there = close | (narrow & (off[-1] > 0)) | (gone_on.tries >= TRIES + 2)
     gone_on = gone_on._replace(h=jnp.where(narrow, gone_on.high, gone_on.h))
     is_event = bracketing.active & there
     which = jnp.argmax(share[-1])

@@ -54,9 +54,8 @@ def due(events: Events, now: Values) -> Due:
         guards(events, now._replace(t=jnp.full_like(now.t, t)), timed=True) for t in (0.0, 1.0)
     )
     rate = jnp.where(events.timed, at_one - at_zero, 1.0)
-    known = events.timed & (
-        rate != 0
-    )  # else a number does not change, or is so large that rounding hides it
+    # Else a number does not change, or is so large that rounding hides it.
+    known = events.timed & (rate != 0)
     return Due(jnp.where(known, -at_zero / jnp.where(known, rate, 1.0), jnp.inf), rate)
 
 

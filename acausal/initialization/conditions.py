@@ -120,9 +120,7 @@ class Conditions(LeavesCaches):
             wanted = self._starts(at.packed, [(c.variable, 1) for c in starts])
             parts.append((signs * values - wanted) / nominal[[c.variable for c in starts]])
         arrays = self._arrays(at) if self._initial else ()
-        parts += [
-            jnp.broadcast_to(compute(f, at.packed, arrays, at.t), f.size) for f in self._initial
-        ]
+        parts += [jnp.atleast_1d(compute(f, at.packed, arrays, at.t)) for f in self._initial]
         if resting:
             dx = rates(self.program, at)
             parts.append((dx / self.nominal)[np.asarray(resting)])

@@ -21,13 +21,14 @@ def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
 
     Their names are paths, such as ``plug.pin[1]``, so that each belongs to the component itself.
     """
-    if found.node is not None and is_composite(found.node):
-        return _composite(build, name, found.node, inner)
+    node = found.node
+    if node is not None and node.python is None and _is_composite(node):
+        return _composite(build, name, node, inner)
     build.later.append(lambda: modify_connector(build, name, inner))
-    return found.native() if found.node is None else connector_class(found.node)()
+    return found.native() if node is None else connector_class(node)()
 
 
-def is_composite(node: ClassNode) -> bool:
+def _is_composite(node: ClassNode) -> bool:
     """Whether a connector consists of more than potentials and flows."""
     return any(not _is_plain(entry) for entry in node.view().entries.values())
 
@@ -42,10 +43,8 @@ def _composite(build: Any, name: str, node: ClassNode, given: list[Given]) -> Re
     fields: dict[str, Any] = {}
     entries = node.view().entries
     plain = {n: e for n, e in entries.items() if _is_plain(e)}
-    sizes_first = sorted(
-        entries.items(), key=lambda item: not item[1].declared.prefixes.variability
-    )
-    for word, entry in (item for item in sizes_first if item[0] not in plain):
+    others = [(n, e) for n, e in entries.items() if n not in plain]
+    for word, entry in sorted(others, key=lambda item: not item[1].declared.prefixes.variability):
         declared, frame = entry.declared, Frame(entry.node, None, fields)
         modifiers = [g for a, n in entry.modifiers for g in given_by([a], Frame(n, None, fields))]
         mod = modification(declared, [*given, *modifiers], frame)

@@ -173,36 +173,28 @@ class Evaluator(Operators):
         if not is_array(value):
             raise self.wrong("this is not an array; it takes no subscripts")
         shape = np.shape(_shape(value))
-        for k, (size, subscript) in enumerate(zip(shape, subscripts, strict=False)):
-            index = self._changing(subscript, size)
-            if index is not None:
-                return self._selected(value, subscripts, k, index, size)
-        return _pick(value, self.places(shape, subscripts))
+        return self._selected(value, shape, self.places(shape, subscripts, changing=True))
 
-    def _changing(self, subscript: Expression, size: int) -> Any:
-        """The value of a subscript that changes with time; None of others."""
-        if isinstance(subscript, Constant | Whole | Range):
-            return None
-        self.ends.append(size)
-        index = self.value(subscript)
-        self.ends.pop()
-        return index if isinstance(index, sp.Basic) and self.varies(index) else None
-
-    def _selected(
-        self, value: Any, subscripts: list[Expression], k: int, index: Any, size: int
-    ) -> Any:
-        """The elements among which a subscript chooses while the model runs."""
-        at = subscripts[k].at
+    def _selected(self, value: Any, shape: tuple[int, ...], places: list[Any]) -> Any:
+        """The elements in some places, among which a subscript that changes with time chooses while the model runs."""
+        k = next((k for k, place in enumerate(places) if isinstance(place, sp.Basic)), None)
+        if k is None:
+            return _pick(value, places)
         found: Any = None
-        for number in range(size, 0, -1):
-            rest = [*subscripts[:k], Constant(number, at), *subscripts[k + 1 :]]
-            one = self.subscripted(value, rest)
-            below = self.relation("<", index, number + 0.5)
+        for number in range(shape[k], 0, -1):
+            one = self._selected(value, shape, [*places[:k], number - 1, *places[k + 1 :]])
+            below = self.relation("<", places[k], number + 0.5)
             found = one if found is None else self.chosen(below, one, found)
         return found
 
-    def places(self, shape: tuple[int, ...], subscripts: list[Expression]) -> list[Any]:
-        """Positions from 0 for each dimension: a number, or a list of them."""
+    def places(
+        self, shape: tuple[int, ...], subscripts: list[Expression], *, changing: bool = False
+    ) -> list[Any]:
+        """Positions from 0 for each dimension: a number, or a list of them.
+
+        Arguments:
+            changing: whether subscripts may change with time; such a one is given as it is, from 1.
+        """
         if len(subscripts) > len(shape):
             raise self.wrong(
                 f"an array of {len(shape)} dimension(s) has {len(subscripts)} subscripts"
@@ -215,6 +207,9 @@ class Evaluator(Operators):
             self.ends.append(size)
             index = self.value(subscript)
             self.ends.pop()
+            if changing and isinstance(index, sp.Basic) and self.varies(index):
+                found.append(index)
+                continue
             many = isinstance(index, np.ndarray)
             numbers = [
                 self.whole(i, "a subscript") if not isinstance(i, bool) else 1 + i

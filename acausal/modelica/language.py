@@ -252,12 +252,9 @@ def _cardinality(self: Evaluator, call: Call) -> Any:
     self.connecting = False
     if self.frame.build is None or not self.frame.build.connected:
         raise self.wrong("cardinality(...) stands in equations only", len("cardinality"))
-    while isinstance(end, Record) or is_array(
-        end
-    ):  # all parts of a connector are connected at once
-        end = next(
-            v for v in (end.fields.values() if isinstance(end, Record) else end) if is_end(v)
-        )
+    while isinstance(end, Record) or is_array(end):  # all parts are connected at once
+        parts = end.fields.values() if isinstance(end, Record) else end
+        end = next(part for part in parts if is_end(part))
     wanted, node = owner_and_name(end), self.frame.build.component._node
     pairs = [pair for n in (node, *node.ancestors()) for pair in n.connections]
     return sum(owner_and_name(e) == wanted for pair in pairs for e in pair)

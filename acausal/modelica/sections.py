@@ -428,11 +428,8 @@ def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:
     for statement in stated:
         match statement:
             case Equation() if within:
-                left = (
-                    statement.left
-                    if isinstance(statement.left, Name | Several)
-                    else statement.right
-                )
+                named = isinstance(statement.left, Name | Several)
+                left = statement.left if named else statement.right
                 targets = left.items if isinstance(left, Several) else [left]
                 found |= {t.words[0] for t in targets if isinstance(t, Name)}
             case Branches():

@@ -103,9 +103,7 @@ def _variable(
     given: dict[str, Any] = {"unit": unit, "shape": shape or None, "doc": entry.declared.comment}
     fed = mod.value is None and name in statements.fed_by_connections(build)
     if fed and prefixes.protected and causality == "input":
-        causality = (
-            "output"  # nothing reaches it from outside, it passes on what it is connected to within
-        )
+        causality = "output"  # nothing reaches it from outside: it passes on what is within
     jumps = (
         kind != "real"
         or prefixes.variability == "discrete"
