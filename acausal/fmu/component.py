@@ -86,7 +86,7 @@ class FMU(Component):
         open_loop: bool = False,
     ) -> None:
         digest, folder = read(path)
-        description = read_description(folder, path)
+        description = read_description(folder, path, values or {})
         of = interface(description, kind)
         chosen = Chosen(description, of, dict(values or {}), tuple(observe))
         part = Part(
@@ -144,9 +144,8 @@ class FMU(Component):
             unit = v.conversion.unit
             declared = Parameter(unit=unit, min=low, max=high, shape=v.shape, doc=v.text)
             self._add_declaration(name, declared)
-            starts = [v.conversion.to_model(s) for s in v.starts]
-            given = chosen.values.get(v.name, starts if v.shape is not None else starts[0])
-            self.modify(**{self._names[name]: given})
+            starts = _nested([v.conversion.to_model(s) for s in v.starts], v.shape or ())
+            self.modify(**{self._names[name]: chosen.values.get(v.name, starts)})
         for v in chosen.inputs:
             if v.name not in chosen.values:
                 declared = Input(kind=_kind(v), unit=v.conversion.unit, shape=v.shape, doc=v.text)

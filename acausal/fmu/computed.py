@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import ctypes as C
 from threading import RLock
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from acausal.errors import DeclarationError
 from acausal.fmu.archive import read
+from acausal.fmu.description import STRUCTURAL
 from acausal.fmu.histories import KEPT, After, Event, Histories
 from acausal.fmu.instance import Instance
 from acausal.fmu.library import BYTES, DiscardError, Library, Variables
@@ -39,7 +40,8 @@ class Computed:
         self._parameters = self._variables(part.parameters)
         self._inputs, self._results = self._variables(part.inputs), self._variables(part.results)
         self._settings = tuple((known[n], v) for n, v in part.settings)
-        key = part.digest, part.kind
+        sizes = tuple(s for s in part.settings if known[s[0]].causality == STRUCTURAL)
+        key = part.digest, part.kind, sizes
         if key not in _LIBRARIES:
             _LIBRARIES[key] = Library(self.description, folder, part.kind)
         self._library = _LIBRARIES[key]
@@ -93,4 +95,4 @@ class Computed:
         return int(history)
 
 
-_LIBRARIES: dict[tuple[str, str], Library] = {}
+_LIBRARIES: dict[tuple[str, str, tuple[tuple[str, Any], ...]], Library] = {}

@@ -66,6 +66,7 @@ class Slave(Instance):
         """
         step = self._step_2 if self.library.is_2 else self._step_3
         for _ in range(RETURNS):
+            self.check_time(end)
             self.time = step(self.time, end - self.time)
             if not self.time < end - 1e-9 * abs(end):
                 self.time, self.steps = end, self.steps + 1
@@ -88,8 +89,8 @@ class Slave(Instance):
             ask("GetBooleanStatus", *kinds)(self.address, TERMINATED, C.addressof(ended))
             ask("GetRealStatus", *kinds)(self.address, LAST_SUCCESSFUL_TIME, C.addressof(last))
             if ended.value:
-                raise self._failure(last.value, "ends the simulation")
-            if not last.value > time:
+                self.last = last.value
+            elif not last.value > time:
                 raise self._failure(time, "refuses the step")
             return last.value
         if status > FATAL:
@@ -106,7 +107,8 @@ class Slave(Instance):
         )  # fmt: skip
         _, ended, early = (flag.value for flag in flags)
         if ended:
-            raise self._failure(last.value, "ends the simulation")
+            self.last = last.value
+            return last.value
         if status == DISCARD:
             raise self._failure(time, "refuses the step")
         self.check(status, f"the step at {time:g} s")

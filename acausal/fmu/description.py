@@ -7,9 +7,10 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Integral
 from typing import Any, Literal
 
-from acausal.errors import DeclarationError, shortened
+from acausal.errors import DeclarationError, shortened, shown
 from acausal.fmu.archive import DESCRIPTION, Folder
 from acausal.fmu.conversion import Conversion, conversion, definitions
 from acausal.modeling import element_names
@@ -23,6 +24,9 @@ WHOLE = (
     "Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64",
 )  # fmt: skip
 NUMBERS = (*REAL, *WHOLE, "Boolean")
+
+STRUCTURAL = "structuralParameter"
+"""The causality of what sizes of arrays follow from."""
 
 STEPS = 500
 """Communication steps in an experiment of which only the length is known."""
@@ -126,8 +130,11 @@ class Description:
         return [v for v in self.of("parameter", REAL[:2]) if v.variability in ("fixed", "tunable")]
 
 
-def read_description(folder: Folder, file: object) -> Description:
+def read_description(folder: Folder, file: object, values: Mapping[str, Any]) -> Description:
     """The description in the folder of an FMU.
+
+    Arguments:
+        values: what a user gives; sizes of arrays follow from those of structural parameters.
 
     Raises:
         DeclarationError: for one that is not sound, or that this package cannot use.
@@ -144,7 +151,9 @@ def read_description(folder: Folder, file: object) -> Description:
             "FMU needs the package 'fmpy'; install it: pip install 'acausal[fmu]'"
         ) from None
     try:
-        return _described(read_model_description(folder.path), bool(DIRECTIONAL.search(content)))
+        read = read_model_description(folder.path)
+        _resize(read, values)
+        return _described(read, bool(DIRECTIONAL.search(content)))
     except DeclarationError:
         raise
     except Exception as error:  # the reader of another, on a file of a third
@@ -152,6 +161,22 @@ def read_description(folder: Folder, file: object) -> Description:
         raise DeclarationError(
             f"FMU: the {DESCRIPTION} of '{file}' is not sound: {shortened(' '.join(str(why).split()), 160)}"
         ) from None
+
+
+def _resize(read: Any, values: Mapping[str, Any]) -> None:
+    """Give arrays the sizes that follow from structural parameters; start values of others than these are not kept."""
+    structural = {v.name: v for v in read.modelVariables if v.causality == STRUCTURAL}
+    for name in structural.keys() & values.keys():
+        size = values[name]
+        if isinstance(size, bool) or not isinstance(size, Integral) or size < 0:
+            raise DeclarationError(
+                f"FMU: the structural parameter '{name}' of '{read.modelName}' is {shown(size)}; give a whole number."
+            )
+        structural[name].start = str(size)
+    for v in read.modelVariables:
+        shape = [int(d.variable.start if d.start is None else d.start) for d in v.dimensions]
+        if tuple(shape) != v.shape:
+            v.shape, v.start = tuple(shape), None
 
 
 def _described(read: Any, directional: bool) -> Description:
@@ -167,7 +192,8 @@ def _described(read: Any, directional: bool) -> Description:
     can = exchange or cosimulation
     if can is None:
         raise DeclarationError(
-            "FMU: it has neither model exchange nor co-simulation, and so is not supported."
+            f"FMU: '{read.modelName}' has neither model exchange nor co-simulation, and scheduled execution is not "
+            "supported; export it for one of these."
         )
     derived = {v.name: v.derivative.name for v in read.modelVariables if v.derivative is not None}
     rates = tuple(u.variable.name for u in read.derivatives)

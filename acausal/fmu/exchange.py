@@ -36,14 +36,14 @@ class Exchange(Instance):
     def begin(self, time: float, parameters: int, *, again: bool) -> Info:
         """Find the initial values with some parameters, given by address; see `initialize`."""
         self.initialize(time, parameters, 0, again=again)
-        return self._iterate()
+        return self._iterate(time)
 
-    def happen(self) -> Info:
-        """An event at the present values."""
+    def happen(self, time: float) -> Info:
+        """An event at the present values, at a time."""
         self.check(self.library.calls["EnterEventMode"](self.address), "EnterEventMode")
-        return self._iterate()
+        return self._iterate(time)
 
-    def _iterate(self) -> Info:
+    def _iterate(self, time: float) -> Info:
         """Update discrete states until nothing changes any more, and leave event mode."""
         library, jumped = self.library, False
         for _ in range(PASSES):
@@ -51,10 +51,8 @@ class Exchange(Instance):
             needed, ends, _, values, defined = flags
             jumped = jumped or values
             if ends:
-                raise FMUError(
-                    f"FMU: '{library.description.model}' asks to end the simulation{library.said()}; end it earlier."
-                )
-            if not needed:
+                self.last = time
+            if ends or not needed:
                 break
         else:
             raise FMUError(
@@ -80,6 +78,7 @@ class Exchange(Instance):
 
     def move(self, time: float, states: int, inputs: int) -> None:
         """Set time, states and inputs, these by address."""
+        self.check_time(time)
         if (status := self._set_time(self.address, time)) > WARNING:
             self.check(status, "SetTime")
         if self.n and (status := self._set_states(self.address, states, self.n)) > WARNING:

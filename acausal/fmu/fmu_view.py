@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
-from acausal.fmu.description import WHOLE, FMUVariable
+from acausal.fmu.description import STRUCTURAL, WHOLE, FMUVariable
 from acausal.fmu.part import Part
 
 MOST = 12
@@ -38,7 +38,10 @@ def _lines(part: Part) -> Iterator[tuple[str, str]]:
     for what, names in (("states", states), ("inputs", part.inputs), ("outputs", part.results)):
         yield what, _listed([known[n] for n in names], with_values=what == "inputs")
     yield "parameters", _listed([known[n] for n in part.parameters], with_values=True)
-    settings = d.of("parameter", ("String", "Boolean", "Float32", *WHOLE))
+    settings = [
+        *d.of("parameter", ("String", "Boolean", "Float32", *WHOLE)),
+        *d.of(STRUCTURAL),
+    ]
     if settings:
         yield "settings", _listed(settings, with_values=True)
     if d.indicators and part.kind == "me":

@@ -6,11 +6,12 @@ Every number goes by its address: what JAX hands over is passed on as it lies in
 from __future__ import annotations
 
 import ctypes as C
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from acausal.fmu.description import FMUVariable
+from acausal.fmu.description import STRUCTURAL, FMUVariable
 from acausal.fmu.library import (
     BYTES,
     DISCARD,
@@ -23,6 +24,9 @@ from acausal.fmu.library import (
     kind_of,
 )
 
+Settings = Sequence[tuple[FMUVariable, Any]]
+"""Variables with values that are fixed when an FMU is made."""
+
 
 class Instance:
     """One instance of an FMU.
@@ -34,14 +38,15 @@ class Instance:
 
     Attributes:
         due: its next time event; whoever leads it through events keeps it.
+        last: the time at which it has asked to end the simulation. Its values can still be read there.
     """
 
-    due = float("inf")
+    due = last = float("inf")
 
     def __init__(
         self,
         library: Library,
-        settings: tuple[tuple[FMUVariable, Any], ...],
+        settings: Settings,
         parameters: Variables,
         inputs: Variables,
         results: Variables,
@@ -100,6 +105,18 @@ class Instance:
             f"FMU: '{self.library.description.model}' fails in {what}{self.library.said()}."
         )
 
+    def check_time(self, time: float) -> None:
+        """Refuse a time behind the end that the FMU has asked for.
+
+        Raises:
+            FMUError: there.
+        """
+        if time > self.last + 1e-9 * abs(self.last):
+            raise FMUError(
+                f"FMU: '{self.library.description.model}' asks to end the simulation at {self.last:g} s"
+                f"{self.library.said()}; end it there."
+            )
+
     def call(self, name: str) -> None:
         """A function that takes nothing but the instance."""
         self.check(self.library.function(name, C.c_void_p)(self.address), name)
@@ -113,10 +130,15 @@ class Instance:
         """
         library, address = self.library, self.address
         yes, number = C.c_int if library.is_2 else C.c_bool, C.c_double
+        self.last = np.inf
         if again:
             self.call("Reset")
-        for variable, value in self.settings:
-            self._set_setting(variable, value)
+        structural = [s for s in self.settings if s[0].causality == STRUCTURAL]
+        if structural:
+            self.call("EnterConfigurationMode")
+            self._set_all(structural)
+            self.call("ExitConfigurationMode")
+        self._set_all([s for s in self.settings if s[0].causality != STRUCTURAL])
         self._write(self._sets, parameters, "a parameter")
         experiment = (C.c_void_p, yes, number, number, yes, number)
         if library.is_2:
@@ -131,6 +153,10 @@ class Instance:
         if inputs:
             self._write(self._writes, inputs, "an input")
         self.call("ExitInitializationMode")
+
+    def _set_all(self, settings: Settings) -> None:
+        for variable, value in settings:
+            self._set_setting(variable, value)
 
     def _set_setting(self, variable: FMUVariable, value: Any) -> None:
         reference = C.c_uint32(variable.reference)

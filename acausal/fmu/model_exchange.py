@@ -103,7 +103,7 @@ class Evaluated(Computed):
         else:
             if nudges:
                 instance.move(time, states.ctypes.data, inputs.ctypes.data)
-        found = instance.happen()
+        found = instance.happen(time)
         if found.jumped:
             instance.states(states.ctypes.data)
         return After(0, min(found.next, NEVER), states.tobytes(), nudges)

@@ -7,7 +7,7 @@ from numbers import Real
 from typing import Any
 
 from acausal.errors import DeclarationError, nearest, shown
-from acausal.fmu.description import NUMBERS, REAL, Description, FMUVariable, Interface
+from acausal.fmu.description import NUMBERS, REAL, STRUCTURAL, Description, FMUVariable, Interface
 
 
 def interface(description: Description, kind: Any) -> Interface:
@@ -73,6 +73,12 @@ class Chosen:
                     f"FMU: '{v.name}' of '{description.model}' is computed by the FMU and takes no value."
                 )
         self.parameters = [*description.parameters, *starts]
+        for v in self.parameters:
+            if v.shape is not None and v.start is None and v.name not in values:
+                raise DeclarationError(
+                    f"FMU: '{description.model}' has no values for {v.size} elements of '{v.name}': give "
+                    f"{{'{v.name}': ...}}, an array of shape {v.shape}."
+                )
         self.inputs = sorted(description.of("input"), key=lambda v: NUMBERS.index(v.type))
         if kind == "cs":  # an input with a value is what a parameter is: it holds from the start
             self.parameters += [v for v in self.inputs if v.name in values]
@@ -83,11 +89,9 @@ class Chosen:
 
 def _is_setting(variable: FMUVariable) -> bool:
     """Whether a value is fixed when the FMU is made."""
-    if variable.causality == "structuralParameter":
-        raise DeclarationError(
-            f"FMU: '{variable.name}' is a structural parameter, which is not supported yet."
-        )
-    return variable.causality == "parameter" and variable.type not in REAL[:2]
+    return variable.causality == STRUCTURAL or (
+        variable.causality == "parameter" and variable.type not in REAL[:2]
+    )
 
 
 def name_of(variable: FMUVariable) -> str:

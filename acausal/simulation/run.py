@@ -68,7 +68,7 @@ class Run(NamedTuple):
             bad = np.flatnonzero(~np.isfinite(np.asarray(values)))
             if len(bad):
                 raise SimulationError(
-                    f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.{self._said()}"
+                    f"{what} '{names[bad[0]]}' is {float(values[bad[0]])}.{self.said()}"
                 )
 
         d = self.start.d
@@ -77,11 +77,12 @@ class Run(NamedTuple):
             what = self.system.describe_discrete(place)
             period = ", as its period is not above zero" if "sample(" in what else ""
             raise SimulationError(
-                f"At the start '{what}' is {float(d[place])}{period}.{self._said()}"
+                f"At the start '{what}' is {float(d[place])}{period}.{self.said()}"
             )
         self._check_clocks()
 
-    def _said(self) -> str:
+    def said(self) -> str:
+        """What modules say of numbers that are not finite, as a further sentence; empty where they say nothing."""
         said = said_by_modules(self.start.packed.modules)
         return f" {said}" if said else ""
 

@@ -137,7 +137,7 @@ def _shown(path: Path) -> None:
     from acausal.fmu.archive import read
     from acausal.fmu.description import read_description
 
-    read_description(read(path)[1], path)
+    read_description(read(path)[1], path, {})
 
 
 def test_an_fmu_shows_what_it_is(ball: Path) -> None:

@@ -167,7 +167,8 @@ def _stopped(
             "for ever: give it a state of rest, or a hysteresis."
         )
     ahead = (run.end - run.begin) / max_steps if why == EXHAUSTED else run.end - reached
-    if reason := run.explain(at, 0.0 if found.log is not None else ahead):
+    reason = run.explain(at, 0.0 if found.log is not None else ahead)
+    if reason := reason or ("" if why == EXHAUSTED else run.said()):
         return SimulationError(f"{where}{last}.{reason}")
     if why != EXHAUSTED and has_dt:
         return SimulationError(
