@@ -225,7 +225,7 @@ def smoothed(
 
     def back(later: Belief, row: tuple[Array, ...]) -> tuple[Belief, Belief]:
         mean, covariance, ahead_mean, ahead_covariance, shared = row
-        gain = shared @ _inverse(ahead_covariance)
+        gain = shared @ inverse(ahead_covariance)
         mean = mean + gain @ (later.mean - ahead_mean)
         covariance = covariance + gain @ (later.covariance - ahead_covariance) @ gain.T
         belief = Belief(mean, _symmetric(covariance))
@@ -277,7 +277,7 @@ def _symmetric(a: Float[Array, "m m"]) -> Float[Array, "m m"]:
     return (a + a.T) / 2
 
 
-def _inverse(a: Float[Array, "m m"]) -> Float[Array, "m m"]:
+def inverse(a: Float[Array, "m m"]) -> Float[Array, "m m"]:
     """The inverse of a covariance; of what is known exactly, zero."""
     size = jnp.sqrt(jnp.diag(a))
     scale = jnp.where(size > 0, 1 / jnp.where(size > 0, size, 1.0), 0.0)

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from acausal._jax import as_key, check_time, is_number
 from acausal.analysis.estimate import belief_at, filter_for
-from acausal.analysis.filtering import Belief, EnsembleFilter, Filter, Measured
+from acausal.analysis.filtering import Belief, Filter, Linearized, Measured
 from acausal.analysis.tracking import TrackedModel, make_model, numbers_by_name
 from acausal.codegen import Packed, Values
 from acausal.errors import DataError, shown
@@ -171,8 +171,8 @@ def observer(
         ModelError: for a model that is not compiled, or that has events or no states.
     """
     how = filter_for(system, method, "observer")
-    if isinstance(how, EnsembleFilter):
-        raise DataError("observer: method='enkf' draws random numbers; take 'ekf' or 'ukf'.")
+    if not isinstance(how, Linearized):
+        raise DataError(f"observer: method='{method}' has no single step; take 'ekf' or 'ukf'.")
     if not (is_number(sample_time) and sample_time > 0):
         raise DataError(
             f"sample_time={shown(sample_time)} is not the time of a step; give seconds."

@@ -234,7 +234,10 @@ def test_fitted_noise_is_more_likely_than_the_default():
         ({"states": {"mass.a": 1.0}}, "states: 'mass.a' is not a state of the model"),
         ({"parameters": {"spring.k": 1.0}}, "parameters: 'spring.k' is not a parameter of the model"),
         ({"method": "kf"}, "No method 'kf'"),
-        ({"method": "mhe"}, "a moving horizon is not there yet"),
+        ({"bounds": {"mass.s": (0.0, 1.0)}}, "bounds: method='ekf' keeps none; take method='mhe'"),
+        ({"method": "mhe", "window": 1}, "window"),
+        ({"method": "mhe", "bounds": {"mass.a": (0, 1)}}, "bounds: 'mass.a' is not estimated"),
+        ({"method": "mhe", "bounds": {"mass.s": (1, 0)}}, "'mass.s' has (1, 0); give two numbers"),
         ({"dt": 0.0}, "dt=0.0 is not a step"),
     ],
 )  # fmt: skip
