@@ -1,4 +1,9 @@
 from .at_import import configure_with_jax as configure_with_jax
+from .cholesky import (
+    cholesky as cholesky,
+    solve_lower as solve_lower,
+    solve_upper as solve_upper,
+)
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .damped_steps import (
     Damped as Damped,
