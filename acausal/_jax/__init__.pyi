@@ -1,9 +1,4 @@
 from .at_import import configure_with_jax as configure_with_jax
-from .cholesky import (
-    cholesky as cholesky,
-    solve_lower as solve_lower,
-    solve_upper as solve_upper,
-)
 from .compilation_cache import use_compilation_cache as use_compilation_cache
 from .damped_steps import (
     Damped as Damped,
@@ -41,6 +36,11 @@ from .side_by_side import (
     cond_any as cond_any,
     one_by_one as one_by_one,
     while_any as while_any,
+)
+from .small_factors import (
+    cholesky as cholesky,
+    solve_lower as solve_lower,
+    solve_upper as solve_upper,
 )
 from .tracing import (
     INLINED as INLINED,

@@ -100,7 +100,7 @@ class Observer(ByName):
         self._memory, unravel = ravel_pytree(step.start)
 
         def advance(memory: Array, row: Array) -> Array:
-            """One round of a loop, which XLA compiles as a whole (`acausal._jax.xla`); one array costs the least time."""
+            """One round of a loop, which XLA compiles as a whole (`acausal._jax.xla`); one array costs least time."""
 
             def after(memory: Array) -> Array:
                 return ravel_pytree(step.after(unravel(memory), row[0], row[1:n], row[n:]))[0]
