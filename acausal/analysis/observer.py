@@ -70,7 +70,7 @@ class Step:
         known = ~jnp.isnan(y)
         measured = Measured(jnp.where(known, y, 0.0), known, self.sigma)
         belief, _ = self.how.correct(belief, lambda z: self.model.read(z, t, u), measured, None)
-        return Memory(t, u, belief.mean, belief.covariance)
+        return Memory(t, u, self.model.closed(t, belief.mean, u), belief.covariance)
 
     def read(self, names: tuple[str, ...], memory: Memory) -> Float[Array, " n_names"]:
         """Variables of the model as they are estimated."""
