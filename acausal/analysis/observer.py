@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax.flatten_util import ravel_pytree
 from jax.typing import ArrayLike
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from acausal._jax import check_time, is_number
 from acausal.analysis.estimate import belief_at, filter_for
@@ -57,14 +57,19 @@ class Step:
         """What is estimated: the states, and parameters."""
         return (*self.model.system.states, *self.model.drifting)
 
+    @property
+    def held(self) -> Bool[np.ndarray, " n_inputs"]:
+        """Which inputs are held, and jump at the end of a step."""
+        system = self.model.system
+        return np.array([n in system.held_inputs for n in system.inputs], bool)
+
     def after(
         self, memory: Memory, t: Float[Array, ""], u: Float[Array, " n_inputs"], y: Array
     ) -> Memory:
         """What is remembered after a time, with inputs and measurements there; y is NaN where nothing is measured."""
-        system, is_first = self.model.system, jnp.isnan(memory.t)
+        is_first = jnp.isnan(memory.t)
         since, low = jnp.where(is_first, t, memory.t), jnp.where(is_first, u, memory.u)
-        held = np.array([n in system.held_inputs for n in system.inputs], bool)
-        step = Steps(since, t - since, Samples(low, jnp.where(held, low, u)))
+        step = Steps(since, t - since, Samples(low, jnp.where(self.held, low, u)))
         noise, belief = self.walk * jnp.sqrt(t - since), Belief(memory.mean, memory.covariance)
         belief, _ = self.how.forecast(belief, lambda z: self.model.after(z, step), noise, None)
         known = ~jnp.isnan(y)
@@ -89,8 +94,8 @@ class Observer(ByName):
         step_of_arrays: the step as a function of arrays, which `acausal.export` writes.
     """
 
-    def __init__(self, step: Step) -> None:
-        """Arguments: the step; the observer begins at its start."""
+    def __init__(self, step: Step, late: float = 0.0) -> None:
+        """Arguments: the step, at whose start the observer begins; how late measurements may come [s]."""
         system, sensors = step.model.system, step.model.sensors
         n, m = 1 + len(system.inputs), len(step.names)
         self.step_of_arrays, self.t = step, cast("float | None", None)
@@ -98,6 +103,7 @@ class Observer(ByName):
         self._row = np.full(n + len(sensors), np.nan)
         self._mean, self._covariance = slice(n, n + m), slice(n + m, None)
         self._memory, unravel = ravel_pytree(step.start)
+        self._late, self._past = late, list[tuple[Array, Float[np.ndarray, " n"]]]()
 
         def advance(memory: Array, row: Array) -> Array:
             """One round of a loop, which XLA compiles as a whole (`acausal._jax.xla`); one array costs least time."""
@@ -119,21 +125,23 @@ class Observer(ByName):
         """Go on to a time, and correct by what is measured there.
 
         Arguments:
-            t: the time [s], later than that of the last step.
+            t: the time [s], later than that of the last step, or of a measurement that comes late.
             u: the inputs then, by name (the rest zero) or as an array; in between they are on a line, and those that
                 are held jump at its end.
             y: measurements then, by name; those that are missing or NaN are left out.
 
         Returns:
-            The states and the estimated parameters, by name.
+            The states and the estimated parameters at the latest time, by name.
 
         Raises:
-            DataError: for a time that is not later, or names and values that do not fit.
+            DataError: for a time that is not later, and earlier than ``late`` allows, or for names and values that do
+                not fit.
         """
         system = self.step_of_arrays.model.system
         check_time(t)
-        if self.t is not None and not t > self.t:
-            raise DataError(f"t={t:g} s is not later than the last step, at {self.t:g} s.")
+        is_late = self.t is not None and not t > self.t
+        if is_late and self._late and u is not None:
+            raise DataError(f"t={t:g} s: inputs are known up to {self.t:g} s; leave u out.")
         now = u if isinstance(u, np.ndarray) else system.input_values(u)
         if np.shape(now) != (len(system.inputs),):
             raise DataError(
@@ -146,8 +154,36 @@ class Observer(ByName):
                 known = ", ".join(self._places)
                 raise DataError(f"y: '{name}' is not a sensor; the observer has {known}.")
             row[self._places[name]] = value
-        self._memory, self.t = self._advance(self._memory, row), float(t)
+        for each in self._back_to(row) if is_late else [row]:
+            if self._late:
+                self._past.append((self._memory, each))
+            self._memory, self.t = self._advance(self._memory, each), float(each[0])
+        while len(self._past) > 1 and self._past[1][1][0] <= cast("float", self.t) - self._late:
+            del self._past[0]
         return self._by_name(self.mean)
+
+    def _back_to(self, row: Float[np.ndarray, " n"]) -> list[Float[np.ndarray, " n"]]:
+        """The rows to step through again, with a late one; what is remembered goes back to before them."""
+        times, n = [r[0] for _, r in self._past], self._mean.start
+        k, last = int(np.searchsorted(times, row[0])), cast("float", self.t)
+        if k == len(times) or not row[0] >= max(times[0], last - self._late):
+            raise DataError(
+                f"t={row[0]:g} s is not later than the last step, at {last:g} s; for measurements that come late, "
+                "make the observer with late= seconds."
+            )
+        again = [r for _, r in self._past[k:]]
+        if times[k] == row[0]:
+            old = again.pop(0)
+            row[n:], row[1:n] = np.where(np.isnan(row[n:]), old[n:], row[n:]), old[1:n]
+        else:
+            low, high = self._past[k - 1][1], again[0]
+            share = (row[0] - low[0]) / (high[0] - low[0])
+            row[1:n] = np.where(
+                self.step_of_arrays.held, low[1:n], low[1:n] + share * (high - low)[1:n]
+            )
+        self._memory = self._past[k][0]
+        del self._past[k:]
+        return [row, *again]
 
     @property
     def mean(self) -> Float[np.ndarray, " m"]:
@@ -208,6 +244,7 @@ def observer(
     params: Mapping[str, Any] | None = None,
     inputs: Mapping[str, Any] | None = None,
     solver: Any = "auto",
+    late: float = 0.0,
 ) -> Observer:
     """An observer for a bench that runs: `acausal.estimate`, one measurement after the other.
 
@@ -221,6 +258,8 @@ def observer(
         dt, states, parameters, x0, params, solver: as of `acausal.estimate`; without ``states`` each has its nominal
             value as its standard deviation at the start.
         inputs: with which the initial state is consistent, by name; by default zero.
+        late: how many seconds late measurements may come: `Observer.step` then goes back to their time, and makes the
+            steps since then again.
 
     Raises:
         DataError: if an argument does not fit.
@@ -233,6 +272,8 @@ def observer(
         raise DataError(
             f"sample_time={shown(sample_time)} is not the time of a step; give seconds."
         )
+    if not (is_number(late) and late >= 0):
+        raise DataError(f"late={shown(late)} is not a time; give seconds, 0 for none.")
     computed = tuple(n for n in system.variables if n not in system.inputs)
     known = numbers_by_name(sensors, computed, "sensors", "a variable that the model computes")
     if not known:
@@ -256,4 +297,4 @@ def observer(
     q = jnp.asarray([float(walks.get(n, 0.0)) for n in order])
     nothing = jnp.full(len(system.inputs), jnp.nan)
     begin = Memory(jnp.asarray(jnp.nan), nothing, start.mean, start.covariance)
-    return Observer(Step(model, how, r, q, begin))
+    return Observer(Step(model, how, r, q, begin), float(late))

@@ -138,6 +138,33 @@ def test_an_observer_steps_as_the_estimate_does():
         seen.step(100.0, y={"mass.v": 0.0})
 
 
+def test_late_measurements_count_as_if_they_had_come_in_time():
+    """One comes at the time of a step, one between two; inputs then are on the line between those of the steps."""
+    given = {k: v for k, v in GIVEN.items() if k not in ("sensors", "noise")}
+    late, prompt = (
+        ac.observer(plain(), GIVEN["sensors"], GIVEN["noise"], H, late=seconds, **given)
+        for seconds in (2.5 * H, 0.0)
+    )
+    force = {0.0: 1.0, H: 3.0, 1.5 * H: 2.0, 2 * H: 1.0, 3 * H: 0.0, 4 * H: 1.0}
+    seen = {0.0: {"mass.s": 0.1}, H: {"mass.s": 0.12, "mass.a": 1.0}, 1.5 * H: {"mass.a": 2.0}}
+    for t, f in force.items():
+        wanted = prompt.step(t, {"push.f": f}, seen.get(t))
+    for k in range(4):
+        late.step(
+            k * H, {"push.f": force[k * H]}, {"mass.s": seen[k * H]["mass.s"]} if k < 2 else {}
+        )
+    late.step(1.5 * H, y=seen[1.5 * H])
+    late.step(H, y={"mass.a": 1.0})
+    found = late.step(4 * H, {"push.f": force[4 * H]})
+    assert late.t == prompt.t
+    np.testing.assert_allclose(list(found.values()), list(wanted.values()), atol=1e-13)
+    np.testing.assert_allclose(late.covariance, prompt.covariance, atol=1e-13)
+    with pytest.raises(ac.DataError, match=r"not later than the last step, at 0\.2 s; for"):
+        late.step(H, y={"mass.a": 1.0})
+    with pytest.raises(ac.DataError, match=r"inputs are known up to 0\.2 s; leave u out"):
+        late.step(3 * H, {"push.f": 1.0}, {"mass.a": 1.0})
+
+
 class Swing:
     """The oscillator without a force along rows, in matrices."""
 
