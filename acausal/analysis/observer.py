@@ -26,6 +26,10 @@ if TYPE_CHECKING:
     from acausal.system import System
 
 
+ROUNDING = 1e-9
+"""Measurements may be later than allowed by this part of it."""
+
+
 class Memory(NamedTuple):
     """What an observer remembers of its last step: time and inputs, NaN before the first, and what it believes."""
 
@@ -158,7 +162,8 @@ class Observer(ByName):
             if self._late:
                 self._past.append((self._memory, each))
             self._memory, self.t = self._advance(self._memory, each), float(each[0])
-        while len(self._past) > 1 and self._past[1][1][0] <= cast("float", self.t) - self._late:
+        early = cast("float", self.t) - self._late * (1 + ROUNDING)
+        while len(self._past) > 1 and self._past[1][1][0] <= early:
             del self._past[0]
         return self._by_name(self.mean)
 
@@ -166,7 +171,7 @@ class Observer(ByName):
         """The rows to step through again, with a late one; what is remembered goes back to before them."""
         times, n = [r[0] for _, r in self._past], self._mean.start
         k, last = int(np.searchsorted(times, row[0])), cast("float", self.t)
-        if k == len(times) or not row[0] >= max(times[0], last - self._late):
+        if k == len(times) or row[0] < times[0]:
             raise DataError(
                 f"t={row[0]:g} s is not later than the last step, at {last:g} s; for measurements that come late, "
                 "make the observer with late= seconds."

@@ -143,7 +143,7 @@ def test_late_measurements_count_as_if_they_had_come_in_time():
     given = {k: v for k, v in GIVEN.items() if k not in ("sensors", "noise")}
     late, prompt = (
         ac.observer(plain(), GIVEN["sensors"], GIVEN["noise"], H, late=seconds, **given)
-        for seconds in (2.5 * H, 0.0)
+        for seconds in (2.4 * H, 0.0)
     )
     force = {0.0: 1.0, H: 3.0, 1.5 * H: 2.0, 2 * H: 1.0, 3 * H: 0.0, 4 * H: 1.0}
     seen = {0.0: {"mass.s": 0.1}, H: {"mass.s": 0.12, "mass.a": 1.0}, 1.5 * H: {"mass.a": 2.0}}
