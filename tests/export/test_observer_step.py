@@ -19,11 +19,13 @@ ACCESS = """
 #include <stdlib.h>
 seen *make(void) { seen *m = malloc(sizeof(seen)); seen_init(m); return m; }
 int one_step(seen *m, double t, double u, const double *y) {
-    m->t = t; m->u[0] = u; m->y[0] = y[0]; m->y[1] = y[1]; return seen_step(m);
+    m->t = (seen_real)t; m->u[0] = (seen_real)u;
+    m->y[0] = (seen_real)y[0]; m->y[1] = (seen_real)y[1];
+    return seen_step(m);
 }
-double *mean_of(seen *m) { return m->mean; }
-double *covariance_of(seen *m) { return m->covariance; }
-double *values_of(seen *m) { return m->values; }
+seen_real *mean_of(seen *m) { return m->mean; }
+seen_real *covariance_of(seen *m) { return m->covariance; }
+seen_real *values_of(seen *m) { return m->values; }
 """
 
 Rows = list[tuple[float, float, np.ndarray]]
@@ -55,41 +57,61 @@ def rows(vehicle: ac.System) -> Rows:
     return list(zip(t.tolist(), u.tolist(), y, strict=True))
 
 
+class InC:
+    """An observer in C, compiled."""
+
+    def __init__(self, observer: ac.Observer, folder: Path, number: type = float) -> None:
+        header, source = ac.export.c(
+            observer, folder, name="seen", outputs=["body.a"], dtype=np.dtype(number)
+        )
+        self.header, self.source = header.read_text(), source.read_text()
+        access = folder / "access.c"
+        access.write_text(ACCESS)
+        compile_c([source, access], folder / "seen.so", f"-I{folder}")
+        self.library = ctypes.CDLL(str(folder / "seen.so"))
+        self.library.make.restype = ctypes.c_void_p
+        self.m = ctypes.c_void_p(self.library.make())
+        self.number = np.ctypeslib.as_ctypes_type(np.dtype(number))
+
+    def view(self, field: str, shape: tuple[int, ...]) -> np.ndarray:
+        function = getattr(self.library, f"{field}_of")
+        function.restype = ctypes.POINTER(self.number)
+        return np.ctypeslib.as_array(function(self.m), shape=shape)
+
+    def step(self, t: float, u: float, y: np.ndarray) -> int:
+        pointer = np.ascontiguousarray(y).ctypes.data_as(ctypes.c_void_p)
+        return self.library.one_step(self.m, ctypes.c_double(t), ctypes.c_double(u), pointer)
+
+
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
 def test_a_run_in_c_is_that_of_the_observer(
     vehicle: ac.System, rows: Rows, tmp_path: Path, method: str
 ):
     observer = seen(vehicle, method)
-    header, source = ac.export.c(observer, tmp_path, name="seen", outputs=["body.a"])
-    assert "alloc(" not in source.read_text()
-    assert "body.v in m/s" in header.read_text()
-    access = tmp_path / "access.c"
-    access.write_text(ACCESS)
-    compile_c([source, access], tmp_path / "seen.so", f"-I{tmp_path}")
-    library = ctypes.CDLL(str(tmp_path / "seen.so"))
-    library.make.restype = ctypes.c_void_p
-    m = ctypes.c_void_p(library.make())
-
-    def view(field: str, shape: tuple[int, ...]) -> np.ndarray:
-        function = getattr(library, f"{field}_of")
-        function.restype = ctypes.POINTER(ctypes.c_double)
-        return np.ctypeslib.as_array(function(m), shape=shape)
-
-    def step(t: float, u: float, y: np.ndarray) -> int:
-        pointer = np.ascontiguousarray(y).ctypes.data_as(ctypes.c_void_p)
-        return library.one_step(m, ctypes.c_double(t), ctypes.c_double(u), pointer)
-
+    in_c = InC(observer, tmp_path)
+    assert "alloc(" not in in_c.source
+    assert "body.v in m/s" in in_c.header
     for t, u, y in rows:
         observer.step(t, np.array([u]), dict(zip(SENSORS, y, strict=True)))
-        assert step(t, u, y) == 0
+        assert in_c.step(t, u, y) == 0
     n = len(observer.mean)
-    np.testing.assert_allclose(view("mean", (n,)), observer.mean, rtol=1e-12, atol=1e-14)
-    np.testing.assert_allclose(
-        view("covariance", (n, n)), observer.covariance, rtol=1e-12, atol=1e-14
-    )
-    assert view("values", (1,))[0] == pytest.approx(observer["body.a"], rel=1e-11)
-    assert step(9.0, 0.0, np.full(2, np.inf)) == 1
-    np.testing.assert_allclose(view("mean", (n,)), observer.mean, rtol=1e-12, atol=1e-14)
+    near = {"rtol": 1e-12, "atol": 1e-14}
+    np.testing.assert_allclose(in_c.view("mean", (n,)), observer.mean, **near)
+    np.testing.assert_allclose(in_c.view("covariance", (n, n)), observer.covariance, **near)
+    assert in_c.view("values", (1,))[0] == pytest.approx(observer["body.a"], rel=1e-11)
+    assert in_c.step(9.0, 0.0, np.full(2, np.inf)) == 1
+    np.testing.assert_allclose(in_c.view("mean", (n,)), observer.mean, **near)
+
+
+def test_single_precision_is_near(vehicle: ac.System, rows: Rows, tmp_path: Path):
+    observer = seen(vehicle, "ekf")
+    in_c = InC(observer, tmp_path, np.float32)
+    for t, u, y in rows[:50]:
+        observer.step(t, np.array([u]), dict(zip(SENSORS, y, strict=True)))
+        assert in_c.step(t, u, y) == 0
+    n = len(observer.mean)
+    off = (in_c.view("mean", (n,)) - observer.mean) / list(observer.deviations.values())
+    assert np.max(np.abs(off)) < 0.05
 
 
 def test_stablehlo_has_the_same_step(vehicle: ac.System, rows: Rows, tmp_path: Path):

@@ -158,7 +158,9 @@ def _field(name: str, port: Port) -> Iterator[str]:
     units = dict(zip(port.elements, port.units, strict=True))
     groups = [(run, units[run.names[0]]) for run in runs(port.elements)]
     size = _size(port) if port.shape else None
-    yield from field_lines(name, port.name, groups, size, "row by row" if port.shape[1:] else "")
+    is_matrix = len(port.shape) > 1
+    what = "row by row" if is_matrix else ""
+    yield from field_lines(name, port.name, [] if is_matrix else groups, size, what)
 
 
 def _filled(port: Port, default: np.ndarray | None) -> Iterator[str]:
