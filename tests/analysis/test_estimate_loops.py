@@ -87,6 +87,7 @@ class Bob(ac.Component):
         yield ac.Eq(self.x**2 + self.y**2, 1.0)
 
 
+@pytest.mark.slow
 def test_hidden_constraints_hold_after_every_correction():
     system = ac.compile(Bob(), check_units=False)
     assert len(system.states) == 2

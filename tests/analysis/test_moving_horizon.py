@@ -11,7 +11,8 @@ from tests.analysis.test_estimate import GIVEN, N, Pendulum, by_hand, record
 from tests.support.oscillator import plain
 
 
-@pytest.mark.parametrize("window", [2, N])
+@pytest.mark.cases(fast=1, slow=2)
+@pytest.mark.parametrize("window", [N, 2])
 def test_of_a_linear_model_any_window_gives_the_kalman_filter_and_smoother(window):
     data = record()
     found = ac.estimate(plain(), data, "mhe", window=window, **GIVEN)
@@ -24,6 +25,7 @@ def test_of_a_linear_model_any_window_gives_the_kalman_filter_and_smoother(windo
     np.testing.assert_allclose(later.covariance, spread, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_a_pendulum_is_found_from_a_wrong_start_sooner_than_by_a_filter():
     """The angle, of which the sine is measured, begins on the other side of where the sine bends."""
     system = ac.compile(Pendulum(), check_units=False)

@@ -83,6 +83,7 @@ class InC:
         return self.library.one_step(self.m, ctypes.c_double(t), ctypes.c_double(u), pointer)
 
 
+@pytest.mark.cases(fast=1, slow=2)
 @pytest.mark.parametrize("method", ["ekf", "ukf"])
 def test_a_run_in_c_is_that_of_the_observer(
     vehicle: ac.System, rows: Rows, tmp_path: Path, method: str
@@ -103,6 +104,7 @@ def test_a_run_in_c_is_that_of_the_observer(
     np.testing.assert_allclose(in_c.view("mean", (n,)), observer.mean, **near)
 
 
+@pytest.mark.slow
 def test_single_precision_is_near(vehicle: ac.System, rows: Rows, tmp_path: Path):
     observer = seen(vehicle, "ekf")
     in_c = InC(observer, tmp_path, np.float32)
@@ -114,6 +116,7 @@ def test_single_precision_is_near(vehicle: ac.System, rows: Rows, tmp_path: Path
     assert np.max(np.abs(off)) < 0.05
 
 
+@pytest.mark.slow
 def test_stablehlo_has_the_same_step(vehicle: ac.System, rows: Rows, tmp_path: Path):
     observer = seen(vehicle, "ekf")
     path = ac.export.stablehlo(observer, tmp_path / "seen.jax", derivatives=0)
