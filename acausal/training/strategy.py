@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import optax
 
+from acausal._jax import DescentMethod, levenberg_marquardt
 from acausal.errors import TrainingError
 from acausal.training.history import History
 from acausal.training.objective.equation_error import equation_error
@@ -20,14 +21,12 @@ from acausal.training.objective.whole_record import (
     over_whole_record,
     over_windows,
 )
-from acausal.training.optimizers.descent import DescentMethod
 from acausal.training.optimizers.gradients import (
     Evaluate,
     with_gauss_newton_hessian,
     with_gradient,
 )
 from acausal.training.optimizers.lbfgs import lbfgs
-from acausal.training.optimizers.levenberg_marquardt import levenberg_marquardt
 from acausal.training.optimizers.trainer import Trainer
 from acausal.training.options import FitOptions
 
