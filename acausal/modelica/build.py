@@ -17,6 +17,7 @@ from acausal.modelica.library_parts import make_part, modify_part
 from acausal.modelica.modifications import Bound, Given, Index, Modification, given_by, modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
+from acausal.modelica.overconstrained import Edge, Graph
 from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
@@ -37,6 +38,8 @@ class Model(Component):
 
     _class: ClassVar[ClassNode]
     _build: Build
+    _units_bind: ClassVar[bool] = False
+    """Units are attributes in Modelica, which need not agree."""
 
     def __init__(
         self,
@@ -123,6 +126,7 @@ class Build:
         connected: whether all connections of the model have been made.
         outer: variables of components around it, and what stands for each here.
         given_inwards: variables of parts that equal one of this component, and that one.
+        graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
     """
 
@@ -142,6 +146,7 @@ class Build:
         self.parts_of_text: list[Model] = []
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
+        self.graph, self.edges = Graph(), list[Edge]()
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -200,6 +205,7 @@ class Build:
         """Make all members that no expression has asked for, connect them, and read what they state."""
         self._make_all()
         self._connect_all()
+        self.graph.cut()
         self._finish()
 
     def _make_all(self) -> None:

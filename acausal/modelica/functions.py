@@ -11,10 +11,10 @@ import numpy as np
 import sympy as sp
 
 from acausal.modelica.classes import ClassNode, Entry
-from acausal.modelica.evaluate import Evaluator
 from acausal.modelica.language import SPECIAL
 from acausal.modelica.meanings import Native, Predefined, Value
 from acausal.modelica.operators import MAX_CALLS, Frame
+from acausal.modelica.overloading import Overloading
 from acausal.modelica.syntax import (
     Branches,
     Call,
@@ -31,6 +31,7 @@ from acausal.modelica.syntax import (
 )
 from acausal.modelica.values import (
     Record,
+    array_of,
     as_record,
     each,
     elements,
@@ -61,7 +62,7 @@ class _Left(Exception):  # noqa: N818
     """``break`` or ``return``."""
 
 
-class Interpreter(Evaluator):
+class Interpreter(Overloading):
     """Evaluates expressions with calls, and executes statements of algorithms.
 
     Attributes:
@@ -78,11 +79,12 @@ class Interpreter(Evaluator):
     # -- calls -----------------------------------------------------------------------------------------
 
     def _call(self, call: Call) -> Any:
-        name = call.function.text
+        words = call.function.words
+        name = words[1] if words[0] == "" and len(words) == 2 else call.function.text
         special = SPECIAL.get(name)
         if special is not None and name not in self.frame.local:
             return special(self, call)
-        if name in REFUSED:
+        if name in REFUSED and name not in self.frame.local:
             raise self.wrong(f"{name}(...) is not supported; {REFUSED[name]}", len(name))
         found, rest = self.frame.find(call.function.words)
         if rest:
@@ -94,7 +96,7 @@ class Interpreter(Evaluator):
         named = {k: self.value(v) for k, v in call.named.items()}
         self.at = call.at
         if isinstance(found, ClassNode) and found.definition.kind == "record":
-            return self.record_of(found, given, named)
+            return self.constructed(found, given, named)
         if isinstance(found, Value) and callable(found.value):
             return self._of_library(found.value, name, given, named)
         if isinstance(found, Value) and not given:
@@ -156,7 +158,7 @@ class Interpreter(Evaluator):
             expression, owner = entry.started
             frame = Frame(owner, None, fields)
             fields[name] = None if expression is None else self.elsewhere(frame).value(expression)
-        return Record(fields)
+        return Record(fields, node)
 
     # -- functions of the user ---------------------------------------------------------------------------
 
@@ -195,6 +197,8 @@ class Interpreter(Evaluator):
                 raise self.wrong(f"{definition.name} has no argument '{name}'", length)
             values[name] = self.value(expression)
         self.at = at
+        if arrays := [n for n, v in values.items() if np.ndim(v) > view.entries[n].dimensions]:
+            return self._for_each_element(node, call, values, arrays)
         local: dict[str, Any] = {}
         frame = Frame(node, None, local, self.frame.events, self.frame.calls + 1)
         inner = self.elsewhere(frame)
@@ -225,13 +229,35 @@ class Interpreter(Evaluator):
             raise self.wrong(f"{definition.name} has no result", length)
         return [local[name] for name in outputs]
 
+    def _for_each_element(
+        self, node: ClassNode, call: Call, values: dict[str, Any], arrays: list[str]
+    ) -> list[Any]:
+        """The results for arrays in the place of scalars: arrays, too (Modelica 3.6, section 12.4.6)."""
+        shapes = {np.shape(values[n]) for n in arrays}
+        if len(shapes) > 1:
+            sizes = " and ".join(str(list(s)) for s in sorted(shapes))
+            raise self.wrong(f"arrays of sizes {sizes} do not fit")
+        (shape,) = shapes
+        found: list[list[Any]] = []
+        for place in np.ndindex(*shape):
+            named: dict[str, Expression] = {
+                n: Constant(v[place] if n in arrays else v, call.at) for n, v in values.items()
+            }
+            found.append(self.inlined(node, Call(call.function, [], named, call.at)))
+        return [
+            array_of(list(r)).reshape((*shape, *np.shape(r[0]))) for r in zip(*found, strict=True)
+        ]
+
     def empty(self, entry: Entry) -> Any:
         """A variable before it is assigned: None, or an array or record of None."""
-        found, rest = Frame(entry.node).find(entry.declared.type.words)
-        if isinstance(found, ClassNode) and found.definition.kind == "record" and not rest:
-            return self.record_of(found, [], {})
-        sizes = [self.value(s) for s in entry.declared.subscripts if not isinstance(s, Whole)]
-        if not sizes or len(sizes) < len(entry.declared.subscripts):
+        found, _ = Frame(entry.node).find(entry.declared.type.words)
+        subscripts, stated = entry.declared.subscripts, entry.declared.modifier.arguments
+        if isinstance(found, ClassNode) and found.definition.kind == "record" and not subscripts:
+            given = {a.name: a.modifier.value for a in stated if a.name in found.view().entries}
+            named = {k: self.value(v) for k, v in given.items() if v is not None}
+            return self.record_of(found, [], named)
+        sizes = [self.value(s) for s in subscripts if not isinstance(s, Whole)]
+        if not sizes or len(sizes) < len(subscripts):
             return None
         shape = [self.whole(n, "a size") for n in sizes]
         check_size(int(np.prod(shape)), "the array")
@@ -311,9 +337,8 @@ class Interpreter(Evaluator):
             if not isinstance(old, Record):
                 raise self.wrong(f"'{target.words[i]}' is no record")
             word = target.words[i + 1]
-            return Record(
-                {**old.fields, word: self._changed(old.fields.get(word), target, i + 1, value)}
-            )
+            inner = self._changed(old.fields.get(word), target, i + 1, value)
+            return Record({**old.fields, word: inner}, old.node)
         if not isinstance(old, np.ndarray) or i + 1 < len(target.words):
             raise self.wrong(f"'{target.words[i]}' is not an array")
         places = self.places(old.shape, subscripts)
@@ -364,7 +389,8 @@ class Interpreter(Evaluator):
             return each(lambda a, b: self._merged(holds, a, b), value, otherwise)
         if isinstance(value, Record) and isinstance(otherwise, Record):
             fields = otherwise.fields
-            return Record({k: self._merged(holds, v, fields[k]) for k, v in value.fields.items()})
+            merged = {k: self._merged(holds, v, fields[k]) for k, v in value.fields.items()}
+            return Record(merged, value.node)
         return self.chosen(holds, value, otherwise)
 
     def _loop(self, loop: Loop, local: dict[str, Any]) -> None:

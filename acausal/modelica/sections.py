@@ -9,14 +9,17 @@ import numpy as np
 import sympy as sp
 
 from acausal.errors import DeclarationError, ModelError
+from acausal.modelica import overconstrained
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.meanings import Literal
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import around
+from acausal.modelica.overconstrained import Edge
 from acausal.modelica.syntax import (
     Branches,
     Call,
     Connect,
+    Constant,
     Do,
     Equation,
     Expression,
@@ -28,6 +31,7 @@ from acausal.modelica.syntax import (
 from acausal.modelica.values import (
     Absent,
     Record,
+    as_record,
     each,
     elements,
     is_array,
@@ -68,6 +72,8 @@ class Reader(Interpreter):
                         self.connections(statement.body)
                 case Branches() if _connects([s for _, body in statement.branches for s in body]):
                     self.connections(self._chosen(statement))
+                case Do() if _is_of_graph(statement):
+                    overconstrained.note(self, statement.call)
                 case _:
                     pass
 
@@ -95,6 +101,9 @@ class Reader(Interpreter):
                     raise self.wrong(f"unlike connectors: only one has {names}", len("connect"))
                 for name, end in ends[0].items():
                     self._join(end, ends[1][name])
+                for name, record in left.fields.items():
+                    if isinstance(record, Component):
+                        self._relate(record, right.fields[name])
             case list(), list() if len(left) == len(right):
                 for a, b in zip(left, right, strict=True):
                     self._join(a, b)
@@ -108,6 +117,30 @@ class Reader(Interpreter):
                     around(self.frame.build, *owners).component.connect(left, right)
                 except ModelError as error:
                     raise self.wrong(str(error), len("connect")) from None
+
+    def _relate(self, left: Component, right: Component) -> None:
+        """Connect redundant records of two connectors."""
+        build: Any = self.frame.build
+        owner = around(build, left._node, right._node)
+        edge = Edge((left, right), self.at)
+        owner.edges.append(edge)
+        while build.above is not None:
+            build = build.above
+        build.graph.edges.append(edge)
+
+    def related(self, edge: Edge) -> Iterator[Eq]:
+        """The equations of a connection of redundant records."""
+        self.at = edge.at
+        ends = [as_record(end) for end in edge.ends]
+        if not edge.cut:
+            yield from self.pairs(*ends)
+            return
+        constraint = ends[0].node.member("equalityConstraint")
+        name = Name(("equalityConstraint",), {}, edge.at)
+        residual = self.inlined(
+            constraint, Call(name, [Constant(e, edge.at) for e in ends], {}, edge.at)
+        )[0]
+        yield from self.pairs(residual, np.zeros(np.shape(residual), dtype=object))
 
     def _repeated(self, loop: Loop) -> Iterator[None]:
         """Once for all values of the loop's variables."""
@@ -144,9 +177,9 @@ class Reader(Interpreter):
                     yield from self._cases(statement.branches)
                 case Branches():
                     yield self._when(statement, lambda body: list(self._at_event(body)))
-                case Do():
+                case Do() if not _is_of_graph(statement):
                     self.perform(statement.call)
-                case Connect():
+                case Do() | Connect():
                     pass
 
     def _equation(self, statement: Equation) -> Iterator[Eq]:
@@ -174,7 +207,10 @@ class Reader(Interpreter):
                 f"the sides have the sizes {list(np.shape(left))} and {list(np.shape(right))}"
             )
         for a, b in zip(elements(left), elements(right), strict=True):
-            yield self._pair(a, b)
+            if isinstance(a, Record) or isinstance(b, Record):
+                yield from self._fields(a, b)
+            else:
+                yield self._pair(a, b)
 
     def _fields(self, left: Any, right: Any) -> Iterator[Eq]:
         some = left if isinstance(left, Record) else right
@@ -399,7 +435,12 @@ def _is_when(statement: Statement) -> bool:
 
 def _connects(stated: Iterable[Statement]) -> bool:
     """Whether statements connect something."""
-    return any(True for _ in _connections(stated))
+    return any(True for _ in _connections(stated)) or any(map(_is_of_graph, stated))
+
+
+def _is_of_graph(statement: Statement) -> bool:
+    """Whether a statement is one about overconstrained connections."""
+    return isinstance(statement, Do) and statement.call.function.words[0] == "Connections"
 
 
 def ends_of(stated: Iterable[Statement]) -> set[str]:

@@ -32,6 +32,8 @@ def equations(build: Any) -> Iterator[Any]:
         stated += _bound(part, path, bound)
     for local, symbol in build.given_inwards:
         stated += Reader(build.frame(build.node)).pairs(local, symbol)
+    for edge in build.edges:
+        stated += Reader(build.frame(build.node)).related(edge)
     yield from _oriented(stated)
 
 

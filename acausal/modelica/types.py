@@ -28,7 +28,8 @@ class Type:
         node: a class of the text, whose instance it becomes.
         predefined: ``Real``, ``Integer``, ``Boolean``, ``String`` or an enumeration, with ``attributes`` as values and
             ``arguments`` with the frame of each.
-        causality, connection: prefixes that the type brings along.
+        causality: prefix that the type brings along.
+        connection: of a record in a connector, ``flow`` or ``potential``: what its variables are.
         subscripts: of a type that is an array.
         record: of a library, with its default values.
         full: the Modelica name of the class of a library.
@@ -40,15 +41,16 @@ class Type:
     attributes: dict[str, Any] = field(default_factory=dict[str, Any])
     arguments: Sequence[tuple[Argument, ClassNode]] = ()
     causality: str = ""
+    connection: str = ""
     subscripts: Sequence[tuple[Expression, ClassNode]] = ()
     record: Any = None
     full: str = ""
 
     @property
     def is_connector(self) -> bool:
-        """Whether this is a connector with several variables."""
+        """Whether this is a connector with several variables, or a record in one."""
         if self.node is not None:
-            return self.node.definition.kind == "connector"
+            return self.node.definition.kind == "connector" or bool(self.connection)
         return isinstance(self.native, type) and issubclass(self.native, Connector)
 
 
@@ -100,7 +102,7 @@ def type_of_class(node: ClassNode) -> Type:
         )
     if view.subscripts:
         raise node.wrong(node.definition.at, "a class that is an array of others is not supported")
-    return Type(node=node)
+    return Type(node=node, causality=view.causality)
 
 
 def _signal_kind(native: Native) -> str:

@@ -49,6 +49,9 @@ class Component:
     ICON: ClassVar[Icon | None] = None
     """How diagrams show it; a class without one is a box with the class's name."""
 
+    _units_bind: ClassVar[bool] = True
+    """Whether unlike units are refused; otherwise there is a warning."""
+
     _declared: ClassVar[dict[str, Declaration | Connector]] = {}
 
     __signature__ = SignatureOf()
