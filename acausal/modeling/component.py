@@ -147,6 +147,10 @@ class Component:
                 known = [*self._declared, *node.children]
                 raise DeclarationError(f"{node.label} has no '{name}': {nearest(name, known)}")
 
+    def is_given(self, name: str) -> bool:
+        """Whether the model around gives a variable its value, so that an equation for it by default is left out."""
+        return f"given {name}" in self._node.constants
+
     def replace(self, path: str, part: Component) -> Self:
         """A copy of the model with another part in the place of one, and the same connections.
 

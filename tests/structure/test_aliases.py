@@ -212,3 +212,16 @@ def test_a_chain_reduces_to_two_variables_a_mass():
     names = {system.reduced.name(i) for i in kept}
     assert "m0.flange_a.s" not in names
     assert "m2.flange_b.f" not in names
+
+
+def test_the_angle_of_what_is_zero_is_zero() -> None:
+    class Angle(ac.Component):
+        x, y, phi, z = (ac.Variable() for _ in range(4))
+
+        def equations(self):
+            yield from (Eq(self.x, 0), Eq(self.y, self.x))
+            yield Eq(self.phi, ac.atan2(self.y, self.x))
+            yield Eq(der(self.z), 1 + self.phi)
+
+    system = ac.compile(Angle())
+    assert float(system.vector_field(0.0, [0.0], None, system.parameters())[0]) == 1
