@@ -70,15 +70,7 @@ class Template(LeavesCaches):
             if is_zero:
                 replaced[symbol] = sp.S.Zero
         replaced = {s: r for s, r in replaced.items() if s != r}
-        residual: Any = self.residual
-        if replaced and residual.has(
-            sp.atan2
-        ):  # the angle of a zero vector is zero, as IEEE 754 says
-            angles = [
-                a for a in residual.atoms(sp.atan2) if not any(v.xreplace(replaced) for v in a.args)
-            ]
-            residual = residual.xreplace(dict.fromkeys(angles, sp.S.Zero))
-        residual = residual.xreplace(replaced)
+        residual: Any = self.residual.xreplace(replaced) if replaced else self.residual
         if residual.has(sp.zoo, sp.nan, sp.oo):
             zeros = [s.name for s, r in replaced.items() if r == 0 and s in self.parameters]
             raise StructureError(

@@ -360,13 +360,14 @@ class Build:
     def _part(
         self, name: str, entry: Entry, found: Type, inner: list[Given], value: Bound | None
     ) -> Any:
-        if value is not None and not (
-            found.node is not None and found.node.definition.kind == "record"
-        ):
+        node = found.node
+        is_value = node is not None and (node.definition.kind == "record" or found.causality)
+        if value is not None and not is_value:
             raise value.wrong(f"'{entry.declared.name}' is a part, which has no value")
+        if value is not None and node is not None:
+            inner += _fields(node, value)
         if found.is_connector:
             return connector(self, name, found, inner)
-        node = found.node
         if node is None:
             if not is_component(found.native):
                 raise entry.node.wrong(entry.declared.type.at, "this is not a class of components")
@@ -375,8 +376,6 @@ class Build:
             part = make_part(found.native, inner)
             self.later.append(lambda: modify_part(self, part, inner))
             return part
-        if value is not None:
-            inner += _fields(node, value)
         charge("components", 1, entry.declared.name)
         variability = entry.declared.prefixes.variability or self.variability
         part = class_of(node)(_given=inner, _above=self, _variability=variability)

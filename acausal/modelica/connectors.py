@@ -125,6 +125,9 @@ def _check(node: ClassNode) -> None:
     if not view.entries and not view.natives:
         raise node.refused("a connector without variables is not supported")
     flows = kinds.count("flow")
+    parts = [_type(entry).node for entry in view.entries.values()]
+    if any(node is not None and is_overconstrained(node) for node in parts):
+        return  # what such a record counts depends on its constraint
     if not view.natives and not view.causality and flows != len(kinds) - flows:
         reason = f"a connector has as many flow variables as others, not {flows} and {len(kinds) - flows}"
         raise node.refused(reason)
@@ -138,12 +141,10 @@ def _connections(node: ClassNode, outer: str) -> Iterator[str]:
         if _is_plain(entry):
             yield connection
             continue
-        node = found.node
-        is_signal = prefixes.causality or prefixes.variability
-        if is_signal or node is None or node.definition.kind != "record":
+        inner = None if prefixes.causality or prefixes.variability else found.node
+        if inner is None or inner.definition.kind != "record" or is_overconstrained(inner):
             continue
-        if not is_overconstrained(node):
-            yield from _connections(node, connection)
+        yield from _connections(inner, connection)
 
 
 def _variable(entry: Entry, known: dict[str, Any], connection: str = "") -> Variable:

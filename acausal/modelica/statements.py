@@ -128,4 +128,7 @@ def fed_by_connections(build: Any) -> frozenset[str]:
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
     reader = Reader(bound.frame)
     reader.at = bound.expression.at
-    yield from reader.pairs(as_array(attribute(part, path)), bound.value())
+    build = part.__dict__.get("_build")
+    member = build.made.get(path) if build is not None and "." in path else None
+    target = as_array(attribute(part, path)) if member is None else member
+    yield from reader.pairs(target, bound.value())

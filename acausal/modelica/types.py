@@ -15,6 +15,8 @@ from acausal.modelica.syntax import Argument, Declared, Expression
 from acausal.modeling import Component, Connector, Input, Output
 
 ATTRIBUTES = ("start", "fixed", "nominal", "stateSelect", "unit", "min", "max")
+ENUMERATIONS = ("StateSelect", "AssertionLevel")
+"""Predefined enumerations, whose values are texts."""
 IGNORED = ("displayUnit", "quantity", "unbounded")
 """Attributes that change no result."""
 
@@ -61,6 +63,8 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
         ModelicaError: for a name that means nothing, or what cannot be a component.
     """
     found, rest = frame.find(declared.type.words)
+    if found is None and declared.type.text in ENUMERATIONS:
+        return Type(predefined=declared.type.text)
     if found is None or rest:
         raise frame.node.unknown(declared.type)
     match found:

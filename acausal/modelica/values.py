@@ -171,7 +171,9 @@ def as_record(value: Any) -> Any:
     """Parts that are records as values, lists of such as an array; others as they are."""
     if isinstance(value, Record) and "" in value.fields and value.node is not None:
         return Record({k: as_record(v) for k, v in value.fields.items() if k}, value.node)
-    if is_array(value) and not isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray):
+        return each(as_record, value) if is_record(value) else value
+    if is_array(value):
         found = [as_record(v) for v in cast(Sequence[Any], value)]
         return array_of(found) if found and all(map(is_record, found)) else value
     build = value.__dict__.get("_build") if isinstance(value, Component) else None

@@ -72,6 +72,7 @@ from acausal.modeling.functions import (
     asin as asin,
     asinh as asinh,
     atan as atan,
+    Atan2 as Atan2,
     atan2 as atan2,
     cos as cos,
     cosh as cosh,

@@ -135,11 +135,24 @@ package Phasors "Records with operators, in equations and in connectors whose an
     y = if time > 0.5 then -z else z;
   end Same;
 
+  model Sink "signals of records that are given values, arrays of connectors with records"
+    Pin pin[2];
+    Sent s[2] = pin.i;
+  equation
+    Connections.branch(pin[1].angle, pin[2].angle);
+    Connections.root(pin[1].angle);
+    pin[1].angle.phi = 0;
+    pin[2].angle.phi = 0;
+    pin.v = {Phasor(6), Phasor(3)};
+  end Sink;
+
   model Circuit "two impedances in parallel close a loop of angles"
     Source source;
     Ground ground;
     Impedance a(R = 3, L = 2), b(R = 5);
     Same same;
+    Sink sink;
+    Impedance c(R = 3);
     Twice twice[2];
     Real squares[2] = size2(twice.y);
     Phasor across[2] = {a.i, b.i};
@@ -151,6 +164,8 @@ package Phasors "Records with operators, in equations and in connectors whose an
     connect(a.p, b.p);
     connect(a.n, b.n);
     connect(source.n, ground.p);
+    connect(c.p, sink.pin[1]);
+    connect(c.n, sink.pin[2]);
     connect(same.y, twice[1].u);
     connect(twice[1].y, twice[2].u);
   end Circuit;

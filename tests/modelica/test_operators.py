@@ -30,6 +30,7 @@ def test_a_circuit_of_phasors_has_the_currents_of_complex_numbers(run: ac.Soluti
 
 
 def test_signals_of_records_and_functions_of_arrays(run: ac.Solution) -> None:
+    assert phasor(run, "sink.s[1]") == -phasor(run, "c.i") == -1
     assert phasor(run, "twice[2].y") == pytest.approx(4 * (3 + 4j))
     assert run["twice[1].y.im"][-1] == pytest.approx(-8)
     assert [run[f"squares[{k}]"][0] for k in (1, 2)] == pytest.approx([100, 400])
