@@ -67,12 +67,12 @@ from acausal.modeling.events import (
 from acausal.modeling.functions import (
     COMPUTABLE as COMPUTABLE,
     Abs as Abs,
+    Atan2 as Atan2,
     Prescribed as Prescribed,
     acos as acos,
     asin as asin,
     asinh as asinh,
     atan as atan,
-    Atan2 as Atan2,
     atan2 as atan2,
     cos as cos,
     cosh as cosh,
