@@ -14,7 +14,15 @@ from acausal.modelica.connectors import connector
 from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
-from acausal.modelica.modifications import Bound, Given, Index, Modification, given_by, modification
+from acausal.modelica.modifications import (
+    Bound,
+    Given,
+    Index,
+    Modification,
+    fields_of,
+    given_by,
+    modification,
+)
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
 from acausal.modelica.overconstrained import Edge, Graph
@@ -365,7 +373,7 @@ class Build:
         if value is not None and not is_value:
             raise value.wrong(f"'{entry.declared.name}' is a part, which has no value")
         if value is not None and node is not None:
-            inner += _fields(node, value)
+            inner += fields_of(node, value)
         if found.is_connector:
             return connector(self, name, found, inner)
         if node is None:
@@ -419,27 +427,6 @@ def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
         else:
             known[key] = ClassNode(definition, frame.node, frame.node.tree)
     return known[key]
-
-
-def _fields(node: ClassNode, value: Bound) -> list[Given]:
-    """The fields of a record as modifiers."""
-    record = value.value()
-    found: list[Given] = []
-    for name, entry in node.view().entries.items():
-        if entry.declared.prefixes.final:
-            continue
-        given = of(record, name)
-        if given is None:
-            raise value.wrong(f"this is not a record with '{name}'")
-        found.append(
-            Given(
-                name,
-                Modifier([], Constant(given, value.expression.at)),
-                value.frame,
-                value.expression.at,
-            )
-        )
-    return found
 
 
 def _is_composite(value: Any) -> bool:

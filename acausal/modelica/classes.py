@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -54,15 +53,6 @@ class Entry:
             return self.stated
         own = self.declared.modifier.arguments
         return next((a.modifier.value for a in own if a.name == "start"), None), self.node
-
-    @property
-    def dimensions(self) -> float:
-        """How many dimensions it has; more than any for a part whose class is not a record."""
-        found, _ = self.node.lookup(self.declared.type.words)
-        own = len(self.declared.subscripts)
-        if isinstance(found, ClassNode) and found.definition.kind in ("type", "record"):
-            return own + len(found.view().subscripts)
-        return own if isinstance(found, Predefined) else math.inf
 
     def wrong(self, reason: str) -> ModelicaError:
         """The error at its declaration."""

@@ -7,8 +7,9 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
+from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
-from acausal.modelica.sections import Reader, collect, ends_of
+from acausal.modelica.sections import Reader, collect
 from acausal.modelica.values import (
     as_array,
 )
