@@ -247,8 +247,12 @@ def _by_expression(
         if expression.has(sp.zoo, sp.nan, sp.oo):
             name = model.layout.parameter(binding.target)
             raise DeclarationError(f"'{name}': its expression divides by a parameter that is zero")
-        present = expression.free_symbols  # without zeros, expressions of unlike arguments can be the same
-        kept = [(s, a) for s, a in zip(binding.symbols, binding.arguments, strict=True) if s in present]
+        present = (
+            expression.free_symbols
+        )  # without zeros, expressions of unlike arguments can be the same
+        kept = [
+            (s, a) for s, a in zip(binding.symbols, binding.arguments, strict=True) if s in present
+        ]
         symbols, arguments = tuple(s for s, _ in kept), tuple(a for _, a in kept)
         own = Binding(binding.target, expression, symbols, arguments)
         found.setdefault((expression, symbols), []).append(own)

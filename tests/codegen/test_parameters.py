@@ -268,7 +268,11 @@ def test_bindings_that_zeros_make_alike_share_a_formula():
 
         def __init__(self):
             super().__init__()
-            self.parts = [Mass(m=self.a**2 + self.b * self.z), Mass(m=self.a**2), Mass(m=self.a**2 + self.z)]
+            self.parts = [
+                Mass(m=self.a**2 + self.b * self.z),
+                Mass(m=self.a**2),
+                Mass(m=self.a**2 + self.z),
+            ]
 
         def equations(self):
             yield ac.Eq(ac.der(self.x), sum(part.m for part in self.parts))
