@@ -20,7 +20,7 @@ from sympy.functions.elementary.piecewise import ExprCondPair
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import ModelError
-from acausal.modeling import GivenModule, ModuleCall, Prescribed
+from acausal.modeling import Atan2, GivenModule, ModuleCall, Prescribed
 
 
 @dataclass(frozen=True)
@@ -279,7 +279,7 @@ RULES: dict[type, LoweringRule] = {
     sp.asin: _call(jnp.arcsin),
     sp.acos: _call(jnp.arccos),
     sp.atan: _call(jnp.arctan),
-    sp.atan2: _call(jnp.arctan2),
+    **dict.fromkeys((sp.atan2, Atan2), _call(jnp.arctan2)),
     sp.sinh: _call(jnp.sinh),
     sp.asinh: _call(jnp.arcsinh),
     sp.cosh: _call(jnp.cosh),

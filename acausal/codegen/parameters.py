@@ -213,7 +213,6 @@ def lay_out_parameters(model: FlatModel) -> ParameterLayout:
             arguments = tuple(
                 (s, gather(source[column], index[column], sizes))
                 for s, column in zip(members[0].symbols, columns, strict=True)
-                if s in expression.free_symbols
             )
             groups.append(Formula(expression, Arguments(arguments), len(members)))
             own = [b.target for b in members]
@@ -237,7 +236,7 @@ def _kind(model: FlatModel, free: Integers) -> tuple[Integers, Integers]:
 def _by_expression(
     bindings: list[Binding], model: FlatModel, target: Integers
 ) -> list[tuple[sp.Expr, list[Binding]]]:
-    found: dict[sp.Expr, list[Binding]] = {}
+    found: dict[tuple[sp.Expr, tuple[sp.Symbol, ...]], list[Binding]] = {}
     for binding in bindings:
         zeros = {
             s: sp.S.Zero
@@ -248,8 +247,16 @@ def _by_expression(
         if expression.has(sp.zoo, sp.nan, sp.oo):
             name = model.layout.parameter(binding.target)
             raise DeclarationError(f"'{name}': its expression divides by a parameter that is zero")
-        found.setdefault(expression, []).append(binding)
-    return list(found.items())
+        present = (
+            expression.free_symbols
+        )  # without zeros, expressions of unlike arguments can be the same
+        kept = [
+            (s, a) for s, a in zip(binding.symbols, binding.arguments, strict=True) if s in present
+        ]
+        symbols, arguments = tuple(s for s, _ in kept), tuple(a for _, a in kept)
+        own = Binding(binding.target, expression, symbols, arguments)
+        found.setdefault((expression, symbols), []).append(own)
+    return [(expression, members) for (expression, _), members in found.items()]
 
 
 def _module_targets(model: FlatModel) -> Integers:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from acausal.errors import DeclarationError
 from acausal.modeling import Component, Eq, InitialParameter, charge, der
 
@@ -17,7 +19,8 @@ def equations_of(component: Component) -> Iterable[Any]:
     yield from component._node.bindings
     for name, declared in component._node.declarations():
         if isinstance(declared, InitialParameter):
-            yield Eq(der(getattr(component, name)), 0)
+            elements = np.asarray(getattr(component, name), dtype=object)
+            yield from (Eq(der(one), 0) for one in elements.flat)
 
 
 def read_statements(

@@ -71,7 +71,7 @@ class Template(LeavesCaches):
                 replaced[symbol] = sp.S.Zero
         replaced = {s: r for s, r in replaced.items() if s != r}
         residual: Any = self.residual.xreplace(replaced) if replaced else self.residual
-        if residual.has(sp.zoo, sp.nan, sp.oo):
+        if _is_infinite(residual):
             zeros = [s.name for s, r in replaced.items() if r == 0 and s in self.parameters]
             raise StructureError(
                 f"division by zero; {' and '.join(zeros) or 'a variable'} is zero there"
@@ -269,3 +269,13 @@ def _fresh(name: str, taken: set[sp.Symbol]) -> sp.Symbol:
     """A slot with that name or a similar one: the template may hold the same derivative with the other sign."""
     symbol = sp.Symbol(name, real=True)
     return _fresh(f"{name}'", taken) if symbol in taken else symbol
+
+
+def _is_infinite(expression: Any) -> bool:
+    """Whether an expression is not finite, whatever its conditions choose; a value that they avoid may be infinite."""
+    if isinstance(expression, sp.Piecewise):
+        pairs: Any = expression.args
+        return all(_is_infinite(value) for value, _ in pairs)
+    if expression in (sp.zoo, sp.nan, sp.oo, -sp.oo):
+        return True
+    return expression.has(sp.zoo, sp.nan, sp.oo) and any(map(_is_infinite, expression.args))

@@ -14,9 +14,18 @@ from acausal.modelica.connectors import connector
 from acausal.modelica.form import note_form
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import make_part, modify_part
-from acausal.modelica.modifications import Bound, Given, Index, Modification, given_by, modification
+from acausal.modelica.modifications import (
+    Bound,
+    Given,
+    Index,
+    Modification,
+    fields_of,
+    given_by,
+    modification,
+)
 from acausal.modelica.operators import Frame
 from acausal.modelica.outer import inner_of
+from acausal.modelica.overconstrained import Edge, Graph
 from acausal.modelica.syntax import ClassDefinition, Constant, Modifier
 from acausal.modelica.tokens import ModelicaError
 from acausal.modelica.types import Type, is_component, type_of_declared
@@ -37,6 +46,8 @@ class Model(Component):
 
     _class: ClassVar[ClassNode]
     _build: Build
+    _units_bind: ClassVar[bool] = False
+    """Units are attributes in Modelica, which need not agree."""
 
     def __init__(
         self,
@@ -123,6 +134,7 @@ class Build:
         connected: whether all connections of the model have been made.
         outer: variables of components around it, and what stands for each here.
         given_inwards: variables of parts that equal one of this component, and that one.
+        graph: of the redundant records of a whole model. edges: those of its connections that are made here.
         decided: expressions of parameters that decided what there is, and their values.
     """
 
@@ -142,6 +154,7 @@ class Build:
         self.parts_of_text: list[Model] = []
         self._making: dict[str, None] = {}
         self.later: list[Callable[[], None]] = []
+        self.graph, self.edges = Graph(), list[Edge]()
 
     @property
     def entries(self) -> dict[str, Entry]:
@@ -200,6 +213,7 @@ class Build:
         """Make all members that no expression has asked for, connect them, and read what they state."""
         self._make_all()
         self._connect_all()
+        self.graph.cut()
         self._finish()
 
     def _make_all(self) -> None:
@@ -354,13 +368,14 @@ class Build:
     def _part(
         self, name: str, entry: Entry, found: Type, inner: list[Given], value: Bound | None
     ) -> Any:
-        if value is not None and not (
-            found.node is not None and found.node.definition.kind == "record"
-        ):
+        node = found.node
+        is_value = node is not None and (node.definition.kind == "record" or found.causality)
+        if value is not None and not is_value:
             raise value.wrong(f"'{entry.declared.name}' is a part, which has no value")
+        if value is not None and node is not None:
+            inner += fields_of(node, value)
         if found.is_connector:
             return connector(self, name, found, inner)
-        node = found.node
         if node is None:
             if not is_component(found.native):
                 raise entry.node.wrong(entry.declared.type.at, "this is not a class of components")
@@ -369,8 +384,6 @@ class Build:
             part = make_part(found.native, inner)
             self.later.append(lambda: modify_part(self, part, inner))
             return part
-        if value is not None:
-            inner += _fields(node, value)
         charge("components", 1, entry.declared.name)
         variability = entry.declared.prefixes.variability or self.variability
         part = class_of(node)(_given=inner, _above=self, _variability=variability)
@@ -414,27 +427,6 @@ def redeclared_class(definition: ClassDefinition, frame: Frame) -> Any:
         else:
             known[key] = ClassNode(definition, frame.node, frame.node.tree)
     return known[key]
-
-
-def _fields(node: ClassNode, value: Bound) -> list[Given]:
-    """The fields of a record as modifiers."""
-    record = value.value()
-    found: list[Given] = []
-    for name, entry in node.view().entries.items():
-        if entry.declared.prefixes.final:
-            continue
-        given = of(record, name)
-        if given is None:
-            raise value.wrong(f"this is not a record with '{name}'")
-        found.append(
-            Given(
-                name,
-                Modifier([], Constant(given, value.expression.at)),
-                value.frame,
-                value.expression.at,
-            )
-        )
-    return found
 
 
 def _is_composite(value: Any) -> bool:

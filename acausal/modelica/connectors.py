@@ -1,14 +1,15 @@
-"""Connectors that Modelica text defines: one Python class each, and those that consist of connectors and signals."""
+"""Connectors that Modelica text defines: a Python class each, or connectors, records and signals in one."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any, cast
 
-from acausal.modelica.classes import ClassNode, Entry, View
+from acausal.modelica.classes import ClassNode, Entry
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.library_parts import modify_connector
-from acausal.modelica.modifications import Bound, Given, given_by, modification
+from acausal.modelica.modifications import Bound, Given, Modification, given_by, modification
 from acausal.modelica.operators import Frame
 from acausal.modelica.types import Type, attributes_of, type_of_declared
 from acausal.modelica.values import Record, as_array
@@ -17,43 +18,47 @@ from acausal.modeling import Connector, Flow, Potential, Variable
 
 
 def connector(build: Any, name: str, found: Type, inner: list[Given]) -> Any:
-    """A connector of a component; one that has signals, parameters or connectors in it is a record of them.
+    """A connector of a component; one that has signals, parameters, records or connectors in it is a record of them.
 
     Their names are paths, such as ``plug.pin[1]``, so that each belongs to the component itself.
     """
     node = found.node
-    if node is not None and node.python is None and _is_composite(node):
-        return _composite(build, name, node, inner)
+    if node is not None and (node.definition.kind != "connector" or _is_composite(node)):
+        return _composite(build, name, found, node, inner)
     build.later.append(lambda: modify_connector(build, name, inner))
     return found.native() if node is None else connector_class(node)()
 
 
 def _is_composite(node: ClassNode) -> bool:
     """Whether a connector consists of more than potentials and flows."""
-    return any(not _is_plain(entry) for entry in node.view().entries.values())
+    view = node.view()
+    return bool(view.causality) or any(not _is_plain(entry) for entry in view.entries.values())
 
 
 def _is_plain(entry: Entry) -> bool:
-    prefixes, found = entry.declared.prefixes, type_of_declared(Frame(entry.node), entry.declared)
+    prefixes, found = entry.declared.prefixes, _type(entry)
     causal = prefixes.causality or found.causality or prefixes.variability
     return found.predefined == "Real" and found.native is None and not causal
 
 
-def _composite(build: Any, name: str, node: ClassNode, given: list[Given]) -> Record:
+def _type(entry: Entry) -> Type:
+    return type_of_declared(Frame(entry.node), entry.declared)
+
+
+def _composite(build: Any, name: str, whole: Type, node: ClassNode, given: list[Given]) -> Record:
     fields: dict[str, Any] = {}
     entries = node.view().entries
-    plain = {n: e for n, e in entries.items() if _is_plain(e)}
+    plain = {n: e for n, e in entries.items() if not whole.causality and _is_plain(e)}
     others = [(n, e) for n, e in entries.items() if n not in plain]
     for word, entry in sorted(others, key=lambda item: not item[1].declared.prefixes.variability):
-        declared, frame = entry.declared, Frame(entry.node, None, fields)
+        frame, path = Frame(entry.node, None, fields), f"{name}.{word}"
         modifiers = [g for a, n in entry.modifiers for g in given_by([a], Frame(n, None, fields))]
-        mod = modification(declared, [*given, *modifiers], frame)
-        found, path = type_of_declared(frame, declared), f"{name}.{word}"
-        sizes = [(s, frame) for s in declared.subscripts]
+        mod = modification(entry.declared, [*given, *modifiers], frame)
+        found = _part_of(whole, entry, mod, frame)
+        sizes = [(s, frame) for s in entry.declared.subscripts]
         sizes += [(s, Frame(n)) for s, n in found.subscripts]
         if found.predefined:
-            prefixes = declared.prefixes
-            if not (prefixes.causality or found.causality or prefixes.variability or found.native):
+            if not (found.causality or entry.declared.prefixes.variability or found.native):
                 raise entry.wrong(f"a {found.predefined} in a connector is an input or output")
             declare(build, path, entry, found, mod, sizes)
         else:
@@ -61,9 +66,35 @@ def _composite(build: Any, name: str, node: ClassNode, given: list[Given]) -> Re
             build.assign(path, entry, parts)
         fields[word] = build.made[path]
     if plain:
-        fields[""] = build.component._node.declare(name, _class(node, plain, fields)())
+        own = [g for g in given if g.name in plain]
+        cls = _class(node, plain, fields, whole.connection)
+        build.later.append(lambda: modify_connector(build, name, own))
+        fields[""] = build.component._node.declare(name, cls())
         fields |= {n: as_array(getattr(fields[""], n)) for n in plain}
-    return Record(fields)
+    if not whole.connection:
+        _check(node)
+    is_value = node.definition.kind == "record" or node.view().causality
+    return Record(fields, node if is_value else None)
+
+
+def _part_of(whole: Type, entry: Entry, mod: Modification, frame: Frame) -> Type:
+    """The type of a member; of a record's members all are what the record is: potentials, flows, inputs or outputs."""
+    declared, prefixes = entry.declared, entry.declared.prefixes
+    if mod.redeclared is not None:
+        declared, frame = mod.redeclared.redeclared, mod.redeclared.frame
+    found = type_of_declared(frame, declared)
+    causality = whole.causality or prefixes.causality or found.causality
+    connection = whole.connection or prefixes.connection or "potential"
+    if found.node is None or found.node.definition.kind != "record" or prefixes.variability:
+        return replace(found, causality=causality)
+    if is_overconstrained(found.node):
+        return found
+    return replace(found, causality=causality, connection="" if causality else connection)
+
+
+def is_overconstrained(node: ClassNode) -> bool:
+    """Whether connections of this record in a loop have more equations than it has independent values."""
+    return node.member("equalityConstraint") is not None
 
 
 def connector_class(node: ClassNode) -> type[Connector]:
@@ -74,45 +105,67 @@ def connector_class(node: ClassNode) -> type[Connector]:
     """
     if node.python is None:
         node.python = _class(node, node.view().entries, {})
+        _check(node)
     return cast("type[Connector]", node.python)
 
 
-def _class(node: ClassNode, entries: Mapping[str, Entry], known: dict[str, Any]) -> type[Connector]:
+def _class(
+    node: ClassNode, entries: Mapping[str, Entry], known: dict[str, Any], connection: str = ""
+) -> type[Connector]:
     """The class of the potentials and flows of a connector; ``known`` has values of its parameters."""
-    view = node.view()
-    bases = tuple(n.cls for n, _ in view.natives) or (Connector,)
-    declared = {name: _variable(entry, known) for name, entry in entries.items()}
+    bases = tuple(n.cls for n, _ in node.view().natives) or (Connector,)
+    declared = {name: _variable(entry, known, connection) for name, entry in entries.items()}
     if node.definition.expandable:
         raise node.refused("expandable connectors are not supported")
-    _check(node, view, declared)
     return type(node.definition.name, bases, {**declared, "__module__": __name__})
 
 
-def _check(node: ClassNode, view: View, declared: dict[str, Variable]) -> None:
-    flows = sum(isinstance(v, Flow) for v in declared.values())
-    if not declared and not view.natives:
+def _check(node: ClassNode) -> None:
+    view, kinds = node.view(), [*_connections(node, "")]
+    if not view.entries and not view.natives:
         raise node.refused("a connector without variables is not supported")
-    if not view.natives and flows != len(declared) - flows:
-        reason = f"a connector has as many flow variables as others, not {flows} and {len(declared) - flows}"
+    flows = kinds.count("flow")
+    parts = [_type(entry).node for entry in view.entries.values()]
+    if any(node is not None and is_overconstrained(node) for node in parts):
+        return  # what such a record counts depends on its constraint
+    if not view.natives and not view.causality and flows != len(kinds) - flows:
+        reason = f"a connector has as many flow variables as others, not {flows} and {len(kinds) - flows}"
         raise node.refused(reason)
 
 
-def _variable(entry: Entry, known: dict[str, Any]) -> Variable:
+def _connections(node: ClassNode, outer: str) -> Iterator[str]:
+    """``flow`` or nothing, for each real variable of a connector and of the records in it."""
+    for entry in node.view().entries.values():
+        prefixes, found = entry.declared.prefixes, _type(entry)
+        connection = outer or prefixes.connection
+        if _is_plain(entry):
+            yield connection
+            continue
+        inner = None if prefixes.causality or prefixes.variability else found.node
+        if inner is None or inner.definition.kind != "record" or is_overconstrained(inner):
+            continue
+        yield from _connections(inner, connection)
+
+
+def _variable(entry: Entry, known: dict[str, Any], connection: str = "") -> Variable:
     """A potential or flow."""
     declared, frame = entry.declared, Frame(entry.node, None, known)
-    found = type_of_declared(frame, declared)
     prefixes = declared.prefixes
     if prefixes.connection == "stream":
         raise entry.wrong("a stream variable in a connector is not supported")
+    given = [g for a, n in entry.modifiers for g in given_by([a], Frame(n))]
+    mod = modification(declared, given, frame)
+    if mod.redeclared is not None:
+        declared, frame = mod.redeclared.redeclared, mod.redeclared.frame
+    found = type_of_declared(frame, declared)
     sizes = [
         *((s, frame) for s in declared.subscripts),
         *((s, Frame(n)) for s, n in found.subscripts),
     ]
     shape = tuple(Interpreter(f).whole(Interpreter(f).value(s), "a size") for s, f in sizes)
-    given = [g for a, n in entry.modifiers for g in given_by([a], Frame(n))]
-    stated = attributes_of(found, modification(declared, given, frame).inner)
+    stated = attributes_of(found, mod.inner)
     unit = stated.get("unit", "")
-    kind = Flow if prefixes.connection == "flow" else Potential
+    kind = Flow if "flow" in (connection, prefixes.connection) else Potential
     return kind(
         unit=unit.value() if isinstance(unit, Bound) else unit,
         shape=shape or None,

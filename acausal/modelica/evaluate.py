@@ -35,9 +35,10 @@ from acausal.modelica.values import (
     Record,
     array_of,
     as_array,
-    each,
+    as_record,
     elements,
     is_array,
+    mapped,
     of,
 )
 from acausal.modeling import (
@@ -240,7 +241,8 @@ class Evaluator(Operators):
         build, word = self.frame.build, name.words[0]
         known = None if build is None or self.connecting else build.entries.get(word)
         outer = known is not None and known.declared.prefixes.outer
-        return each(partial(inwards, build), value) if build and outer else value
+        value = value if self.connecting else as_record(value)
+        return mapped(partial(inwards, build), value) if build and outer else value
 
     def _first(self, name: Name) -> tuple[Any, int]:
         """The value of the first words, and how many they are."""

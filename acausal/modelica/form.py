@@ -18,6 +18,7 @@ def note_form(build: Any) -> None:
     constants["absent"] = tuple(sorted(build.absent))
     constants["classes"] = tuple((n, str(id(c))) for n, c in build.classes.items())
     constants["given inwards"] = tuple(str(id(a)) for a, _ in build.given_inwards)
+    constants["cut"] = tuple(edge.cut for edge in build.edges)
     constants["decided"] = tuple(build.decided.items())
     constants["bindings"] = tuple(
         (name, str(id(bound.expression)), bound.index) for _, name, bound in build.bindings

@@ -11,6 +11,7 @@ import numpy as np
 import sympy as sp
 
 from acausal.modelica.evaluate import Evaluator
+from acausal.modelica.overconstrained import is_root, is_rooted
 from acausal.modelica.syntax import Call, Comprehension, Expression
 from acausal.modelica.values import (
     Record,
@@ -21,6 +22,7 @@ from acausal.modelica.values import (
     identity,
     is_array,
     is_end,
+    is_record,
     type_of,
 )
 from acausal.modeling import change, check_size, der, edge, initial, owner_and_name, pre, sample
@@ -110,7 +112,8 @@ def _reduction(name: str) -> Callable[[Evaluator, Call], Any]:
             values = self.arguments(call, 2)
         if name in FOLDED:
             operator, first = FOLDED[name]
-            return reduce(lambda a, b: self.arithmetic(operator, a, b), values, first)
+            values = values if values and is_record(values[0]) else [first, *values]
+            return reduce(lambda a, b: self._applied(operator, a, b), values)
         if values and all(type_of(v) == "Boolean" for v in values):
             return reduce(
                 lambda a, b: self.logical(sp.And if name == "min" else sp.Or, a, b), values
@@ -289,5 +292,6 @@ SPECIAL: dict[str, Callable[[Evaluator, Call], Any]] = {
     "integer": _rounding(_floor, 1), "floor": _rounding(_floor, 1), "ceil": _rounding(_ceil, 1),
     "div": _rounding(_div, 2), "mod": _rounding(_mod, 2), "rem": _rounding(_rem, 2),
     "Integer": _rounding(_integer_of, 1), "String": _string, "cardinality": _cardinality, "assert": _assertion,
+    "Connections.isRoot": is_root, "Connections.rooted": is_rooted, "rooted": is_rooted,
 }  # fmt: skip
 """Functions of the language that need more than the values of their arguments."""

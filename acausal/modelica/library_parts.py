@@ -102,6 +102,7 @@ def bind(build: Any, part: Component, path: str, mod: Modification) -> None:
     if mod.value is not None:
         owner: Any = mod.value.frame.build or build
         owner.bindings.append((part, path, mod.value))
+        part._node.constants[f"given {path}"] = True
         mod.value = None
 
 

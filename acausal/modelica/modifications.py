@@ -7,11 +7,12 @@ from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from acausal.modelica.classes import ClassNode
 from acausal.modelica.functions import Interpreter
 from acausal.modelica.operators import Frame
-from acausal.modelica.syntax import Argument, Declared, Expression, Modifier
+from acausal.modelica.syntax import Argument, Constant, Declared, Expression, Modifier
 from acausal.modelica.tokens import ModelicaError
-from acausal.modelica.values import is_array
+from acausal.modelica.values import is_array, of
 
 Index = tuple[tuple[int, int], ...]
 """Of an element of an array of parts: for each dimension its position from 0, and the size."""
@@ -148,4 +149,25 @@ def modification(declared: Declared, given: Sequence[Given], frame: Frame) -> Mo
         raise outer.wrong(f"'{name}' is final")
     constrained = found.redeclared is not None and declared.constraint is not None
     found.add(declared.constraint.modifier if constrained else declared.modifier, frame)  # pyright: ignore[reportOptionalMemberAccess]
+    return found
+
+
+def fields_of(node: ClassNode, value: Bound) -> list[Given]:
+    """The fields of a record as modifiers."""
+    record = value.value()
+    found: list[Given] = []
+    for name, entry in node.view().entries.items():
+        if entry.declared.prefixes.final:
+            continue
+        given = of(record, name)
+        if given is None:
+            raise value.wrong(f"this is not a record with '{name}'")
+        found.append(
+            Given(
+                name,
+                Modifier([], Constant(given, value.expression.at)),
+                value.frame,
+                value.expression.at,
+            )
+        )
     return found

@@ -21,6 +21,7 @@ from acausal.modelica.values import (
     Record,
     each,
     identity,
+    is_record,
     type_of,
 )
 from acausal.modeling import (
@@ -110,6 +111,8 @@ class Operators(Arithmetic):
         for value in (first, *others):
             if isinstance(value, Absent):
                 raise self.wrong("this is left out by its condition")
+        if any(map(is_record, (first, *others))):
+            return self.overloaded(operator, first, *others)
         if operator == "not":
             return each(lambda a: self.logical(sp.Not, a), first)
         if not others:
@@ -146,6 +149,10 @@ class Operators(Arithmetic):
             )
         check_size(a.size * (b.shape[1] if b.ndim > 1 else 1), "the product")
         return self.result(np.dot(a, b)) if a.size else 0
+
+    def overloaded(self, operator: str, *values: Any) -> Any:
+        """An operator of which an operand is a record."""
+        raise NotImplementedError
 
     def result(self, value: Any) -> Any:
         """What numpy gives: an array, or a number."""
@@ -269,9 +276,9 @@ class Operators(Arithmetic):
         """One value or another, as a condition decides; the condition of parameters alone is no event."""
         self.count()
         if isinstance(value, Record) and isinstance(otherwise, Record):
-            return Record(
-                {k: self.chosen(holds, v, otherwise.fields[k]) for k, v in value.fields.items()}
-            )
+            fields = otherwise.fields
+            chosen = {k: self.chosen(holds, v, fields[k]) for k, v in value.fields.items()}
+            return Record(chosen, value.node)
         if isinstance(value, str) or isinstance(otherwise, str):
             sides = [v.number if isinstance(v, Literal) else v for v in (value, otherwise)]
             if not any(isinstance(v, str) for v in sides):
@@ -281,6 +288,8 @@ class Operators(Arithmetic):
         events = self.frame.events and self.varies(holds)
 
         def one(a: Any, b: Any) -> Any:
+            if isinstance(a, Record):
+                return self.chosen(holds, a, b)
             if "Boolean" in (type_of(a), type_of(b)):
                 a, b = self.truth(a), self.truth(b)
                 return self._plain(sp.Or(sp.And(holds, a), sp.And(sp.Not(holds), b)))

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from acausal.errors import DeclarationError, ModelError
-from acausal.modelica.functions import Interpreter
+from acausal.errors import DeclarationError
+from acausal.modelica.connecting import Connecting, is_of_graph
 from acausal.modelica.meanings import Literal
 from acausal.modelica.operators import Frame
-from acausal.modelica.outer import around
 from acausal.modelica.syntax import (
     Branches,
     Call,
@@ -30,102 +29,24 @@ from acausal.modelica.values import (
     Record,
     each,
     elements,
-    is_array,
-    is_end,
-    nested,
     of,
     type_of,
 )
 from acausal.modeling import (
     Component,
-    Connector,
     Discrete,
     Eq,
     Reference,
     Reinit,
     When,
-    owner_and_name,
     pre,
 )
 
 
-class Reader(Interpreter):
+class Reader(Connecting):
     """Reads the statements of one section."""
 
     jumps: list[Reinit] | None = None
-
-    # -- connections -------------------------------------------------------------------------------------
-
-    def connections(self, stated: Sequence[Statement]) -> None:
-        """Connect what the statements connect; loops and conditions are known."""
-        for statement in stated:
-            self.at = statement.at
-            match statement:
-                case Connect():
-                    self._connect(statement)
-                case Loop() if _connects(statement.body):
-                    for _ in self._repeated(statement):
-                        self.connections(statement.body)
-                case Branches() if _connects([s for _, body in statement.branches for s in body]):
-                    self.connections(self._chosen(statement))
-                case _:
-                    pass
-
-    def _connect(self, statement: Connect) -> None:
-        self.connecting = True
-        ends = [self.value(end) for end in statement.ends]
-        self.at, self.connecting = statement.at, False
-        assert self.frame.build is not None
-        if any(isinstance(end, Absent) for end in ends) or all(
-            is_array(e) and not len(e) for e in ends
-        ):
-            return
-        self._join(*(nested(end) for end in ends))
-
-    def _join(self, left: Any, right: Any) -> None:
-        """Connect two ends; of those that consist of several each with that of its name."""
-        assert self.frame.build is not None
-        match left, right:
-            case Record(), Record():
-                ends = [
-                    {k: nested(v) for k, v in r.fields.items() if is_end(v)} for r in (left, right)
-                ]
-                if ends[0].keys() != ends[1].keys():
-                    names = ", ".join(f"'{n}'" for n in sorted(ends[0].keys() ^ ends[1].keys()))
-                    raise self.wrong(f"unlike connectors: only one has {names}", len("connect"))
-                for name, end in ends[0].items():
-                    self._join(end, ends[1][name])
-            case list(), list() if len(left) == len(right):
-                for a, b in zip(left, right, strict=True):
-                    self._join(a, b)
-            case _:
-                try:
-                    owners = [
-                        owner_and_name(e)[0]
-                        for e in (left, right)
-                        if isinstance(e, Connector | Reference)
-                    ]
-                    around(self.frame.build, *owners).component.connect(left, right)
-                except ModelError as error:
-                    raise self.wrong(str(error), len("connect")) from None
-
-    def _repeated(self, loop: Loop) -> Iterator[None]:
-        """Once for all values of the loop's variables."""
-        frame = self.frame
-        if loop.condition is not None:
-            raise self.wrong("'while' stands in algorithms only")
-        for values in self.iterated(loop.iterators):
-            self.frame = frame.with_local(**values)
-            yield
-            self.frame = frame
-        self.frame = frame
-
-    def _chosen(self, statement: Branches) -> list[Statement]:
-        """The branch that is taken, which has to be known."""
-        for test, body in statement.branches:
-            if self.known(self.holds(test), "a condition of connections"):
-                return body
-        return []
 
     # -- equations ---------------------------------------------------------------------------------------
 
@@ -138,15 +59,15 @@ class Reader(Interpreter):
                 case Equation():
                     yield from self._equation(statement)
                 case Loop():
-                    for _ in self._repeated(statement):
+                    for _ in self.repeated(statement):
                         yield from self.stated(statement.body)
                 case Branches() if statement.word == "if":
                     yield from self._cases(statement.branches)
                 case Branches():
                     yield self._when(statement, lambda body: list(self._at_event(body)))
-                case Do():
+                case Do() if not is_of_graph(statement):
                     self.perform(statement.call)
-                case Connect():
+                case Do() | Connect():
                     pass
 
     def _equation(self, statement: Equation) -> Iterator[Eq]:
@@ -174,7 +95,10 @@ class Reader(Interpreter):
                 f"the sides have the sizes {list(np.shape(left))} and {list(np.shape(right))}"
             )
         for a, b in zip(elements(left), elements(right), strict=True):
-            yield self._pair(a, b)
+            if isinstance(a, Record) or isinstance(b, Record):
+                yield from self._fields(a, b)
+            else:
+                yield self._pair(a, b)
 
     def _fields(self, left: Any, right: Any) -> Iterator[Eq]:
         some = left if isinstance(left, Record) else right
@@ -280,7 +204,7 @@ class Reader(Interpreter):
                 case Do():
                     self.perform(statement.call)
                 case Loop():
-                    for _ in self._repeated(statement):
+                    for _ in self.repeated(statement):
                         yield from self._at_event(statement.body)
                 case Branches() if statement.word == "if":
                     yield from self._if_at_event(statement.branches)
@@ -395,32 +319,6 @@ def _value(statement: Eq | Reinit) -> Any:
 
 def _is_when(statement: Statement) -> bool:
     return isinstance(statement, Branches) and statement.word == "when"
-
-
-def _connects(stated: Iterable[Statement]) -> bool:
-    """Whether statements connect something."""
-    return any(True for _ in _connections(stated))
-
-
-def ends_of(stated: Iterable[Statement]) -> set[str]:
-    """The signals and connectors of a class itself that statements connect."""
-    ends = [end for one in _connections(stated) for end in one.ends]
-    return {end.words[0] for end in ends if len(end.words) == 1}
-
-
-def _connections(stated: Iterable[Statement]) -> Iterator[Connect]:
-    """The connections among statements, at any depth."""
-    for statement in stated:
-        match statement:
-            case Connect():
-                yield statement
-            case Loop():
-                yield from _connections(statement.body)
-            case Branches():
-                for _, body in statement.branches:
-                    yield from _connections(body)
-            case _:
-                pass
 
 
 def collect(stated: Sequence[Statement], found: set[str], within: bool) -> None:

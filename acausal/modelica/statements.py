@@ -7,8 +7,9 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
+from acausal.modelica.connecting import ends_of
 from acausal.modelica.modifications import Bound
-from acausal.modelica.sections import Reader, collect, ends_of
+from acausal.modelica.sections import Reader, collect
 from acausal.modelica.values import (
     as_array,
 )
@@ -32,6 +33,8 @@ def equations(build: Any) -> Iterator[Any]:
         stated += _bound(part, path, bound)
     for local, symbol in build.given_inwards:
         stated += Reader(build.frame(build.node)).pairs(local, symbol)
+    for edge in build.edges:
+        stated += Reader(build.frame(build.node)).related(edge)
     yield from _oriented(stated)
 
 
@@ -126,4 +129,7 @@ def fed_by_connections(build: Any) -> frozenset[str]:
 def _bound(part: Component, path: str, bound: Bound) -> Iterator[Eq]:
     reader = Reader(bound.frame)
     reader.at = bound.expression.at
-    yield from reader.pairs(as_array(attribute(part, path)), bound.value())
+    build = part.__dict__.get("_build")
+    member = build.made.get(path) if build is not None and "." in path else None
+    target = as_array(attribute(part, path)) if member is None else member
+    yield from reader.pairs(target, bound.value())

@@ -15,6 +15,8 @@ from acausal.modelica.syntax import Argument, Declared, Expression
 from acausal.modeling import Component, Connector, Input, Output
 
 ATTRIBUTES = ("start", "fixed", "nominal", "stateSelect", "unit", "min", "max")
+ENUMERATIONS = ("StateSelect", "AssertionLevel")
+"""Predefined enumerations, whose values are texts."""
 IGNORED = ("displayUnit", "quantity", "unbounded")
 """Attributes that change no result."""
 
@@ -28,7 +30,8 @@ class Type:
         node: a class of the text, whose instance it becomes.
         predefined: ``Real``, ``Integer``, ``Boolean``, ``String`` or an enumeration, with ``attributes`` as values and
             ``arguments`` with the frame of each.
-        causality, connection: prefixes that the type brings along.
+        causality: prefix that the type brings along.
+        connection: of a record in a connector, ``flow`` or ``potential``: what its variables are.
         subscripts: of a type that is an array.
         record: of a library, with its default values.
         full: the Modelica name of the class of a library.
@@ -40,15 +43,16 @@ class Type:
     attributes: dict[str, Any] = field(default_factory=dict[str, Any])
     arguments: Sequence[tuple[Argument, ClassNode]] = ()
     causality: str = ""
+    connection: str = ""
     subscripts: Sequence[tuple[Expression, ClassNode]] = ()
     record: Any = None
     full: str = ""
 
     @property
     def is_connector(self) -> bool:
-        """Whether this is a connector with several variables."""
+        """Whether this is a connector with several variables, or a record in one."""
         if self.node is not None:
-            return self.node.definition.kind == "connector"
+            return self.node.definition.kind == "connector" or bool(self.connection)
         return isinstance(self.native, type) and issubclass(self.native, Connector)
 
 
@@ -59,6 +63,8 @@ def type_of_declared(frame: Frame, declared: Declared) -> Type:
         ModelicaError: for a name that means nothing, or what cannot be a component.
     """
     found, rest = frame.find(declared.type.words)
+    if found is None and declared.type.text in ENUMERATIONS:
+        return Type(predefined=declared.type.text)
     if found is None or rest:
         raise frame.node.unknown(declared.type)
     match found:
@@ -100,7 +106,7 @@ def type_of_class(node: ClassNode) -> Type:
         )
     if view.subscripts:
         raise node.wrong(node.definition.at, "a class that is an array of others is not supported")
-    return Type(node=node)
+    return Type(node=node, causality=view.causality)
 
 
 def _signal_kind(native: Native) -> str:

@@ -21,14 +21,15 @@ ABSENT = Absent()
 
 
 class Record:
-    """The value of a record.
+    """The value of a record, or a connector that consists of several.
 
     Attributes:
         fields: by name.
+        node: the class of a record, whose operators apply to it.
     """
 
-    def __init__(self, fields: dict[str, Any]) -> None:
-        self.fields = fields
+    def __init__(self, fields: dict[str, Any], node: Any = None) -> None:
+        self.fields, self.node = fields, node
 
 
 def is_array(value: Any) -> bool:
@@ -43,7 +44,8 @@ def as_array(value: Any) -> Any:
     first: Any = cast(Sequence[Any], value)
     while isinstance(first, list | tuple) and first:
         first = cast(Sequence[Any], first)[0]
-    if isinstance(first, Component | Connector | Record | Absent):
+    parts = isinstance(first, Record) and not is_record(first)
+    if parts or isinstance(first, Component | Connector | Absent):
         return cast(Any, value)
     return array_of(cast(Sequence[Any], value))
 
@@ -89,6 +91,13 @@ def each(function: Callable[..., Any], *values: Any) -> Any:
     return found
 
 
+def mapped(function: Callable[[Any], Any], value: Any) -> Any:
+    """A function of scalars, applied to the elements of arrays and to the fields of records."""
+    if isinstance(value, Record):
+        return Record({k: mapped(function, v) for k, v in value.fields.items()}, value.node)
+    return each(lambda v: mapped(function, v) if isinstance(v, Record) else function(v), value)
+
+
 def elements(value: Any) -> list[Any]:
     """The elements of an array, row by row; a scalar alone."""
     return list(value.flat) if isinstance(value, np.ndarray) else [value]
@@ -106,6 +115,8 @@ def of(value: Any, word: str) -> Any:
             return value
         case Record():
             return value.fields.get(word)
+        case np.ndarray() if is_record(value):
+            return each(lambda v: of(v, word), value)
         case list() | tuple() if value:
             found = [of(v, word) for v in cast(Sequence[Any], value)]
             return None if any(v is None for v in found) else as_array(found)
@@ -157,11 +168,24 @@ def is_end(value: Any) -> bool:
 
 
 def as_record(value: Any) -> Any:
-    """A part that is a record as a value; others as they are."""
+    """Parts that are records as values, lists of such as an array; others as they are."""
+    if isinstance(value, Record) and "" in value.fields and value.node is not None:
+        return Record({k: as_record(v) for k, v in value.fields.items() if k}, value.node)
+    if isinstance(value, np.ndarray):
+        return each(as_record, value) if is_record(value) else value
+    if is_array(value):
+        found = [as_record(v) for v in cast(Sequence[Any], value)]
+        return array_of(found) if found and all(map(is_record, found)) else value
     build = value.__dict__.get("_build") if isinstance(value, Component) else None
     if build is None or build.node.definition.kind != "record":
         return value
-    return Record({name: as_record(of(value, name)) for name in build.entries})
+    return Record({name: as_record(of(value, name)) for name in build.entries}, build.node)
+
+
+def is_record(value: Any) -> bool:
+    """Whether this is the value of a record, or an array of such."""
+    first = value.flat[0] if isinstance(value, np.ndarray) and value.size else value
+    return isinstance(first, Record) and first.node is not None
 
 
 def with_fields(record: Any, given: dict[str, Any]) -> Any:

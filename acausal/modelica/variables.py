@@ -129,16 +129,20 @@ def _fixed(
     value, declared = mod.value, entry.declared
     constant = declared.prefixes.variability == "constant"
     real = found.predefined == "Real"
-    if real and not constant and _value(stated.get("fixed", True)) is False:
+    if (
+        real
+        and not constant
+        and _common(entry, "fixed", _value(stated.get("fixed", True))) is False
+    ):
         if value is not None:
             raise value.wrong(
                 f"'{name}' is found at the start (fixed=false); give its start, not its value"
             )
-        build.assign(
-            name, entry, InitialParameter(unit=_text(stated.get("unit", "")), doc=declared.comment)
-        )
+        shape = tuple(_sizes(build, entry, None, sizes)) or None
+        unit = _text(stated.get("unit", ""))
+        build.assign(name, entry, InitialParameter(unit=unit, shape=shape, doc=declared.comment))
         if "start" in stated:
-            build.component.modify(**{name: Start(_value(stated["start"]))})
+            build.component.modify(**{name: Start(nested(_value(stated["start"])))})
         return
     value = value or stated.get("start")
     given = value.value() if isinstance(value, Bound) else value

@@ -67,6 +67,7 @@ from acausal.modeling.events import (
 from acausal.modeling.functions import (
     COMPUTABLE as COMPUTABLE,
     Abs as Abs,
+    Atan2 as Atan2,
     Prescribed as Prescribed,
     acos as acos,
     asin as asin,

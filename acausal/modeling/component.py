@@ -49,6 +49,9 @@ class Component:
     ICON: ClassVar[Icon | None] = None
     """How diagrams show it; a class without one is a box with the class's name."""
 
+    _units_bind: ClassVar[bool] = True
+    """Whether unlike units are refused; otherwise there is a warning."""
+
     _declared: ClassVar[dict[str, Declaration | Connector]] = {}
 
     __signature__ = SignatureOf()
@@ -143,6 +146,10 @@ class Component:
             else:
                 known = [*self._declared, *node.children]
                 raise DeclarationError(f"{node.label} has no '{name}': {nearest(name, known)}")
+
+    def is_given(self, name: str) -> bool:
+        """Whether the model around gives a variable its value, so that an equation for it by default is left out."""
+        return f"given {name}" in self._node.constants
 
     def replace(self, path: str, part: Component) -> Self:
         """A copy of the model with another part in the place of one, and the same connections.

@@ -185,9 +185,17 @@ class InitialParameter(Variable):
     """
 
     def __init__(
-        self, start: Any = 0.0, *, unit: str = "", nominal: float | str = 1.0, doc: str = ""
+        self,
+        start: Any = 0.0,
+        *,
+        unit: str = "",
+        shape: DeclaredShape = None,
+        nominal: float | str = 1.0,
+        doc: str = "",
     ) -> None:
-        super().__init__(unit=unit, start=start, nominal=nominal, state="prefer", doc=doc)
+        super().__init__(
+            unit=unit, start=start, shape=shape, nominal=nominal, state="prefer", doc=doc
+        )
 
 
 class DependentParameter(Variable):

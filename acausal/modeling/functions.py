@@ -23,9 +23,30 @@ def _of_expressions(function: Callable[..., Any]) -> Callable[..., Any]:
     return checked
 
 
-acos, asin, asinh, atan, atan2 = map(
-    _of_expressions, (sp.acos, sp.asin, sp.asinh, sp.atan, sp.atan2)
-)
+class Atan2(sp.Function):
+    """The angle of a point, zero at the origin (sympy's own turns ``cos(atan2(y, x))`` into a quotient, 0/0 there)."""
+
+    nargs = 2
+
+    @classmethod
+    def eval(cls, y: Any, x: Any) -> Any:  # pyright: ignore[reportIncompatibleMethodOverride]
+        """Of numbers the number."""
+        if y.is_number and x.is_number:
+            return sp.S.Zero if y == x == 0 else sp.atan2(y, x)
+        return None
+
+    def fdiff(self, argindex: int = 1) -> Any:
+        """The derivative by one argument."""
+        y, x = self.args
+        return (x if argindex == 1 else -y) / (x**2 + y**2)  # pyright: ignore[reportOperatorIssue]
+
+    def _eval_is_extended_real(self) -> bool:
+        return True
+
+
+Atan2.__name__ = "atan2"
+
+acos, asin, asinh, atan, atan2 = map(_of_expressions, (sp.acos, sp.asin, sp.asinh, sp.atan, Atan2))
 cos, cosh, exp, log = map(_of_expressions, (sp.cos, sp.cosh, sp.exp, sp.log))
 sin, sinh, sqrt, tan, tanh = map(_of_expressions, (sp.sin, sp.sinh, sp.sqrt, sp.tan, sp.tanh))
 maximum, minimum = _of_expressions(sp.Max), _of_expressions(sp.Min)
@@ -98,6 +119,7 @@ COMPUTABLE: tuple[type, ...] = (
     sp.asinh,
     sp.atan,
     sp.atan2,
+    Atan2,
     sp.ceiling,
     sp.cos,
     sp.cosh,

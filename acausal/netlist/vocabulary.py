@@ -9,7 +9,7 @@ from typing import Any
 
 import sympy as sp
 
-from acausal.modeling import der, floor
+from acausal.modeling import Atan2, der, floor
 
 MAX_VALUES = 20
 """The most values that a minimum or maximum may have."""
@@ -44,7 +44,7 @@ BARE_CONSTANTS = ("pi", "e", "D2R", "R2D", "g_n", "mu_0", "T_zero", "inf", "eps"
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sqrt": sp.sqrt, "exp": sp.exp, "log": sp.log, "log10": lambda x: sp.log(x) / sp.log(10),
     "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
-    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh,
+    "atan2": Atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh,
     "abs": sp.Abs, "sign": sp.sign, "der": der,
     "min": lambda *x: _extreme(sp.Min, x), "max": lambda *x: _extreme(sp.Max, x),
     "floor": floor, "integer": floor, "ceil": lambda x: -floor(-x),

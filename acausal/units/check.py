@@ -6,6 +6,7 @@ its slots. Values and starts given by expressions are checked, too, and connecte
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -35,13 +36,15 @@ MAX_LISTED = 12
 def check_dimensions(flat: FlatModel) -> None:
     """Refuse a model that adds, compares or equates quantities of unlike dimensions.
 
-    A variable or parameter without a unit agrees with everything.
+    A variable or parameter without a unit agrees with everything. Where the model's class says that units are not
+    binding, as the language of Modelica does, there is a warning instead.
 
     Raises:
         UnitError: for text that is not a unit; for equations, values and connections of unlike dimensions. It names
             the components, the equations as they are written, and the unlike terms in them, at most a dozen.
     """
-    _refuse(list(_misspelt(flat.layout)))
+    if misspelt := list(_misspelt(flat.layout)):
+        raise UnitError(_listed(misspelt))
     measures = _measure(flat)
     wrong = [*_equations(flat, measures)]
     wrong += _values(
@@ -49,16 +52,18 @@ def check_dimensions(flat: FlatModel) -> None:
     )
     wrong += _values(flat.starts, measures.variables, flat.layout.variable, flat.layout, measures)
     wrong += _joins(flat, measures)
-    _refuse(wrong)
+    if wrong and not flat.layout.components[0]._units_bind:
+        warnings.warn(_listed(wrong), stacklevel=3)
+    elif wrong:
+        raise UnitError(_listed(wrong))
 
 
-def _refuse(wrong: Sequence[str]) -> None:
+def _listed(wrong: Sequence[str]) -> str:
     if len(wrong) == 1:
-        raise UnitError(wrong[0])
-    if wrong:
-        listed = " ".join(f"({i}) {w}" for i, w in enumerate(wrong[:MAX_LISTED], start=1))
-        more = f" and {len(wrong) - MAX_LISTED} more" if len(wrong) > MAX_LISTED else ""
-        raise UnitError(f"{len(wrong)} units are wrong: {listed}{more}")
+        return wrong[0]
+    listed = " ".join(f"({i}) {w}" for i, w in enumerate(wrong[:MAX_LISTED], start=1))
+    more = f" and {len(wrong) - MAX_LISTED} more" if len(wrong) > MAX_LISTED else ""
+    return f"{len(wrong)} units are wrong: {listed}{more}"
 
 
 # -- dimensions of variables, parameters and modules --------------------------------------------------

@@ -20,7 +20,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import Boolean
 
 from acausal.errors import shortened
-from acausal.modeling import ModuleCall, Prescribed, time
+from acausal.modeling import Atan2, ModuleCall, Prescribed, time
 from acausal.units.dimensions import NUMBER, SECOND, Dimension, described
 
 MAX_CASES = 64
@@ -253,7 +253,7 @@ RULES: dict[type, DimensionRule] = {
     Relational: _compared,
     Boolean: _parts,
     **dict.fromkeys((sp.Abs, sp.Max, sp.Min, sp.Mod, sp.floor, sp.ceiling), _alike),
-    **dict.fromkeys((sp.sign, sp.Heaviside, sp.atan2), _number),
+    **dict.fromkeys((sp.sign, sp.Heaviside, sp.atan2, Atan2), _number),
     **dict.fromkeys((sp.exp, sp.log, sp.sin, sp.cos, sp.tan, sp.asin, sp.acos, sp.atan), _function),
     **dict.fromkeys((sp.sinh, sp.cosh, sp.tanh, sp.asinh), _function),
     Prescribed: _prescribed,

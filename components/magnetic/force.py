@@ -35,7 +35,8 @@ class Force(Reluctance):
         yield from super().equations()
         yield ac.Eq(self.F_m, self.V_m**2 * self.dGmBydx / 2)
         yield ac.Eq(self.s, self.flange.s - (self.support.s if self.useSupport else 0))
-        yield ac.Eq(self.l, self.s)
+        if not self.is_given("l"):
+            yield ac.Eq(self.l, self.s)
         yield ac.Eq(self.flange.f, -self.F_m)
         if self.useSupport:
             yield ac.Eq(self.support.f, -self.flange.f)

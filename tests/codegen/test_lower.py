@@ -35,6 +35,7 @@ SMOOTH = {
     "acos": sp.acos(x / 2),
     "atan": sp.atan(x),
     "atan2": sp.atan2(x, y) + sp.atan2(-y, -x),
+    "angle": ac.atan2(x, y) + ac.atan2(-y, -x),
     "sinh": sp.sinh(x),
     "cosh": sp.cosh(x),
     "tanh": sp.tanh(x),

@@ -257,3 +257,26 @@ def test_a_long_chain_of_bound_parameters_is_packed_in_linear_time():
     numbers = sum(v.aval.size for operation in operations for v in operation.outvars)
     assert numbers < 10 * len(values)  # a vector that grows step by step would add up to its square
     np.testing.assert_allclose(jax.jit(jax.jacfwd(packed))(1.0)[:4], [1.0, 0.5, 0.25, 0.125])
+
+
+def test_bindings_that_zeros_make_alike_share_a_formula():
+    """``a + b*z`` and ``a``: without the zero one expression, of unlike arguments."""
+
+    class Pair(ac.Component):
+        a, b, z = ac.Parameter(2.0), ac.Parameter(3.0), ac.Parameter(0.0)
+        x = ac.Variable()
+
+        def __init__(self):
+            super().__init__()
+            self.parts = [
+                Mass(m=self.a**2 + self.b * self.z),
+                Mass(m=self.a**2),
+                Mass(m=self.a**2 + self.z),
+            ]
+
+        def equations(self):
+            yield ac.Eq(ac.der(self.x), sum(part.m for part in self.parts))
+
+    system = ac.compile(Pair())
+    found = system.vector_field(0.0, np.zeros(len(system.states)), None, system.parameters())
+    assert float(found[system.states.index("x")]) == 12

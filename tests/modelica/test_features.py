@@ -132,3 +132,41 @@ def test_a_class_is_found_without_reading_all_others(tmp_path: Path) -> None:
     (tmp_path / "P" / "A.mo").write_text("within P; model A Real x = 1; end A;")
     (tmp_path / "P" / "Other.mo").write_text("within P; this is no Modelica")
     assert type(ac.load(tmp_path / "P", "P.A")).__name__ == "A"
+
+
+def test_a_variable_that_is_given_loses_the_equation_of_its_class(tmp_path: Path) -> None:
+    file = tmp_path / "Tube.mo"
+    file.write_text("""
+        model Tube "the length of the tube is not that of the motion"
+          import Modelica.Magnetic.FluxTubes.*;
+          Shapes.Force.HollowCylinderAxialFlux tube(l = 0.01 + tube.flange.s/2, r_o = 0.02, mu_r = 1);
+          Sources.ConstantMagneticPotentialDifference source(V_m = 100);
+          Basic.Ground ground;
+          Modelica.Mechanics.Translational.Components.Fixed fixed(s0 = 0.006);
+        equation
+          connect(source.port_p, tube.port_p);
+          connect(source.port_n, tube.port_n);
+          connect(source.port_n, ground.port);
+          connect(tube.flange, fixed.flange);
+        end Tube;
+    """)
+    system = ac.compile(ac.load(file))
+    assert float(ac.simulate(system, 1, dt=1.0)["tube.l"][0]) == pytest.approx(0.013)
+
+
+def test_an_array_of_parameters_that_initial_equations_determine(tmp_path: Path) -> None:
+    file = tmp_path / "Found.mo"
+    file.write_text("""
+        model Found
+          parameter Real k[2](each fixed = false, start = {1, 2});
+          Real x[2](each start = 3, each fixed = true);
+        initial equation
+          k[1]^2 = 4;
+          k[1] + k[2] = 7;
+        equation
+          der(x) = -k .* x;
+        end Found;
+    """)
+    run = ac.simulate(ac.compile(ac.load(file)), 0.1, dt=0.05)
+    assert [float(run[f"k[{i}]"][-1]) for i in (1, 2)] == pytest.approx([2, 5])
+    assert float(run["x[2]"][-1]) == pytest.approx(3 * np.exp(-0.5), rel=1e-4)

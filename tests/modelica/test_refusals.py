@@ -77,7 +77,8 @@ WRONG = {
     "connector C Real p; flow Real f; stream Real h; end C; model M C c; end M;": "a stream variable",
     "expandable connector B end B; model M B b; end M;": "expandable connectors are not supported",
     "model M Real x; equation x=1; when x>1 then terminate(\"a\"); end when; end M;": "terminate",
-    "model M Real x; equation der(x)=1; Connections.root(x); end M;": "Connections.root.* is not supported",
+    "record R Real x; end R; model M R a; R b; equation a=b+b; b.x=1; end M;": "'R' has no operator '\\+' for 2",
+    "model M Real x; equation der(x)=1; Connections.root(x); end M;": "Connections.root takes records of connectors",
     'function f input Real x; output Real y; external "C" y=foo(x); end f; model M Real x=f(time); end M;':
     "written in another language",
 }  # fmt: skip

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import acausal as ac
 from acausal.flattening.flat_model import flatten
@@ -212,3 +213,29 @@ def test_a_chain_reduces_to_two_variables_a_mass():
     names = {system.reduced.name(i) for i in kept}
     assert "m0.flange_a.s" not in names
     assert "m2.flange_b.f" not in names
+
+
+def test_the_angle_of_what_is_zero_is_zero() -> None:
+    class Angle(ac.Component):
+        x, y, phi, z = (ac.Variable() for _ in range(4))
+
+        def equations(self):
+            yield from (Eq(self.x, 0), Eq(self.y, self.x))
+            yield Eq(self.phi, ac.atan2(self.y, self.x))
+            yield Eq(der(self.z), ac.cos(ac.atan2(self.y, self.x)) + self.phi)
+
+    system = ac.compile(Angle())
+    assert float(system.vector_field(0.0, [0.0], None, system.parameters())[0]) == 1
+
+
+def test_a_quotient_that_a_condition_avoids_may_have_no_value() -> None:
+    class Guarded(ac.Component):
+        x, y, z = (ac.Variable() for _ in range(3))
+
+        def equations(self):
+            yield from (Eq(self.x, 0), Eq(self.y, self.x))
+            ratio = sp.Piecewise((self.y / self.x, self.x > self.z), (5, True))
+            yield Eq(der(self.z), ratio)
+
+    system = ac.compile(Guarded())
+    assert float(system.vector_field(0.0, [1.0], None, system.parameters())[0]) == 5

@@ -1,0 +1,269 @@
+"""Algorithms: statements are executed on expressions, whose conditions may change with time."""
+
+from __future__ import annotations
+
+import warnings
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from acausal.modelica.classes import ClassNode
+from acausal.modelica.operators import Frame
+from acausal.modelica.overloading import Overloading
+from acausal.modelica.syntax import (
+    Branches,
+    Call,
+    Connect,
+    Constant,
+    Do,
+    Equation,
+    Expression,
+    Loop,
+    Name,
+    Several,
+    Statement,
+)
+from acausal.modelica.values import Record, each
+
+MAX_STATEMENTS = 20_000
+REFUSED = {
+    "delay": "use the block Modelica.Blocks.Nonlinear.FixedDelay",
+    "spatialDistribution": "divide the pipe into volumes",
+    "terminal": "use an equation of time",
+    "inStream": "use connectors without stream variables",
+    "actualStream": "use connectors without stream variables",
+    "getInstanceName": "write the name as a text",
+    "terminate": "give the end of the simulation",
+}
+
+
+class Left(Exception):  # noqa: N818
+    """``break`` or ``return``."""
+
+
+class Algorithms(Overloading):
+    """Executes the statements of algorithms.
+
+    Attributes:
+        statements: how many were executed.
+        path: under which condition that changes with time the present statements are executed.
+        left: under which condition ``break`` or ``return`` has left them; ``returned``: ``return`` alone.
+    """
+
+    statements: int = 0
+    path: Any = True
+    left: Any = False
+    returned: Any = False
+
+    def execute(self, statements: list[Statement], local: dict[str, Any]) -> None:
+        """Execute statements; ``local`` holds the variables that they assign.
+
+        Raises:
+            ModelicaError: for what cannot become expressions.
+        """
+        for statement in statements:
+            self.statements += 1
+            self.at = statement.at
+            if self.statements > MAX_STATEMENTS:
+                raise self.wrong(
+                    f"more than {MAX_STATEMENTS} statements are executed; does the loop end?"
+                )
+            match statement:
+                case Equation():
+                    self._assign(statement, local)
+                case Branches() if statement.word == "if":
+                    self._branch(statement.branches, local)
+                case Loop():
+                    self._loop(statement, local)
+                case Do():
+                    word = statement.call.function.text
+                    if word in ("break", "return"):
+                        self.left = self.logical(sp.Or, self.left, self.path)
+                        if word == "return":
+                            self.returned = self.logical(sp.Or, self.returned, self.path)
+                        raise Left(word)
+                    self.perform(statement.call)
+                case Branches() | Connect():
+                    raise self.wrong("this does not stand in an algorithm of a function")
+
+    def _assign(self, statement: Equation, local: dict[str, Any]) -> None:
+        left = statement.left
+        if isinstance(left, Several):
+            if not isinstance(statement.right, Call):
+                raise self.wrong("several variables are assigned the results of a function")
+            for target, value in zip(left.items, self.results(statement.right), strict=False):
+                if target is not None:
+                    self._set(target, value, local)
+            return
+        self._set(left, self.value(statement.right), local)
+
+    def results(self, call: Call) -> list[Any]:
+        """All results of a function."""
+        self.at = call.at
+        found, rest = self.frame.find(call.function.words)
+        if not rest and isinstance(found, ClassNode) and found.definition.kind == "function":
+            return self.inlined(found, call)
+        return [self.value(call)]
+
+    def _set(self, target: Expression, value: Any, local: dict[str, Any]) -> None:
+        self.at = target.at
+        if not isinstance(target, Name) or target.words[0] not in local:
+            what = target.text if isinstance(target, Name) else "this"
+            raise self.wrong(f"'{what}' cannot be assigned here")
+        word = target.words[0]
+        if self.left is not True:
+            changed = self._changed(local[word], target, 0, value)
+            kept = self.left is not False
+            local[word] = self._merged(self.left, local[word], changed) if kept else changed
+
+    def _changed(self, old: Any, target: Name, i: int, value: Any) -> Any:
+        """The value of a variable after one of its elements or fields has changed."""
+        subscripts = target.subscripts.get(i)
+        if subscripts is None:
+            if i + 1 == len(target.words):
+                if isinstance(old, np.ndarray) and not isinstance(value, np.ndarray):
+                    raise self.wrong("an array is assigned, not a number")
+                return value
+            if not isinstance(old, Record):
+                raise self.wrong(f"'{target.words[i]}' is no record")
+            word = target.words[i + 1]
+            inner = self._changed(old.fields.get(word), target, i + 1, value)
+            return Record({**old.fields, word: inner}, old.node)
+        if not isinstance(old, np.ndarray) or i + 1 < len(target.words):
+            raise self.wrong(f"'{target.words[i]}' is not an array")
+        places = self.places(old.shape, subscripts)
+        changed = old.copy()
+        if all(isinstance(p, int) for p in places) and len(places) == old.ndim:
+            changed[tuple(places)] = value
+        else:
+            axes = [[p] if isinstance(p, int) else p for p in places]
+            axes += [list(range(n)) for n in old.shape[len(places) :]]
+            where_ = np.ix_(*axes)
+            changed[where_] = (
+                np.reshape(value, changed[where_].shape) if isinstance(value, np.ndarray) else value
+            )
+        return changed
+
+    def _branch(
+        self, branches: list[tuple[Expression | None, list[Statement]]], local: dict[str, Any]
+    ) -> None:
+        if not branches:
+            return
+        (test, body), *rest = branches
+        holds = self.holds(test)
+        if holds is True:
+            self.execute(body, local)
+        elif holds is False:
+            self._branch(rest, local)
+        else:
+            before, path = dict(local), self.path
+            self.path = self.logical(sp.And, path, holds)
+            with suppress(Left):
+                self.execute(body, local)
+            first = dict(local)
+            local.clear()
+            local.update(before)
+            self.path = self.logical(sp.And, path, self.logical(sp.Not, holds))
+            with suppress(Left):
+                self._branch(rest, local)
+            self.path = path
+            for name, value in first.items():
+                local[name] = self._merged(holds, value, local.get(name))
+
+    def _merged(self, holds: Any, value: Any, otherwise: Any) -> Any:
+        if value is otherwise:
+            return value
+        if value is None or otherwise is None:
+            return None
+        if isinstance(value, np.ndarray) and isinstance(otherwise, np.ndarray):
+            return each(lambda a, b: self._merged(holds, a, b), value, otherwise)
+        if isinstance(value, Record) and isinstance(otherwise, Record):
+            fields = otherwise.fields
+            merged = {k: self._merged(holds, v, fields[k]) for k, v in value.fields.items()}
+            return Record(merged, value.node)
+        return self.chosen(holds, value, otherwise)
+
+    def _loop(self, loop: Loop, local: dict[str, Any]) -> None:
+        frame, left = self.frame, self.left
+        try:
+            if loop.condition is not None:
+                while self._goes_on(loop):
+                    self.execute(loop.body, local)
+                return
+            for values in self.iterated(loop.iterators):
+                self.frame = Frame(
+                    frame.node, frame.build, _Layered(local, values), frame.events, frame.calls
+                )
+                self.execute(loop.body, self.frame.local)
+                self.frame = frame
+        except Left as error:
+            if str(error) == "return":
+                raise
+        finally:
+            self.frame = frame
+            self.left = self.logical(sp.Or, left, self.returned)
+
+    def _goes_on(self, loop: Loop) -> bool:
+        assert loop.condition is not None
+        holds = self.truth(self.value(loop.condition))
+        self.statements += 1
+        if not isinstance(holds, bool):
+            self.at = loop.condition.at
+            raise self.wrong(
+                "a loop whose end changes with time is not supported; use a loop over 1:n"
+            )
+        return holds
+
+    def perform(self, call: Call) -> None:
+        """A call that stands alone: an assertion.
+
+        Raises:
+            ModelicaError: for others.
+        """
+        word = call.function.text
+        self.at = call.at
+        if word != "assert":
+            hint = f"; {REFUSED[word]}" if word in REFUSED else ""
+            raise self.wrong(f"{word}(...) is not supported here{hint}", len(word))
+        self.checked(call)
+
+    def checked(self, call: Call) -> None:
+        """An assertion: of parameters it is checked now, of others there is a warning that nothing watches it."""
+        arguments = [*call.arguments, *call.named.values()]
+        if len(arguments) < 2:
+            raise self.wrong("assert takes a condition and a text")
+        holds, node = self.truth(self.value(arguments[0])), self.frame.node
+        level = arguments[2] if len(arguments) > 2 else None
+        if isinstance(level, Name) and level.words[-1] == "warning":
+            return
+        if isinstance(holds, sp.Basic) and self.varies(holds):
+            if call.at not in node.unwatched:
+                node.unwatched.add(call.at)
+                found = node.wrong(call.at, "this assertion is not watched while the model runs")
+                warnings.warn(str(found).partition("\n")[0], stacklevel=2)
+            return
+        if self.known(holds, "this assertion") is False:
+            text = arguments[1].value if isinstance(arguments[1], Constant) else "it is false"
+            raise self.wrong(f"this assertion is violated: {text}")
+
+
+class _Layered(dict[str, Any]):
+    """Local names with loop variables on top; the others are assigned where they belong."""
+
+    def __init__(self, below: dict[str, Any], top: dict[str, Any]) -> None:
+        super().__init__({**below, **top})
+        self.below, self.top = below, top
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        super().__setitem__(name, value)
+        if name not in self.top:
+            self.below[name] = value
+
+    def clear(self) -> None:
+        pass
+
+    def update(self, *others: Any, **more: Any) -> None:  # pyright: ignore[reportIncompatibleMethodOverride]
+        for name, value in dict(*others, **more).items():
+            self[name] = value

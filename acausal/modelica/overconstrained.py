@@ -1,0 +1,135 @@
+"""Overconstrained connections: where connections of redundant records close a loop, which of them is cut.
+
+The virtual connection graph and its spanning trees are those of the Modelica specification 3.6, section 9.4.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Any
+
+from acausal.modelica.evaluate import Evaluator
+from acausal.modelica.syntax import Call
+from acausal.modeling import Component
+
+
+@dataclass(eq=False)
+class Edge:
+    """Two records that a connection makes equal; where it is cut, their ``equalityConstraint`` is zero instead."""
+
+    ends: tuple[Component, Component]
+    at: int
+    cut: bool = False
+
+
+@dataclass(eq=False)
+class Graph:
+    """The virtual connection graph of a model; its nodes are records.
+
+    Attributes:
+        roots: those that state they are a root. potential: those that may be one, with their priorities.
+        branches: pairs that a component relates. edges: pairs that are connected.
+        depth: how far each is from the root of its tree.
+    """
+
+    roots: list[Component] = field(default_factory=list[Component])
+    potential: list[tuple[int, Component]] = field(default_factory=list[tuple[int, Component]])
+    branches: list[tuple[Component, Component]] = field(
+        default_factory=list[tuple[Component, Component]]
+    )
+    edges: list[Edge] = field(default_factory=list[Edge])
+    depth: dict[Component, int] = field(default_factory=dict[Component, int])
+
+    def cut(self) -> None:
+        """Cut connections until each tree has one root and no loop, and measure how far the records are from it."""
+        above: dict[Component, Component] = {}
+
+        def top(node: Component) -> Component:
+            while (parent := above.setdefault(node, node)) is not node:
+                above[node] = above.setdefault(parent, parent)
+                node = parent
+            return node
+
+        neighbours: dict[Component, list[Component]] = {}
+
+        def join(a: Component, b: Component) -> None:
+            neighbours.setdefault(a, []).append(b)
+            neighbours.setdefault(b, []).append(a)
+            above[top(a)] = top(b)
+
+        for a, b in self.branches:
+            join(a, b)
+        rooted = {top(node) for node in self.roots}
+        for edge in self.edges:
+            first, second = map(top, edge.ends)
+            edge.cut = first is second or (first in rooted and second in rooted)
+            if not edge.cut:
+                join(*edge.ends)
+                if first in rooted or second in rooted:
+                    rooted.add(top(second))
+        candidates = [node for _, node in sorted(self.potential, key=lambda item: item[0])]
+        for node in (*self.roots, *candidates, *above):
+            if node not in self.depth:
+                self._measure(node, neighbours)
+
+    def _measure(self, root: Component, neighbours: dict[Component, list[Component]]) -> None:
+        self.depth[root] = 0
+        waiting = deque([root])
+        while waiting:
+            node = waiting.popleft()
+            for other in neighbours.get(node, ()):
+                if other not in self.depth:
+                    self.depth[other] = self.depth[node] + 1
+                    waiting.append(other)
+
+
+def note(self: Evaluator, call: Call) -> None:
+    """Take what ``Connections.branch``, ``root`` or ``potentialRoot`` states into the graph of the model."""
+    word = call.function.words[-1]
+    graph, given = _graph(self), _records(self, call)
+    if word == "branch":
+        graph.branches.append((given[0], given[1]))
+    elif word == "root":
+        graph.roots.append(given[0])
+    elif word == "potentialRoot":
+        stated = [*call.arguments[1:], *call.named.values()]
+        priority = self.whole(self.value(stated[0]), "a priority") if stated else 0
+        graph.potential.append((priority, given[0]))
+
+
+def is_root(self: Evaluator, call: Call) -> bool:
+    """Whether a record is the root of its tree."""
+    return _depth(self, call) == 0
+
+
+def is_rooted(self: Evaluator, call: Call) -> bool:
+    """Whether a record is nearer to the root than the one to which its component relates it."""
+    depth, graph, node = _depth(self, call), _graph(self), _records(self, call)[0]
+    pairs = [pair for pair in graph.branches if node in pair]
+    return all(depth <= graph.depth[end] for pair in pairs for end in pair)
+
+
+def _graph(self: Evaluator) -> Graph:
+    build: Any = self.frame.build
+    if build is None:
+        raise self.wrong("this stands in equations of a model only")
+    while build.above is not None:
+        build = build.above
+    return build.graph
+
+
+def _depth(self: Evaluator, call: Call) -> int:
+    return _graph(self).depth.get(_records(self, call)[0], 0)
+
+
+def _records(self: Evaluator, call: Call) -> list[Component]:
+    before, self.connecting = self.connecting, True
+    count = 2 if call.function.words[-1] == "branch" else 1
+    found = [self.value(a) for a in call.arguments[:count]]
+    self.connecting = before
+    if len(found) < count or not all(isinstance(v, Component) for v in found):
+        raise self.wrong(
+            f"{call.function.text} takes records of connectors", len(call.function.text)
+        )
+    return found
