@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any, cast
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -15,8 +15,9 @@ from jaxtyping import Array, Bool, Float
 from acausal._jax import is_number, value_and_jacobian
 from acausal.data import Data, RecordsLike, records_of
 from acausal.errors import DataError, listing, nearest, shown
+from acausal.jobs import Workers, blocks, need_workers, on_workers
 from acausal.training.objective.held_out import over
-from acausal.training.objective.initial_state import InitialState, check_records
+from acausal.training.objective.initial_state import InitialState, by_record, check_records
 from acausal.training.objective.problem import Problem
 from acausal.training.objective.start_prior import StartPrior, start_prior
 from acausal.training.objective.start_sizes import found_starts, with_sizes
@@ -62,17 +63,63 @@ class Own:
         return replace(self.trainable, per_record=own, starts=starts)
 
 
+class _Some(NamedTuple):
+    """Some records, with what was given for them."""
+
+    records: Mapping[str, Data]
+    x0: InitialState
+    params: Mapping[str, Mapping[str, float]]
+
+
 def predict(
     fit: TrainedModel,
     data: RecordsLike,
     x0: InitialState,
     params: OwnParameters | None,
     conformal: Conformal | None,
+    executor: Workers | None = None,
 ) -> Predictions:
     """Predict records; arguments and errors as those of `Fit.predict`."""
-    system, targets = fit.system, fit.problem.targets
-    records = {n: d.for_system(system) for n, d in records_of(data).items()}
+    records = {n: d.for_system(fit.system) for n, d in records_of(data).items()}
     check_records(x0, records)
+    own = _own_given(params, records)
+    if executor is None:
+        return Predictions(_predicted((fit, conformal), _Some(records, x0, own)), fit.system)
+    need_workers(executor, "predict")
+    fit.confidence()  # workers receive it
+    starts = dict(zip(records, by_record(records, x0), strict=True))
+
+    def some(block: range) -> _Some:
+        names = list(records)[block.start : block.stop]
+        given = {n: own[n] for n in names if n in own}
+        return _Some({n: records[n] for n in names}, {n: starts[n] for n in names}, given)
+
+    tasks = [some(block) for block in blocks(len(records))]
+    parts = on_workers(executor, _predicted, (fit, conformal), tasks, "predict")
+    return Predictions({n: one for part in parts for n, one in part.items()}, fit.system)
+
+
+def _own_given(
+    params: OwnParameters | None, records: Mapping[str, Data]
+) -> dict[str, Mapping[str, float]]:
+    """What a user gives for each record.
+
+    Raises:
+        DataError: for a name that is no record.
+    """
+    given: Mapping[str, Any] = params or {}
+    if not any(isinstance(v, Mapping) for v in given.values()):
+        return dict.fromkeys(records, given)
+    for record in given:
+        if record not in records:
+            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+    return dict(given)
+
+
+def _predicted(shared: tuple[TrainedModel, Conformal | None], some: _Some) -> dict[str, Prediction]:
+    """Predictions of some records in one program; they do not know of each other."""
+    (fit, conformal), (records, x0, params) = shared, some
+    system, targets = fit.system, fit.problem.targets
     own = _own(fit, records, x0, params)
     problem, confidence = own.problem, fit.confidence()
     least = np.array([confidence.noise[n] * np.sqrt(confidence.alike[n]) for n in targets])
@@ -101,11 +148,14 @@ def predict(
             units=units,
         )
 
-    return Predictions({n: one(k, r) for k, (n, r) in enumerate(made.items())}, system)
+    return {n: one(k, r) for k, (n, r) in enumerate(made.items())}
 
 
 def _own(
-    fit: TrainedModel, records: Mapping[str, Data], x0: InitialState, params: OwnParameters | None
+    fit: TrainedModel,
+    records: Mapping[str, Data],
+    x0: InitialState,
+    params: Mapping[str, Mapping[str, float]],
 ) -> Own:
     """What the records have for themselves, before their targets have told of it."""
     problem = over(fit.problem, records, x0, measured=False)
@@ -135,20 +185,16 @@ def _given(
     fit: TrainedModel,
     own: Float[np.ndarray, "R n_own"],
     records: Mapping[str, Data],
-    params: OwnParameters | None,
+    params: Mapping[str, Mapping[str, float]],
 ) -> tuple[Float[np.ndarray, "R n_own"], Bool[np.ndarray, "R n_own"]]:
     """Parameters of records with those that a user gives, and which these are.
 
     Raises:
-        DataError: for a name that is neither a record nor such a parameter, or what is not a number.
+        DataError: for a name that is no such parameter, or what is not a number.
     """
     known, given = fit.problem.per_record, np.zeros(own.shape, bool)
     common = fit.problem.assemble(fit.trained)
-    by_record = any(isinstance(v, Mapping) for v in (params or {}).values())
-    chosen = params if by_record else dict.fromkeys(records, params or {})
-    for record, values in cast("Mapping[str, Mapping[str, float]]", chosen or {}).items():
-        if record not in records:
-            raise DataError(f"params: there is no record '{record}': {nearest(record, records)}")
+    for record, values in params.items():
         for name, value in values.items():
             if name not in known.names:
                 only = f", but {listing(known.names)}" if known.names else ""
