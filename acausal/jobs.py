@@ -202,7 +202,7 @@ def _open(executor: Workers, name: str) -> Generator[Executor]:
     try:
         yield pool
     finally:
-        pool.shutdown(cancel_futures=True)
+        pool.shutdown()  # its futures are done or cancelled
 
 
 @contextmanager

@@ -30,6 +30,16 @@ class Here(Executor):
         return future
 
 
+class Plain(Here):
+    """Closes without options, as loky's pools do."""
+
+    closed = False
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        assert not cancel_futures
+        self.closed = True
+
+
 class Broken(Executor):
     """A pool that a lost worker has broken: it takes no further task."""
 
@@ -83,6 +93,15 @@ def test_a_broken_pool_is_made_again() -> None:
         on_workers(Broken(), added, 10, [1, 2], "sum")
 
 
+def test_a_pool_that_was_made_is_closed() -> None:
+    made = Plain()
+    assert on_workers(lambda: made, added, 10, [1], "sum") == [11]
+    assert made.closed
+    given = Plain()
+    on_workers(given, added, 10, [1], "sum")
+    assert not given.closed
+
+
 def test_errors_of_tasks_are_raised_as_they_were() -> None:
     with pytest.raises(ac.DataError, match=r"^no such thing\.$"):
         on_workers(Here(), wrong, 10, [1], "sum")
@@ -95,8 +114,9 @@ def test_errors_of_tasks_are_raised_as_they_were() -> None:
 
 def test_what_cannot_be_sent_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(__import__("sys").modules, "cloudpickle", None)
+    shared: dict[str, Any] = {"common": lambda: 1}
     with pytest.raises(ac.DataError, match=r"sum: the task cannot be sent to workers: .*lambda"):
-        on_workers(Here(), added, lambda: 1, [1], "sum")
+        on_workers(Here(), added, tasks=[1], name="sum", **shared)
 
 
 @pytest.mark.parametrize("given", [2, "processes"])
