@@ -159,7 +159,7 @@ def ensemble(
     seed: int = 0,
     **options: Unpack[FitKeywords],
 ) -> Ensemble:
-    """Train several times from different seeds, in one compiled program.
+    """Train several times from different seeds, in one compiled program or each on a worker (``executor``).
 
     Arguments:
         system, data, targets: as of `acausal.fit`.
